@@ -115,6 +115,50 @@ void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder&
   }
 }
 
+// The interval of a change, and in per cent if it has that.
+ExperimentChange read_change(const AnswerReader& reader, const Json& in, const std::string& place, const char* key) {
+  const Json& json = reader.object(in, place, key);
+  const std::string inside = place + key + ".";
+  ExperimentChange change{reader.interval(json, inside), std::nullopt};
+  if (const auto percent = json.find("percent"); percent != json.end()) {
+    const std::string within = inside + "percent.";
+    change.percent = {change.difference.count, reader.number(*percent, within, "mean"),
+                      reader.number(*percent, within, "low"), reader.number(*percent, within, "high")};
+  }
+  return change;
+}
+
+void read_interactions(const AnswerReader& reader, const Json& json, ExperimentFolder& folder) {
+  const Json& interactions = reader.list(json, "interactions");
+  for (std::size_t i = 0; i < interactions.size(); ++i) {
+    const Json& in = interactions[i];
+    const std::string place = fmt::format("interactions[{}].", i);
+    ExperimentInteraction& one =
+        folder.interactions.emplace_back(ExperimentInteraction{reader.text(in, place, "measure"),
+                                                               reader.text(in, place, "by"),
+                                                               reader.text(in, place, "axis"),
+                                                               reader.text(in, place, "from"),
+                                                               reader.text(in, place, "to"),
+                                                               reader.text(in, place, "lowers"),
+                                                               reader.text(in, place, "more_than"),
+                                                               {},
+                                                               {}});
+    for (const std::string& axis : folder.axes)
+      if (axis != one.axis) one.others.push_back(axis);
+    const Json& points = reader.list(in, "points");
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const std::string at = fmt::format("{}points[{}].", place, p);
+      InteractionPoint& point = one.points.emplace_back();
+      for (const std::string& axis : one.others)
+        point.settings.push_back(reader.text(reader.object(points[p], at, "axes"), at + "axes.", axis.c_str()));
+      point.first = read_change(reader, points[p], at, "first");
+      point.second = read_change(reader, points[p], at, "second");
+      point.interaction = read_change(reader, points[p], at, "interaction");
+      point.stays = reader.yes(points[p].at("interaction"), at + "interaction.", "stays_certain");
+    }
+  }
+}
+
 }  // namespace
 
 void read_store(const std::string& path, ExperimentFolder& folder) {
@@ -142,6 +186,7 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
   folder.answer = reader.text(json, "", "answer");
   folder.baseline = reader.text(json, "", "baseline");
   if (json.contains("file")) folder.file = reader.text(json, "", "file");
+  if (json.contains("compared_axis")) folder.compared_axis = reader.text(json, "", "compared_axis");
   folder.seed = reader.count(json, "", "seed");
   folder.drives = reader.count(json, "", "runs");
   folder.failed = reader.count(json, "", "failed");
@@ -161,6 +206,7 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
                                 reader.text(crossings[c], place, "others"), reader.number(crossings[c], place, "at"),
                                 reader.yes(crossings[c], place, "certain")});
   }
+  read_interactions(reader, json, folder);
   const Json& expectations = reader.list(json, "expectations");
   for (std::size_t e = 0; e < expectations.size(); ++e) {
     const std::string place = fmt::format("expectations[{}].", e);

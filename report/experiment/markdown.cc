@@ -10,6 +10,7 @@
 #include "core/counted.h"
 #include "experiments/results/multiplicity.h"
 #include "report/drawing/figures.h"
+#include "report/experiment/interactions.h"
 
 namespace ttf::report::experiment {
 namespace {
@@ -47,35 +48,42 @@ std::string caption(const ExperimentFolder& folder, std::size_t m, const Family&
   return text + '\n';
 }
 
-std::string table_of(const ExperimentFolder& folder, std::size_t m, const Family& family) {
-  std::vector<std::string> header = folder.axes;
-  if (folder.axes.empty()) header.push_back("point");
-  header.push_back("runs");
-  header.push_back(folder.baseline);
-  for (const std::string& paradigm : folder.paradigms)
-    if (paradigm != folder.baseline) header.push_back(paradigm + " - " + folder.baseline);
+std::string head_of(const std::vector<std::string>& header) {
   std::string text = row_of(header) + '|';
   for (std::size_t column = 0; column < header.size(); ++column) text += "---|";
-  text += '\n';
+  return text + '\n';
+}
+
+// The baseline's mean and the others' differences from it; along an axis, each paradigm's mean and its difference.
+std::string table_of(const ExperimentFolder& folder, std::size_t m, const Family& family) {
+  const bool along = !folder.compared_axis.empty();
+  const auto has_mean = [&](std::size_t p) { return along || folder.paradigms[p] == folder.baseline; };
+  const auto has_difference = [&](std::size_t p) { return along || folder.paradigms[p] != folder.baseline; };
+  std::vector<std::string> header = folder.axes, differences_header;
+  if (folder.axes.empty()) header.push_back("point");
+  header.push_back("runs");
+  for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
+    if (has_mean(p)) header.push_back(folder.paradigms[p]);
+    if (has_difference(p)) differences_header.push_back(folder.paradigms[p] + " - " + folder.baseline_name());
+  }
+  header.insert(header.end(), differences_header.begin(), differences_header.end());
+  std::string text = head_of(header);
   std::size_t at = 0;
   for (const ExperimentPoint& point : folder.points) {
-    std::vector<std::string> row = point.settings, compared;
+    std::vector<std::string> row = point.settings, means, compared;
     if (row.empty()) row.push_back(std::to_string(point.point));
     std::uint64_t runs = 0;
-    std::string mean;
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p, ++at) {
       const Estimate& estimate = point.estimates[p][m];
       runs = std::max(runs, estimate.mean.count);
-      if (folder.paradigms[p] == folder.baseline) {
-        mean = drawing::with_interval(estimate.mean.mean, estimate.mean.half_width);
-        continue;
-      }
+      if (has_mean(p)) means.push_back(drawing::with_interval(estimate.mean.mean, estimate.mean.half_width));
+      if (!has_difference(p)) continue;
       const Interval difference = difference_of(estimate);
       const std::string words = drawing::with_interval(difference.mean, difference.half_width, true);
       compared.push_back(family.stays[at] ? "**" + words + "**" : words);
     }
     row.push_back(std::to_string(runs));
-    row.push_back(mean);
+    row.insert(row.end(), means.begin(), means.end());
     row.insert(row.end(), compared.begin(), compared.end());
     text += row_of(row);
   }
@@ -89,6 +97,11 @@ std::string markdown_tables(const ExperimentFolder& folder) {
   for (std::size_t m = 0; m < folder.measures.size(); ++m) {
     const Family family = experiments::results::family_of(differences(folder, m), folder.confidence);
     text += '\n' + caption(folder, m, family) + '\n' + table_of(folder, m, family);
+  }
+  for (const ExperimentInteraction& one : folder.interactions) {
+    const page::PageTable table = interaction_table(folder, one);
+    text += '\n' + table.caption + ".\n\n" + head_of(table.header);
+    for (const std::vector<std::string>& row : table.rows) text += row_of(row);
   }
   return text;
 }

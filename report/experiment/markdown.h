@@ -7,8 +7,9 @@
 
 namespace ttf::report::experiment {
 
-// Returns a table for each measure: by point the baseline's mean, and the other paradigms' paired differences from it. A
-// difference that stays certain among all of its table, by Holm's method, is bold.
+// Returns a table for each measure: by point the baseline's mean, and the other paradigms' paired differences from it. Along
+// an axis, each paradigm has both. Each interaction has a table. A difference that stays certain among all of its table, by
+// Holm's method, is bold.
 std::string markdown_tables(const ExperimentFolder& folder);
 
 }  // namespace ttf::report::experiment

@@ -71,7 +71,7 @@ std::string others_of(const ExperimentFolder& folder, const ExperimentPoint& poi
 page::Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
   const XAxis x = x_axis(folder);
   page::Plot plot{
-      differences ? "Differences from " + folder.baseline : "Means",
+      differences ? "Differences from " + folder.baseline_name() : "Means",
       fmt::format(
           "With {:g} % intervals{}.", 100.0 * folder.confidence,
           differences ? "; differences are paired, replication by replication: below 0 is less than the baseline" : ""),

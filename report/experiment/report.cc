@@ -10,6 +10,7 @@
 #include "core/counted.h"
 #include "experiments/results/multiplicity.h"
 #include "report/drawing/figures.h"
+#include "report/experiment/interactions.h"
 #include "report/experiment/plots.h"
 #include "report/page/page.h"
 
@@ -102,6 +103,12 @@ page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
   return table;
 }
 
+bool is_baseline(const ExperimentFolder& folder, const std::string& paradigm) {
+  return folder.compared_axis.empty() && paradigm == folder.baseline;
+}
+// Returns whether there are differences: one paradigm alone is compared along an axis only.
+bool compares(const ExperimentFolder& folder) { return folder.paradigms.size() > 1 || !folder.compared_axis.empty(); }
+
 page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
   std::vector<experiments::results::Interval> differences;
   for (const ExperimentPoint& point : folder.points)
@@ -112,16 +119,17 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
       fmt::format(
           "{} minus that of {}, paired by replication, and whether it is less or more by its own interval. Those "
           "marked * stay certain together: {}",
-          folder.measures[m].with_unit(), folder.baseline, family_words(family, folder.confidence)),
+          folder.measures[m].with_unit(), folder.baseline_name(), family_words(family, folder.confidence)),
       axes_of(folder),
       {}};
   for (const std::string& paradigm : folder.paradigms)
-    if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
+    if (!is_baseline(folder, paradigm))
+      table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline_name()));
   auto stays = family.stays.begin();
   for (const ExperimentPoint& point : folder.points) {
     std::vector<std::string> row = settings_of(point);
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p, ++stays) {
-      if (folder.paradigms[p] == folder.baseline) continue;
+      if (is_baseline(folder, folder.paradigms[p])) continue;
       const auto& difference = point.estimates[p][m].difference;
       row.push_back(difference
                         ? fmt::format("{} {}{}", drawing::with_interval(difference->mean, difference->half_width, true),
@@ -153,14 +161,50 @@ std::string mean_text(const ExperimentFolder& folder, std::size_t paradigm) {
          (folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
 }
 
-std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& pairs) {
+// Says which paradigm has the smallest first measure.
+std::string smallest(const ExperimentFolder& folder, const Pairs& pairs) {
+  const std::string& measure = folder.measures[0].name;
+  const auto has_value = [](const ExperimentPoint& point) {
+    return std::ranges::any_of(point.estimates, [](const auto& one) { return std::isfinite(one[0].mean.mean); });
+  };
+  if (std::ranges::none_of(folder.points, has_value)) return fmt::format("No paradigm has a value of {}.", measure);
+  if (folder.paradigms.size() == 1)
+    return fmt::format("There is no other paradigm to compare {} of {} with{}.", measure, folder.paradigms[0],
+                       folder.points.size() == 1 ? "; it is " + mean_text(folder, 0) : "");
+  if (!folder.store)
+    return fmt::format("Without results.sqlite it is unknown which paradigm has the smallest {}.", measure);
+  const std::vector<std::size_t> least = least_for_certain(folder, pairs);
+  std::vector<std::size_t> order;
+  for (std::size_t p = 0; p < least.size(); ++p)
+    if (least[p] > 0) order.push_back(p);
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t p) { return least[p]; });
+  if (order.empty()) return fmt::format("The drives cannot tell which paradigm has the smallest {}.", measure);
+  const std::size_t points = folder.points.size();
+  if (points == 1)
+    return fmt::format("{} has the smallest {}, for certain: {}.", folder.paradigms[order[0]], measure,
+                       mean_text(folder, order[0]));
+  std::string text;
+  std::size_t told = 0;
+  for (const std::size_t p : order) {
+    text += text.empty() ? fmt::format("For certain {} has the smallest {}", folder.paradigms[p], measure)
+                         : "; " + folder.paradigms[p];
+    text += least[p] == points ? fmt::format(" at all {} points", points)
+                               : fmt::format(" at {} of {} points", least[p], points);
+    told += least[p];
+  }
+  return text + (told == points ? "." : fmt::format("; at {} the drives cannot tell.", points - told));
+}
+
+// `lead` is told already.
+std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& pairs, const std::string& lead) {
   std::vector<std::string> all;
+  if (folder.asks_more() && folder.paradigms.size() > 1) all.push_back(smallest(folder, pairs));
   if (pairs.family.comparisons > 0)
     all.push_back(fmt::format("All pairs of paradigms at all points were compared. Certain are {}.",
                               family_words(pairs.family, folder.confidence)));
   for (std::size_t at = 0; at < folder.answer.size();) {
     const std::size_t end = std::min(folder.answer.find('\n', at), folder.answer.size());
-    if (end > at) all.push_back(folder.answer.substr(at, end - at));
+    if (end > at && folder.answer.substr(at, end - at) != lead) all.push_back(folder.answer.substr(at, end - at));
     at = end + 1;
   }
   bool certain = false;
@@ -171,7 +215,7 @@ std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& 
                                 folder.baseline, crossing.axis, drawing::brief(crossing.at),
                                 crossing.others.empty() ? "" : ", with " + crossing.others));
   }
-  if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
+  if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1 && folder.compared_axis.empty())
     all.push_back("No paradigm crosses " + folder.baseline + " for certain along an axis.");
   for (const ExperimentExpectation& one : folder.expectations) all.push_back(expectation_sentence(one));
   if (folder.failed > 0) all.push_back(counted(folder.failed, "run") + " failed; they are below.");
@@ -247,37 +291,10 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
   troubles_section(page, all);
 }
 
+// The first line of the answer where it asks more than which paradigm has least.
 std::string answer_by(const ExperimentFolder& folder, const Pairs& pairs) {
-  const std::string& measure = folder.measures[0].name;
-  const auto has_value = [](const ExperimentPoint& point) {
-    return std::ranges::any_of(point.estimates, [](const auto& one) { return std::isfinite(one[0].mean.mean); });
-  };
-  if (std::ranges::none_of(folder.points, has_value)) return fmt::format("No paradigm has a value of {}.", measure);
-  if (folder.paradigms.size() == 1)
-    return fmt::format("There is no other paradigm to compare {} of {} with{}.", measure, folder.paradigms[0],
-                       folder.points.size() == 1 ? "; it is " + mean_text(folder, 0) : "");
-  if (!folder.store)
-    return fmt::format("Without results.sqlite it is unknown which paradigm has the smallest {}.", measure);
-  const std::vector<std::size_t> least = least_for_certain(folder, pairs);
-  std::vector<std::size_t> order;
-  for (std::size_t p = 0; p < least.size(); ++p)
-    if (least[p] > 0) order.push_back(p);
-  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t p) { return least[p]; });
-  if (order.empty()) return fmt::format("The drives cannot tell which paradigm has the smallest {}.", measure);
-  const std::size_t points = folder.points.size();
-  if (points == 1)
-    return fmt::format("{} has the smallest {}, for certain: {}.", folder.paradigms[order[0]], measure,
-                       mean_text(folder, order[0]));
-  std::string text;
-  std::size_t told = 0;
-  for (const std::size_t p : order) {
-    text += text.empty() ? fmt::format("For certain {} has the smallest {}", folder.paradigms[p], measure)
-                         : "; " + folder.paradigms[p];
-    text += least[p] == points ? fmt::format(" at all {} points", points)
-                               : fmt::format(" at {} of {} points", least[p], points);
-    told += least[p];
-  }
-  return text + (told == points ? "." : fmt::format("; at {} the drives cannot tell.", points - told));
+  const std::string first = folder.answer.substr(0, folder.answer.find('\n'));
+  return folder.asks_more() && !first.empty() ? first : smallest(folder, pairs);
 }
 
 }  // namespace
@@ -294,17 +311,19 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
     axes.push_back(fmt::format("{} ({} to {})", folder.axes[a], folder.points.front().settings[a],
                                folder.points.back().settings[a]));
   page.facts({{"paradigms", joined(folder.paradigms)},
-              {"baseline", folder.baseline},
+              {"baseline", folder.baseline_name()},
               {"axes", axes.empty() ? "none" : joined(axes)},
               {"points", std::to_string(folder.points.size())},
               {"runs", fmt::format("{}, of which {} failed", folder.drives, folder.failed)},
               {"measure in question", folder.measures[0].with_unit()}});
   page.section("Answer");
   const Pairs pairs = all_pairs(folder);
-  page.lead(answer_by(folder, pairs));
-  page.points(sentences(folder, pairs));
+  const std::string lead = answer_by(folder, pairs);
+  page.lead(lead);
+  page.points(sentences(folder, pairs, lead));
   page.table(means_table(folder, 0));
-  if (folder.paradigms.size() > 1) page.table(differences_table(folder, 0));
+  for (const ExperimentInteraction& one : folder.interactions) page.table(interaction_table(folder, one));
+  if (compares(folder)) page.table(differences_table(folder, 0));
   page.section("Over the axes");
   page.plot(means_plot(folder));
   page.plot(differences_plot(folder));
@@ -316,7 +335,7 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
   for (std::size_t m = 1; m < folder.measures.size(); ++m) {
     page.open_details(folder.measures[m].with_unit());
     page.table(means_table(folder, m));
-    if (folder.paradigms.size() > 1) page.table(differences_table(folder, m));
+    if (compares(folder)) page.table(differences_table(folder, m));
     page.close_details();
   }
   one_of_each(page, folder, drives, window);

@@ -182,6 +182,59 @@ TEST_F(ExperimentReport, PlotsGoOverTheNumericAxis) {
   EXPECT_EQ(replications_plot(folder).views.size(), 2u);
 }
 
+constexpr const char* kInteraction = R"(, "interactions": [{"measure": "error", "by": "ratio", "axis": "noise",
+  "from": "0.1 m", "to": "40 m", "lowers": "tt", "more_than": "adva", "points": [{"axes": {"road": "dry"},
+  "first": {"count": 3, "mean": -0.4, "half_width": 0.1, "percent": {"mean": -40, "low": -45.5, "high": -35}},
+  "second": {"count": 3, "mean": -0.2, "half_width": null},
+  "interaction": {"count": 3, "mean": -0.3, "half_width": 0.1, "percent": {"mean": -26, "low": -33, "high": -18},
+                  "p": 0.01, "stays_certain": true}}]}])";
+
+// The answer's first line leads, once.
+TEST_F(ExperimentReport, AnInteractionIsATable) {
+  std::string answer = answer_of(point(0, "0.1 m", "1.0") + "," + point(1, "40 m", "1.9"));
+  write(answer.insert(answer.rfind('}'), kInteraction));
+  const ExperimentFolder folder = read_experiment_folder(folder_);
+  EXPECT_EQ(experiment_answer(folder), "a sentence.");
+  const std::string html = page();
+  EXPECT_EQ(html.find("a sentence."), html.rfind("a sentence."));
+  for (const char* words : {"For certain tt has the smallest error at 1 of 2 points", "tt against adva",
+                            "-40.0 % (-45.5 to -35.0)", "-0.200", "-26.0 % (-33.0 to -18.0) less*"})
+    EXPECT_NE(html.find(words), std::string::npos) << words;
+  EXPECT_NE(markdown_tables(folder).find(
+                "| road | runs | tt | adva | tt against adva |\n|---|---|---|---|---|\n"
+                "| dry | 3 | -40.0 % (-45.5 to -35.0) | -0.200 | -26.0 % (-33.0 to -18.0) less* |\n"),
+            std::string::npos);
+  std::string broken = answer;
+  write(broken.replace(broken.find("true}"), 4, "1234"));
+  EXPECT_EQ(refusal(), "answer.json: interactions[0].points[0].interaction.stays_certain: must be true or false");
+}
+
+// Points at the axis's baseline have no difference, and all paradigms have one elsewhere.
+TEST_F(ExperimentReport, AnAxisMayBeCompared) {
+  const std::string difference = R"(,
+                   "difference": {"count": 3, "mean": 0.5, "half_width": null})";
+  std::string first = point(0, "0.1 m", "1.0"), second = point(1, "40 m", "1.9");
+  first.erase(first.find(difference), difference.size());
+  const std::string adva = R"("mean": 2.0, "half_width": 1.0)";
+  second.replace(second.find(adva), adva.size(),
+                 adva + R"(, "difference": {"count": 10, "mean": 0.7, "half_width": 0.1})");
+  std::string answer = answer_of(first + "," + second);
+  answer.replace(answer.find(R"("baseline": "adva")"), 18, R"("compared_axis": "noise", "baseline": "0.1 m")");
+  write(answer);
+  const ExperimentFolder folder = read_experiment_folder(folder_);
+  const std::string html = page();
+  for (const char* words : {"error minus that of noise 0.1 m", "adva − noise 0.1 m", "tt − noise 0.1 m",
+                            "+0.70 ± 0.10 more*", "+0.500 undecided"})
+    EXPECT_NE(html.find(words), std::string::npos) << words;
+  EXPECT_EQ(html.find("No paradigm crosses"), std::string::npos);
+  EXPECT_NE(markdown_tables(folder).find("| road | noise | runs | adva | tt | adva - noise 0.1 m | tt - noise 0.1 m |\n"
+                                         "|---|---|---|---|---|---|---|\n"
+                                         "| dry | 0.1 m | 3 | 2.0 ± 1.0 | 1.0 ± 1.0 | - | - |\n"
+                                         "| dry | 40 m | 3 | 2.0 ± 1.0 | 1.9 ± 1.0 | **+0.70 ± 0.10** | +0.500 |\n"),
+            std::string::npos)
+      << markdown_tables(folder);
+}
+
 TEST_F(ExperimentReport, WhatIsWrongIsNamed) {
   write(answer_of(""));
   EXPECT_EQ(refusal(), "answer.json: points: must have at least one");
