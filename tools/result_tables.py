@@ -8,6 +8,8 @@ A directive stands as a comment above its table:
     means        the same without intervals, a column a paradigm or a measure; counts and ages
     differences  the baseline's mean, then the paired differences of the others from it
     percent      the paired difference of one paradigm, in per cent of the baseline's mean
+    changes      of an experiment that compares an axis: each paradigm's change from the axis's baseline, in per cent
+    interactions the measure's interactions: the change of each of the two paradigms, and of one against the other
 
     rows: AXES       these name the rows (default: all axes that `columns` and `where` do not name)
     columns: AXIS    its values name the columns, of one paradigm
@@ -21,7 +23,7 @@ import math
 import re
 
 DIRECTIVE = re.compile(r"<!-- table: ([^>]*?) -->\n*(?:\*[^*\n]+\*\n+)?((?:\|[^\n]*\n)*)")
-KINDS = ("values", "means", "differences", "percent")
+KINDS = ("values", "means", "differences", "percent", "changes", "interactions")
 
 
 class Wrong(Exception):
@@ -71,6 +73,18 @@ def interval(mean, half_width, sign=""):
 
 def brief(value, sign=""):
     return f"{value:{sign}.{decimals(value, None)}f}" if value else "0"
+
+
+def change(estimate):
+    """A change in per cent with its interval's ends, or else in the measure's unit."""
+    if "percent" not in estimate:
+        return interval(estimate["mean"], estimate["half_width"], "+")
+    mean, low, high = (estimate["percent"][key] for key in ("mean", "low", "high"))
+    if low is None:
+        return brief(mean, "+")
+    places = max(0, -math.floor(math.log10(0.5 * (high - low)))) if high > low else 1
+    text = f"{mean:+.{places}f} ({low:+.{places}f} to {high:+.{places}f})"
+    return re.sub(r"[-+](0(?:\.0+)?)(?=[ )])", r"\1", text)  # 0 has no sign
 
 
 def bold(text, certain):
@@ -147,8 +161,37 @@ class Table:
         text = f"{mean:+.0f} ± {half:.0f}" if half >= 1 else f"{mean:+.1f} ± {half:.1f}"
         return Cell(point, paradigm, measure, bold(text, (point["point"], paradigm) in self.certain[measure]), d["half_width"])
 
+    def changes(self):
+        d, measure = self.directive, self.directive.measures[0]
+        lines = []
+        for point in (p for points in self.grouped.values() for p in points):
+            found = [(p, self.estimate(point, p, measure).get("difference")) for p in self.paradigms]
+            if all(e is not None for _, e in found):
+                lines.append(([d.name(point["axes"][axis]) for axis in self.rows],
+                              [Cell(point, p, None, bold(change(e), (point["point"], p) in self.certain[measure]))
+                               for p, e in found]))
+        return [d.name(axis) for axis in self.rows] + [d.name(p) for p in self.paradigms], lines
+
+    def interactions(self):
+        d, header, lines = self.directive, [], []
+        for one in self.answer.get("interactions", []):
+            if one["measure"] != d.measures[0]:
+                continue
+            first, second = d.name(one["lowers"]), d.name(one["more_than"])
+            header = [*map(d.name, one["points"][0]["axes"]), first, second, f"{first} against {second}"]
+            for point in one["points"]:
+                texts = [change(point["first"]), change(point["second"]),
+                         bold(change(point["interaction"]), point["interaction"]["stays_certain"])]
+                lines.append(([d.name(label) for label in point["axes"].values()],
+                              [Cell(None, None, None, text) for text in texts]))
+        if not lines:
+            raise Wrong(f"table: {d.text}: the experiment has no such interaction")
+        return header, lines
+
     def laid_out(self):
         d = self.directive
+        if d.kind in ("changes", "interactions"):
+            return self.changes() if d.kind == "changes" else self.interactions()
         make = {"values": self.value, "means": self.mean, "differences": self.difference, "percent": self.percent}[d.kind]
         header, lines = [d.name(axis) for axis in self.rows], []
         first = next(iter(self.grouped.values()))
@@ -188,14 +231,21 @@ class Table:
         return header, lines
 
     def caption(self):
-        if self.directive.kind not in ("differences", "percent"):
+        if self.directive.kind not in ("differences", "percent", "changes", "interactions"):
             return ""
         measure = self.directive.measures[0]
+        if self.directive.kind == "interactions":
+            points = [point for one in self.answer["interactions"] for point in one["points"]]
+            by_ratio = all("percent" in point["interaction"] for point in points)
+            return (f"*`{measure}`{' [%]' if by_ratio else ''}, {max(p['interaction']['count'] for p in points):,} replications, "
+                    f"seed {self.answer['seed']}: {sum(p['interaction']['stays_certain'] for p in points)} of {len(points)} "
+                    f"interactions, in bold, stay certain together.*\n\n")
         counts = [cells[measure]["count"] for point in self.answer["points"] for cells in point["paradigms"].values()]
         comparisons = sum(cells[measure].get("difference", {}).get("p") is not None
                           for point in self.answer["points"] for cells in point["paradigms"].values())
         unit = self.answer["measures"][measure]["unit"].replace("^2", "²")
-        share = f"per cent of {self.directive.name(self.baseline)}'s" if self.directive.kind == "percent" else unit
+        share = (f"per cent of {self.directive.name(self.baseline)}'s" if self.directive.kind == "percent" else
+                 "%" if self.directive.kind == "changes" else unit)
         many = f"{max(counts):,}" if min(counts) == max(counts) else f"{min(counts):,} to {max(counts):,}"
         return (f"*`{measure}`{f' [{share}]' if share else ''}, {many} replications, seed {self.answer['seed']}: "
                 f"{len(self.certain[measure])} of {comparisons} comparisons, in bold, stay certain together.*\n\n")

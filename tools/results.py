@@ -80,12 +80,17 @@ def trimmed(answer, measures):
     def rounded(value):
         if isinstance(value, dict):
             return {key: rounded(of) for key, of in value.items()}
+        if isinstance(value, list):
+            return [rounded(of) for of in value]
         return float(f"{value:.6g}") if isinstance(value, float) else value
     points = [{"point": p["point"], "axes": p["axes"],
                "paradigms": {name: {m: rounded(cells[m]) for m in measures} for name, cells in p["paradigms"].items()}}
               for p in answer["points"]]
-    return {**{key: answer[key] for key in ("baseline", "confidence", "seed")}, "points": points,
+    kept = {**{key: answer[key] for key in ("baseline", "confidence", "seed")}, "points": points,
             "measures": {m: answer["measures"][m] for m in measures}}
+    if "interactions" in answer:
+        kept["interactions"] = rounded([one for one in answer["interactions"] if one["measure"] in measures])
+    return kept
 
 
 def printed(pages):
@@ -156,7 +161,8 @@ def contradictions(page, today, answer):
             for cell, said in zip(cells, line[len(named):]):
                 if cell.measure is None:
                     continue
-                base = mean(then[cell.point["point"], table.baseline][cell.measure])
+                base = (mean(then[cell.point["point"], table.baseline][cell.measure]) if directive.kind == "percent"
+                        else None)
                 a, b = (figure(directive.kind, rows, cell, table.baseline, base) for rows in (then, today))
                 match = FIGURE.match(said)
                 # An interval may be narrower than the last digit that is printed.

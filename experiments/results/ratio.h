@@ -11,7 +11,7 @@
 
 namespace ttf::experiments::results {
 
-// The ratio of two means, with the ends of its interval. Not numbers where the samples do not bound it.
+// The ratio of two means, with the ends of its interval. The ends are not numbers if the samples do not bound it.
 struct Ratio {
   std::uint64_t count = 0;
   double value = std::numeric_limits<double>::quiet_NaN();

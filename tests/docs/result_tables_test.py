@@ -57,6 +57,30 @@ class Tables(unittest.TestCase):
         self.assertEqual(table("means age error of free tt; where: road=icy, density=1; names: age=age [ms]"),
                          "| paradigm | age [ms] | error |\n|---|---|---|\n| free | 35.0 | 1.50 |\n| tt | 42.0 | 2.00 |\n")
 
+    def test_changes_and_interactions_of_an_axis(self):
+        def percent(mean, half):
+            return {"mean": mean, "low": mean - half, "high": mean + half}
+        along = answer() | {"baseline": "1"}
+        for point in along["points"]:
+            for cells in point["paradigms"].values():
+                cells["error"].pop("difference", None)
+                if point["axes"]["density"] == "100":
+                    cells["error"]["difference"] = {"count": 20, "mean": 1, "half_width": 0.1, "p": 1e-3,
+                                                    "percent": percent(50, 5)}
+        both = {"count": 20, "mean": -0.1, "half_width": 0.01, "percent": percent(-9.5, 0.9), "stays_certain": True}
+        along["interactions"] = [{"measure": "error", "lowers": "tt", "more_than": "free", "points": [
+            {"axes": {"road": "dry"}, "first": {"count": 20, "mean": 0.2, "half_width": 0.1}, "interaction": both,
+             "second": {"count": 20, "mean": 1, "half_width": 0.1, "percent": percent(50, 5)}}]}]
+        def made(text):
+            return result_tables.Table(result_tables.Directive(text), along).text()
+        self.assertEqual(made("changes error; where: road=dry"), (
+            "*`error` [%], 20 replications, seed 1: 4 of 4 comparisons, in bold, stay certain together.*\n\n"
+            "| density | tt | free |\n|---|---|---|\n| 100 | **+50 (+45 to +55)** | **+50 (+45 to +55)** |\n"))
+        self.assertEqual(made("interactions error; names: tt=TT"), (
+            "*`error` [%], 20 replications, seed 1: 1 of 1 interactions, in bold, stay certain together.*\n\n"
+            "| road | TT | free | TT against free |\n|---|---|---|---|\n"
+            "| dry | +0.20 ± 0.10 | +50 (+45 to +55) | **-9.5 (-10.4 to -8.6)** |\n"))
+
     def test_wrong_directives_are_refused(self):
         for text, said in (("means age of nobody; where: road=dry, density=1", "nobody is no paradigm"),
                            ("sums age", "must be one of"), ("values age; where: road=wet", "no point"),

@@ -369,14 +369,23 @@ void result_seeds(const fs::path& folder) {
 "points": [)";
   const std::string ends = R"(], "crossings": [{"paradigm": "tt", "axis": "noise", "at": 3.5, "others": "road dry",
 "certain": false}], "expectations": [{"expected": "less", "holds": false, "where_not": ["noise 1", 2]}]})";
+  const std::string change = interval("-0.5", R"(, "percent": {"mean": -40, "low": -45, "high": null})");
+  const std::string along = R"(, "compared_axis": "noise", "interactions": [{"measure": "error", "by": "ratio",
+"axis": "noise", "from": "1 m", "to": "100 m", "lowers": "tt", "more_than": "adva", "points": [{"axes": {"road": "dry"},
+"first": )" + change + R"(, "second": )" +
+                            change + R"(, "interaction": )" +
+                            interval("-0.1", R"(, "p": 0.04, "stays_certain": true)") + "}]}]}";
+  write(folder / "answer/along", begin + point(0, "1 m") + "," + point(1, "100 m") + "]" + along);
   write(folder / "answer/grid", begin + point(0, "1 m") + "," + point(1, "100 m") + ends);
   write(folder / "answer/labels", begin + point(0, "slow") + ends);
-  write_dictionary(folder / "answer.dict",
-                   {"experiment", "file",       "question", "answer", "baseline",  "seed",      "runs",
-                    "failed",     "confidence", "points",   "axes",   "paradigms", "count",     "mean",
-                    "half_width", "difference", "measures", "unit",   "meaning",   "crossings", "expectations",
-                    "where_not",  "null",       "true",     "1e308",  "-1",        "\\\\u0000", "</script>",
-                    "<img>",      "{}",         "[]",       "nan",    " ms"});
+  write_dictionary(
+      folder / "answer.dict",
+      {"experiment", "file",         "question",      "answer",    "baseline",      "seed",      "runs",
+       "failed",     "confidence",   "points",        "axes",      "paradigms",     "count",     "mean",
+       "half_width", "difference",   "measures",      "unit",      "meaning",       "crossings", "expectations",
+       "where_not",  "interactions", "compared_axis", "percent",   "stays_certain", "null",      "true",
+       "1e308",      "-1",           "\\\\u0000",     "</script>", "<img>",         "{}",        "[]",
+       "nan",        " ms"});
 
   const std::string drive = R"({"strategy": "tt", "log": "out/tt.mcap", "rmse_truth": {"position_m": 0.1,
 "velocity_mps": 0.7}, "nees": {"mean": 1.2, "band_95": [3.1, 5]}, "age_when_used": {"mean_ms": 60, "worst_ms": 100},
