@@ -5,6 +5,17 @@
 #include <cmath>
 
 namespace ttf::experiments::results {
+namespace {
+
+// Not a number unless all four are above 0.
+double log_of_ratios(const Quadruple& of) {
+  if (!(of.first_before > 0.0) || !(of.first_after > 0.0) || !(of.second_before > 0.0) || !(of.second_after > 0.0))
+    return std::numeric_limits<double>::quiet_NaN();
+  return (std::log(of.first_after) - std::log(of.first_before)) -
+         (std::log(of.second_after) - std::log(of.second_before));
+}
+
+}  // namespace
 
 Ratio ratio_of(std::span<const std::pair<double, double>> pairs, double confidence) {
   Ratio ratio{pairs.size()};
@@ -40,23 +51,24 @@ Interval difference_of_differences(std::span<const Quadruple> values, double con
 }
 
 Interval log_ratio_of_ratios(std::span<const Quadruple> values, double confidence) {
-  Moments first_before, first_after, second_before, second_after;
-  for (const Quadruple& one : values) {
-    first_before.add(one.first_before);
-    first_after.add(one.first_after);
-    second_before.add(one.second_before);
-    second_after.add(one.second_after);
-  }
   Interval interval{values.size()};
-  if (!(std::min({first_before.mean(), first_after.mean(), second_before.mean(), second_after.mean()}) > 0.0))
-    return interval;
-  Moments influences;  // about a mean of 0
-  for (const Quadruple& one : values)
-    influences.add((one.first_after / first_after.mean() - one.first_before / first_before.mean()) -
-                   (one.second_after / second_after.mean() - one.second_before / second_before.mean()));
-  interval.mean = (std::log(first_after.mean()) - std::log(first_before.mean())) -
-                  (std::log(second_after.mean()) - std::log(second_before.mean()));
-  interval.half_width = interval_of(influences, confidence).half_width;
+  Quadruple sums;
+  for (const Quadruple& one : values) {
+    sums.first_before += one.first_before;
+    sums.first_after += one.first_after;
+    sums.second_before += one.second_before;
+    sums.second_after += one.second_after;
+  }
+  interval.mean = log_of_ratios(sums);
+  Moments without_one;
+  for (const Quadruple& one : values) {
+    const double logarithm =
+        log_of_ratios({sums.first_before - one.first_before, sums.first_after - one.first_after,
+                       sums.second_before - one.second_before, sums.second_after - one.second_after});
+    if (std::isnan(logarithm)) return interval;
+    without_one.add(logarithm);
+  }
+  interval.half_width = (static_cast<double>(values.size()) - 1.0) * interval_of(without_one, confidence).half_width;
   return interval;
 }
 

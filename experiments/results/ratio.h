@@ -34,10 +34,11 @@ struct Quadruple {
 Interval difference_of_differences(std::span<const Quadruple> values, double confidence);
 
 // Returns the natural logarithm of (mean(first_after) / mean(first_before)) / (mean(second_after) / mean(second_before)):
-// below 0 if the change leaves a smaller share of the first than of the second. The width is the delta method's: Student's t
-// of the sum of each value over its mean, with signs, replication by replication (Oehlert: "A note on the delta method", The
-// American Statistician 46, 1992). Both sides swapped give the same interval with the other sign. The mean is not a number
-// unless all four means are above 0.
+// below 0 if the change leaves a smaller share of the first than of the second. The width is the jackknife's: Student's t of
+// the logarithms without one replication each (Miller: "The jackknife - a review", Biometrika 61, 1974). With values that
+// spread by their own size, 95 % intervals cover 93 to 95 % from twenty replications on. Both sides swapped give the same
+// interval with the other sign. The mean is not a number unless all four means are above 0. There is no width unless they are
+// so without any one replication.
 Interval log_ratio_of_ratios(std::span<const Quadruple> values, double confidence);
 // Returns the ratio whose natural logarithm has this interval.
 Ratio exponential(const Interval& logarithm);

@@ -186,8 +186,9 @@ std::string interaction_at_many(const SweepFile& sweep, const Interaction& of, c
   std::string text;
   if (std::max({more.size(), less.size(), nothing.size()}) == points) {
     const Told told = !more.empty() ? Told::kMore : !less.empty() ? Told::kLess : Told::kNothing;
-    text = fmt::format("{}, at {} of {}: {} changes {} of {} and of {}.", begin_of(told, first, lowers),
-                       told == Told::kNothing ? "any" : "all", counted(points, "point"), change, measure, one, other);
+    text =
+        fmt::format("{}, at {} {}: {} changes {} of {} and of {}.", begin_of(told, first, lowers),
+                    told == Told::kNothing ? "any of" : "all", counted(points, "point"), change, measure, one, other);
   } else {
     const char* begin = less.empty() ? "In part" : more.empty() ? "No" : "It depends";
     text = fmt::format("{}: {} lowers {} of {}", begin, change, measure, one);

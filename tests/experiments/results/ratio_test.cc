@@ -90,14 +90,15 @@ TEST(Interactions, AreDifferencesOfDifferences) {
   EXPECT_NEAR(interval.half_width, kT2 * 2.0 / std::sqrt(3.0), 1e-5);
 }
 
-// Means 4 to 2 and 2 to 2: a half against a whole. Values over their means, with signs, have the sums -1/2, 0 and 1/2, whose
-// variance is 1/4.
+// Means 4 to 2 and 2 to 2: a half against a whole. Without one of the drives, 9/2 to 7, 4 to 8 and 7/2 to 9 remain.
 TEST(Interactions, AreRatiosOfRatios) {
   const std::vector<Quadruple> values{{5.0, 1.5, 1.5, 1.5}, {4.0, 2.0, 2.0, 2.0}, {3.0, 2.5, 2.5, 2.5}};
   const Interval interval = log_ratio_of_ratios(values, 0.95);
   EXPECT_EQ(interval.count, 3u);
   EXPECT_NEAR(interval.mean, std::log(0.5), 1e-12);
-  EXPECT_NEAR(interval.half_width, kT2 * 0.5 / std::sqrt(3.0), 1e-6);
+  const double a = std::log(4.5 / 7.0), b = std::log(0.5), c = std::log(3.5 / 9.0), mean = (a + b + c) / 3.0;
+  const double squares = (a - mean) * (a - mean) + (b - mean) * (b - mean) + (c - mean) * (c - mean);
+  EXPECT_NEAR(interval.half_width, kT2 * std::sqrt(2.0 / 3.0 * squares), 1e-6);
   const Ratio ratio = exponential(interval);
   EXPECT_NEAR(ratio.value, 0.5, 1e-12);
   EXPECT_NEAR(ratio.low * ratio.high, 0.25, 1e-12);
@@ -109,6 +110,14 @@ TEST(Interactions, OfMeansThatAreNotAboveZeroHaveNoRatio) {
   EXPECT_TRUE(std::isnan(log_ratio_of_ratios(nothing, 0.95).mean));
   EXPECT_TRUE(std::isnan(log_ratio_of_ratios(nothing, 0.95).half_width));
   EXPECT_FALSE(std::isnan(difference_of_differences(nothing, 0.95).half_width));
+}
+
+// A mean that hangs on one drive has no interval.
+TEST(Interactions, OfOneDriveAloneHaveNoInterval) {
+  const std::vector<Quadruple> one{{1.0, 1.0, 1.0, 1.0}, {1.0, 0.0, 1.0, 1.0}, {1.0, 0.0, 1.0, 1.0}};
+  EXPECT_NEAR(log_ratio_of_ratios(one, 0.95).mean, std::log(1.0 / 3.0), 1e-12);
+  EXPECT_TRUE(std::isnan(log_ratio_of_ratios(one, 0.95).half_width));
+  EXPECT_TRUE(std::isnan(log_ratio_of_ratios(std::vector<Quadruple>{{1.0, 1.0, 1.0, 1.0}}, 0.95).half_width));
 }
 
 TEST(Interactions, ChangeSignWithTheirSides) {
@@ -128,8 +137,8 @@ TEST(Interactions, ChangeSignWithTheirSides) {
   }
 }
 
-// 1,500 samples of 40 drives: both intervals contain the true value in 95 % of them. The delta method's loses a little to
-// heavy tails.
+// 1,500 samples of 40 drives: both intervals contain the true value in 95 % of them. The jackknife's loses a little to heavy
+// tails.
 TEST(Interactions, CoverWhatTheySay) {
   constexpr int kSamples = 1500;
   int by_ratio = 0, by_difference = 0;

@@ -212,6 +212,41 @@ TEST_F(SweepAnswers, InteractionsAnswerFirst) {
           "more by 1.25 +- 0.32 m.");
 }
 
+// On a dry and on a wet road. adva falls to a half, in every drive. tt falls to `dry` and `wet`, more or less.
+TEST_F(SweepAnswers, AnInteractionMayDependOnOtherAxes) {
+  std::string file = sweep_text(4, "interactions: [{axis: noise, lowers: tt, more_than: adva}]\n");
+  file.insert(file.find("measures:"), "  road: {settings: {dry: {}, wet: {world.own_speed: 12}}}\n");
+  const SweepFile sweep = parse_sweep(file, TTF_SOURCE_DIR "/experiments/small.yaml");
+  const SweepDrives drives(sweep);
+  int stores = 0;
+  const auto told = [&](double dry, double wet) {
+    results::Store made = store(drives, std::to_string(++stores));
+    for (std::uint32_t r = 0; r < 4; ++r) {
+      const double common = 5.0 + 0.5 * r, off = r % 2 == 0 ? 1.1 : 0.9;
+      for (const std::uint32_t road : {0u, 1u})
+        made.add({made_up(road, r, 0, common), made_up(road, r, 1, common), made_up(2 + road, r, 0, 0.5 * common),
+                  made_up(2 + road, r, 1, (road == 0 ? dry : wet) * common * off)});
+    }
+    const std::string lines = answer_sentences(sweep, answer_of(sweep, made));
+    return lines.substr(0, lines.find('\n'));
+  };
+  EXPECT_THAT(told(0.1, 0.2),
+              testing::StartsWith("Yes, at all 2 points: noise from 1 to 40 changes position_rmse_truth of "
+                                  "tt ("));
+  EXPECT_THAT(told(0.9, 0.8), testing::StartsWith("No, at all 2 points: "));
+  EXPECT_THAT(told(0.5, 0.5),
+              testing::StartsWith("There is no difference that these drives can tell, at any of 2 points: "));
+  EXPECT_THAT(told(0.1, 0.5),
+              AllOf(testing::StartsWith("In part: noise from 1 to 40 lowers position_rmse_truth of tt ("),
+                    testing::HasSubstr(" more than that of adva (-50 %) at road dry; at road wet there is no "
+                                       "difference that these drives can tell. Beside that of adva, ")));
+  EXPECT_THAT(told(0.9, 0.5), AllOf(testing::StartsWith("No: noise from 1 to 40 lowers "),
+                                    testing::HasSubstr(" less than that of adva (-50 %) at road dry; at road wet ")));
+  EXPECT_THAT(told(0.1, 0.9),
+              AllOf(testing::StartsWith("It depends: noise from 1 to 40 lowers "),
+                    testing::HasSubstr(" more than that of adva (-50 %) at road dry, less at road wet.")));
+}
+
 // A replication counts only if all four of its drives were done.
 TEST_F(SweepAnswers, InteractionsNeedAllFourDrives) {
   const SweepFile sweep = small_sweep(7, "interactions: [{axis: noise, lowers: tt, more_than: adva}]\n");
