@@ -7,7 +7,7 @@
 namespace ttf::experiments::results {
 namespace {
 
-// Not a number unless all four are above 0.
+// Returns no number unless all four are above 0.
 double log_of_ratios(const Quadruple& of) {
   if (!(of.first_before > 0.0) || !(of.first_after > 0.0) || !(of.second_before > 0.0) || !(of.second_after > 0.0))
     return std::numeric_limits<double>::quiet_NaN();
