@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "recording/exports/viewer/foxglove.pb.h"
 #include "recording/exports/viewer/plots.pb.h"
 #include "recording/exports/viewer/scene.h"
+#include "recording/scene/geometry.h"
 
 namespace ttf::recording::exports::viewer {
 namespace {
@@ -19,71 +19,16 @@ namespace {
 constexpr const char* kVehicle = "vehicle";
 // Longer than any period of its topic that the shipped schedules have.
 constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife = Duration::milliseconds(300), kForever{};
-constexpr double kEllipseSigmas = 2.0;
-constexpr int kEllipsePoints = 24, kArcPoints = 32;
 
 // Sensors have other colours (recording/log/sensor_style.h).
 constexpr Colour kTruth{0.9, 0.9, 0.9, 1.0}, kTrack{0.94, 0.89, 0.26, 1.0}, kWarning{1.0, 0.1, 0.1, 1.0};
 constexpr double kBoxOpacity = 0.4, kCoastingOpacity = 0.15;
 
-template <class Object> bool drawable(const Object& object) {
-  return std::isfinite(object.x) && std::isfinite(object.y) && std::isfinite(object.heading) &&
-         std::isfinite(object.length) && std::isfinite(object.width);
-}
-template <class Object> Place place_of(const Object& object) { return {object.x, object.y, object.heading}; }
+using scene::drawable;
+using scene::place_of;
+using scene::within_reach;
 
-std::string frame_of(const ViewedSensor& sensor) { return fmt::format("{}/{}", kVehicle, sensor.name); }
-
-// Returns the instant of a node's global time, if that is near the record's own instant, as in every sound log.
-TrueTime instant_of(const records::Stamp& stamp, GlobalTime at) {
-  if (!within_reach(stamp.true_time.ns) || !within_reach(stamp.global.ns) || !within_reach(at.ns))
-    return shown(stamp.true_time);
-  const Duration ahead = at - stamp.global;
-  constexpr Duration kNear = FoxgloveExport::kHeldBack;
-  return shown(ahead > kNear || ahead < -kNear ? stamp.true_time : stamp.true_time + ahead);
-}
-
-// The outline of a Gaussian in the plane; empty if a damaged log has none.
-std::vector<Point> ellipse(const records::ImageObject& object) {
-  if (!std::isfinite(object.sigma_x) || !std::isfinite(object.sigma_y)) return {};
-  const double rest = std::sqrt(std::max(0.0, 1.0 - object.correlation_xy * object.correlation_xy));
-  std::vector<Point> points;
-  for (int k = 0; k < kEllipsePoints; ++k) {
-    const double angle = 2.0 * std::numbers::pi * k / kEllipsePoints, c = std::cos(angle), s = std::sin(angle);
-    points.push_back({object.x + kEllipseSigmas * object.sigma_x * c,
-                      object.y + kEllipseSigmas * object.sigma_y * (object.correlation_xy * c + rest * s)});
-  }
-  return points;
-}
-
-std::vector<Point> outline(const records::ImageObject& object) {
-  const double c = std::cos(object.heading), s = std::sin(object.heading);
-  const double l = 0.5 * object.length, w = 0.5 * object.width;
-  std::vector<Point> points;
-  for (const auto& [along, across] : std::array<std::pair<double, double>, 4>{{{l, w}, {-l, w}, {-l, -w}, {l, -w}}})
-    points.push_back({object.x + c * along - s * across, object.y + s * along + c * across});
-  return points;
-}
-
-// The edge of a field: an arc at its longest range, and back at its shortest.
-std::vector<Point> edge(const ViewedField& field) {
-  const bool all_around = field.half_angle >= std::numbers::pi;
-  const double half = all_around ? std::numbers::pi : field.half_angle;
-  std::vector<Point> points;
-  const auto arc = [&](double range, double from, double to) {
-    for (int k = 0; k <= kArcPoints; ++k) {
-      const double angle = from + (to - from) * k / kArcPoints;
-      points.push_back({range * std::cos(angle), range * std::sin(angle)});
-    }
-  };
-  arc(field.max_range, -half, half);
-  if (all_around) return points;
-  if (field.min_range > 0.0)
-    arc(field.min_range, half, -half);
-  else
-    points.push_back({});
-  return points;
-}
+std::string frame_of(const scene::ViewedSensor& sensor) { return fmt::format("{}/{}", kVehicle, sensor.name); }
 
 std::string words_of(const records::FeatureObject& object) {
   if (std::isfinite(object.time_to_collision_s))
@@ -98,19 +43,19 @@ const char* status_of(const records::ImageObject& object) {
 
 }  // namespace
 
-FoxgloveExport::FoxgloveExport(const std::string& path, std::vector<ViewedSensor> sensors)
+FoxgloveExport::FoxgloveExport(const std::string& path, std::vector<scene::ViewedSensor> sensors)
     : sensors_(std::move(sensors)), file_(path) {
-  const google::protobuf::Descriptor& scene = *::foxglove::SceneUpdate::descriptor();
+  const google::protobuf::Descriptor& update = *::foxglove::SceneUpdate::descriptor();
   transforms_ = file_.topic("/transforms", *::foxglove::FrameTransforms::descriptor());
-  fields_ = file_.topic("/fields", scene);
-  truth_topic_ = file_.topic("/truth", scene);
-  reference_ = file_.topic("/reference", scene);
-  tracks_ = file_.topic("/tracks", scene);
-  warnings_ = file_.topic("/warnings", scene);
+  fields_ = file_.topic("/fields", update);
+  truth_topic_ = file_.topic("/truth", update);
+  reference_ = file_.topic("/reference", update);
+  tracks_ = file_.topic("/tracks", update);
+  warnings_ = file_.topic("/warnings", update);
   image_use_ = file_.topic("/image_use", *ttfusion::plots::ImageUse::descriptor());
   errors_ = file_.topic("/errors", *ttfusion::plots::Errors::descriptor());
-  for (const ViewedSensor& sensor : sensors_) {
-    observations_.push_back(file_.topic("/observations/" + sensor.name, scene));
+  for (const scene::ViewedSensor& sensor : sensors_) {
+    observations_.push_back(file_.topic("/observations/" + sensor.name, update));
     ages_.push_back(file_.topic("/ages/" + sensor.name, *ttfusion::plots::Age::descriptor()));
   }
   write_sensors();
@@ -119,7 +64,7 @@ FoxgloveExport::FoxgloveExport(const std::string& path, std::vector<ViewedSensor
 void FoxgloveExport::write_sensors() {
   ::foxglove::FrameTransforms frames;
   ::foxglove::SceneUpdate update;
-  for (const ViewedSensor& sensor : sensors_) {
+  for (const scene::ViewedSensor& sensor : sensors_) {
     if (!sensor.mounting) continue;
     ::foxglove::FrameTransform& frame = *frames.add_transforms();
     set_stamp(*frame.mutable_timestamp(), {});
@@ -132,38 +77,24 @@ void FoxgloveExport::write_sensors() {
     if (!sensor.field) continue;
     ++counts_.fields;
     ::foxglove::SceneEntity& entity = add_entity(update, {}, frame_of(sensor), sensor.name, kForever);
-    add_loop(entity, edge(*sensor.field), sensor.colour);
-    add_text(entity, {sensor.field->max_range, 0.0}, sensor.name, sensor.colour);
+    add_loop(entity, scene::edge(*sensor.field), colour_of(sensor.colour));
+    add_text(entity, {sensor.field->max_range, 0.0}, sensor.name, colour_of(sensor.colour));
   }
   if (frames.transforms_size() > 0) file_.add(transforms_, {}, frames);
   if (update.entities_size() > 0) file_.add(fields_, {}, update);
 }
 
 SceneCounts FoxgloveExport::finish() {
-  write_truth();
-  write_list();
+  Moments::finish();
   file_.finish();
   return counts_;
 }
 
-// Records come in the order of time: what another instant had is complete.
-void FoxgloveExport::come_to(TrueTime at) {
-  if (!truth_.empty() && truth_.front().at != at) write_truth();
-  if (list_ && list_->stamp.true_time != at) write_list();
-  file_.write_before(shown(at) - kHeldBack);
-}
+void FoxgloveExport::reached(TrueTime at) { file_.write_before(at - kHeldBack); }
 
-// Every node that recorded the truth of an instant has the same: the first node's is kept.
-void FoxgloveExport::on(const records::TruthState& r) {
-  come_to(r.at);
-  if (truth_.empty() || truth_.front().node == r.node) truth_.push_back(r);
-}
-
-void FoxgloveExport::write_truth() {
-  if (truth_.empty()) return;
-  const TrueTime at = shown(truth_.front().at);
+void FoxgloveExport::truth(TrueTime at, std::span<const records::TruthState> states) {
   ::foxglove::SceneUpdate update;
-  for (const records::TruthState& state : truth_) {
+  for (const records::TruthState& state : states) {
     if (!drawable(state)) continue;
     const std::string id = fmt::format("object {}", index_of(state.object));
     ::foxglove::SceneEntity& entity = add_entity(update, at, kVehicle, id, kObjectLife);
@@ -173,19 +104,9 @@ void FoxgloveExport::write_truth() {
   shown_truth_.replace_by(update, at);
   file_.add(truth_topic_, at, update);
   ++counts_.truths;
-  truth_.clear();
 }
 
-void FoxgloveExport::on(const records::ObservationSeen& r) {
-  come_to(r.stamp.true_time);
-  if (list_ && (list_->id != r.id || list_->stamp.node != r.stamp.node)) write_list();
-  if (!list_) list_ = List{r.stamp, r.id, instant_of(r.stamp, r.measured), {}};
-  if (std::isfinite(r.x) && std::isfinite(r.y)) list_->points.push_back({r.x, r.y});
-}
-
-void FoxgloveExport::write_list() {
-  if (!list_) return;
-  const List list = *std::exchange(list_, std::nullopt);
+void FoxgloveExport::list(const scene::SeenList& list) {
   const std::size_t sensor = index_of(list.id.sensor);
   if (sensor >= sensors_.size()) {
     ++counts_.unnamed;
@@ -193,26 +114,21 @@ void FoxgloveExport::write_list() {
   }
   ::foxglove::SceneUpdate update;
   ::foxglove::SceneEntity& entity = add_entity(update, list.measured, kVehicle, sensors_[sensor].name, kListLife);
-  add_crosses(entity, list.points, sensors_[sensor].colour);
+  add_crosses(entity, list.points, colour_of(sensors_[sensor].colour));
   file_.add(observations_[sensor], list.measured, update);
   ++counts_.observations;
 }
 
-void FoxgloveExport::on(const records::ReferenceFix& r) {
-  come_to(r.measured_true);
-  if (!std::isfinite(r.x) || !std::isfinite(r.y)) return;
-  const TrueTime at = shown(r.measured_true);
+void FoxgloveExport::fix(TrueTime at, const records::ReferenceFix& r) {
   ::foxglove::SceneUpdate update;
   const std::string id = fmt::format("reference of object {}", index_of(r.object));
   ::foxglove::SceneEntity& entity = add_entity(update, at, kVehicle, id, kListLife);
-  add_crosses(entity, std::array{Point{r.x, r.y}}, kTruth);
+  add_crosses(entity, std::array{scene::Point{r.x, r.y}}, kTruth);
   file_.add(reference_, at, update);
   ++counts_.references;
 }
 
-void FoxgloveExport::on(const records::ImageWritten& r) {
-  come_to(r.stamp.true_time);
-  const TrueTime at = instant_of(r.stamp, r.valid_at);
+void FoxgloveExport::image(TrueTime at, const records::ImageWritten& r) {
   ::foxglove::SceneUpdate update;
   for (const records::ImageObject& object : r.objects) {
     if (!drawable(object)) continue;
@@ -222,7 +138,8 @@ void FoxgloveExport::on(const records::ImageWritten& r) {
     add_box(entity, place_of(object), object.length, object.width,
             with_opacity(kTrack, coasting ? kCoastingOpacity : kBoxOpacity));
     add_velocity(entity, place_of(object), object.speed, kTrack);
-    if (const std::vector<Point> points = ellipse(object); !points.empty()) add_loop(entity, points, kTrack);
+    if (const std::vector<scene::Point> points = scene::ellipse(object); !points.empty())
+      add_loop(entity, points, kTrack);
     add_text(entity, {object.x, object.y}, id, kTrack);
     ::foxglove::KeyValuePair& status = *entity.add_metadata();
     status.set_key("status");
@@ -233,15 +150,13 @@ void FoxgloveExport::on(const records::ImageWritten& r) {
   ++counts_.images;
 }
 
-void FoxgloveExport::on(const records::FeatureUsed& r) {
-  come_to(r.stamp.true_time);
-  const TrueTime at = shown(r.stamp.true_time);
+void FoxgloveExport::use(TrueTime at, const records::FeatureUsed& r) {
   ::foxglove::SceneUpdate update;
   for (const records::FeatureObject& object : r.objects) {
     if (!object.warning || !drawable(object.image)) continue;
     ::foxglove::SceneEntity& entity =
         add_entity(update, at, kVehicle, fmt::format("track {}", index_of(object.image.track)), kObjectLife);
-    add_loop(entity, outline(object.image), kWarning);
+    add_loop(entity, scene::rectangle(place_of(object.image), object.image.length, object.image.width), kWarning);
     add_text(entity, {object.image.x, object.image.y - object.image.width}, words_of(object), kWarning);
   }
   ttfusion::plots::ImageUse use;
@@ -264,7 +179,7 @@ void FoxgloveExport::age(TrueTime used, SensorId sensor, Duration age) {
     ++counts_.unnamed;
     return;
   }
-  const TrueTime at = shown(used);
+  const TrueTime at = scene::shown(used);
   ttfusion::plots::Age message;
   set_stamp(*message.mutable_timestamp(), at);
   message.set_age_ms(in_ms(age));
@@ -274,7 +189,7 @@ void FoxgloveExport::age(TrueTime used, SensorId sensor, Duration age) {
 
 void FoxgloveExport::errors(TrueTime used, std::span<const ObjectErrors> objects, std::size_t missed,
                             std::size_t spurious) {
-  const TrueTime at = shown(used);
+  const TrueTime at = scene::shown(used);
   ttfusion::plots::Errors message;
   set_stamp(*message.mutable_timestamp(), at);
   double position = 0.0, velocity = 0.0;

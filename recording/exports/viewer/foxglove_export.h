@@ -18,7 +18,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,8 +26,9 @@
 #include "core/time.h"
 #include "recording/exports/viewer/message_file.h"
 #include "recording/exports/viewer/shown.h"
-#include "recording/exports/viewer/viewed.h"
 #include "recording/records/records.h"
+#include "recording/scene/moments.h"
+#include "recording/scene/viewed.h"
 
 namespace ttf::recording::exports::viewer {
 
@@ -49,13 +49,13 @@ struct ObjectErrors {
 };
 
 // Takes records in the order of MergedLogs::read(); call finish() at the end.
-class FoxgloveExport final : public records::Sink {
+class FoxgloveExport final : public scene::Moments {
  public:
   // Messages wait so long for earlier ones.
-  static constexpr Duration kHeldBack = Duration::milliseconds(2000);
+  static constexpr Duration kHeldBack = scene::kNear;
 
   // `sensors`: by SensorId. Throws std::runtime_error if the file cannot be created.
-  FoxgloveExport(const std::string& path, std::vector<ViewedSensor> sensors);
+  FoxgloveExport(const std::string& path, std::vector<scene::ViewedSensor> sensors);
 
   // Reports of who judges the records, each at most kHeldBack after its instant.
   void age(TrueTime used, SensorId sensor, Duration age);
@@ -63,34 +63,21 @@ class FoxgloveExport final : public records::Sink {
 
   SceneCounts finish();  // throws std::runtime_error if a write failed
 
-  using records::Sink::on;
-  void on(const records::ObservationSeen&) override;
-  void on(const records::ImageWritten&) override;
-  void on(const records::FeatureUsed&) override;
-  void on(const records::ReferenceFix&) override;
-  void on(const records::TruthState&) override;
-
  private:
-  // Observations of one list.
-  struct List {
-    records::Stamp stamp;
-    MeasurementId id;
-    TrueTime measured{};
-    std::vector<Point> points;
-  };
-  void come_to(TrueTime at);
+  void truth(TrueTime at, std::span<const records::TruthState> states) override;
+  void list(const scene::SeenList& list) override;
+  void fix(TrueTime at, const records::ReferenceFix& fix) override;
+  void image(TrueTime valid_at, const records::ImageWritten& image) override;
+  void use(TrueTime at, const records::FeatureUsed& use) override;
+  void reached(TrueTime at) override;
   void write_sensors();
-  void write_truth();
-  void write_list();
 
-  std::vector<ViewedSensor> sensors_;
+  std::vector<scene::ViewedSensor> sensors_;
   MessageFile file_;
   std::uint16_t transforms_ = 0, fields_ = 0, truth_topic_ = 0, reference_ = 0, tracks_ = 0, warnings_ = 0,
                 image_use_ = 0, errors_ = 0;
   std::vector<std::uint16_t> observations_, ages_;  // by SensorId
   SceneCounts counts_;
-  std::vector<records::TruthState> truth_;  // all have the same instant
-  std::optional<List> list_;
   Shown shown_truth_, shown_tracks_, shown_warnings_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "recording/mcap/protobuf_schema.h"
+#include "recording/scene/instants.h"
 
 namespace ttf::recording::exports::viewer {
 
@@ -28,7 +29,7 @@ std::uint16_t MessageFile::topic(const std::string& name, const google::protobuf
 }
 
 void MessageFile::add(std::uint16_t channel, TrueTime at, const google::protobuf::MessageLite& message) {
-  Message& waiting = waiting_.emplace(shown(at), Message{channel, {}})->second;
+  Message& waiting = waiting_.emplace(scene::shown(at), Message{channel, {}})->second;
   TTF_CHECK(message.SerializeToString(&waiting.bytes), "{}", message.GetTypeName());
 }
 

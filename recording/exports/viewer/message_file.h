@@ -19,12 +19,6 @@ class MessageLite;
 
 namespace ttf::recording::exports::viewer {
 
-// A damaged log may have any times; within 36 years arithmetic does not overflow.
-inline constexpr std::int64_t kReach_ns = std::int64_t{1} << 60;
-constexpr bool within_reach(std::int64_t ns) { return ns >= -kReach_ns && ns <= kReach_ns; }
-// Returns the time as a stamp: earlier times stand at the start of the drive.
-constexpr TrueTime shown(TrueTime at) { return {at.ns < 0 ? 0 : at.ns > kReach_ns ? kReach_ns : at.ns}; }
-
 class MessageFile {
  public:
   // Throws std::runtime_error if the file cannot be created.

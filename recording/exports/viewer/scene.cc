@@ -54,7 +54,7 @@ void set_stamp(google::protobuf::Timestamp& out, TrueTime at) {
   out.set_nanos(static_cast<std::int32_t>(at.ns % kSecond_ns));
 }
 
-void set_pose(::foxglove::Pose& out, const Place& place, double z) {
+void set_pose(::foxglove::Pose& out, const scene::Place& place, double z) {
   out.mutable_position()->set_x(place.x);
   out.mutable_position()->set_y(place.y);
   out.mutable_position()->set_z(z);
@@ -74,7 +74,7 @@ void set_pose(::foxglove::Pose& out, const Place& place, double z) {
   return entity;
 }
 
-void add_box(::foxglove::SceneEntity& entity, const Place& place, double length, double width, Colour colour) {
+void add_box(::foxglove::SceneEntity& entity, const scene::Place& place, double length, double width, Colour colour) {
   ::foxglove::CubePrimitive& box = *entity.add_cubes();
   set_pose(*box.mutable_pose(), place, 0.5 * kHeight_m);
   box.mutable_size()->set_x(length);
@@ -83,7 +83,7 @@ void add_box(::foxglove::SceneEntity& entity, const Place& place, double length,
   set_colour(*box.mutable_color(), colour);
 }
 
-void add_velocity(::foxglove::SceneEntity& entity, const Place& place, double speed_mps, Colour colour) {
+void add_velocity(::foxglove::SceneEntity& entity, const scene::Place& place, double speed_mps, Colour colour) {
   const double length = std::abs(speed_mps);  // the way in a second
   if (!(length > kSlow_mps)) return;
   const double head = std::min(0.3 * length, 1.0);
@@ -97,7 +97,7 @@ void add_velocity(::foxglove::SceneEntity& entity, const Place& place, double sp
   set_colour(*arrow.mutable_color(), colour);
 }
 
-void add_text(::foxglove::SceneEntity& entity, Point at, const std::string& text, Colour colour) {
+void add_text(::foxglove::SceneEntity& entity, scene::Point at, const std::string& text, Colour colour) {
   ::foxglove::TextPrimitive& out = *entity.add_texts();
   set_pose(*out.mutable_pose(), {at.x, at.y, 0.0}, 1.5 * kHeight_m);
   out.set_billboard(true);
@@ -107,14 +107,14 @@ void add_text(::foxglove::SceneEntity& entity, Point at, const std::string& text
   out.set_text(text);
 }
 
-void add_loop(::foxglove::SceneEntity& entity, std::span<const Point> points, Colour colour) {
+void add_loop(::foxglove::SceneEntity& entity, std::span<const scene::Point> points, Colour colour) {
   ::foxglove::LinePrimitive& line = add_line(entity, ::foxglove::LinePrimitive::LINE_LOOP, colour);
-  for (const Point& point : points) add_point(line, point.x, point.y);
+  for (const scene::Point& point : points) add_point(line, point.x, point.y);
 }
 
-void add_crosses(::foxglove::SceneEntity& entity, std::span<const Point> points, Colour colour) {
+void add_crosses(::foxglove::SceneEntity& entity, std::span<const scene::Point> points, Colour colour) {
   ::foxglove::LinePrimitive& line = add_line(entity, ::foxglove::LinePrimitive::LINE_LIST, colour);
-  for (const Point& point : points) {
+  for (const scene::Point& point : points) {
     add_point(line, point.x - kCross_m, point.y);
     add_point(line, point.x + kCross_m, point.y);
     add_point(line, point.x, point.y - kCross_m);

@@ -43,7 +43,7 @@ TEST(FoxgloveDrive, AllObjectsImagesAndListsOfALogAreInTheScene) {
     drive.run(writer);
     writer.close();
   }
-  std::vector<ViewedSensor> sensors;
+  std::vector<scene::ViewedSensor> sensors;
   for (const auto& sensor : drive.cluster.sensors) sensors.push_back({sensor.name, {}, std::nullopt, std::nullopt});
   const merge::MergedLogs log(std::vector<std::string>{log_path});
   FoxgloveExport out(path, sensors);

@@ -28,9 +28,9 @@ using testing::SizeIs;
 constexpr NodeId kFusion{5}, kFeature{6};
 constexpr std::int64_t kMs = 1'000'000;
 
-std::vector<ViewedSensor> two_sensors() {
-  return {{"laser", colour_of("#d55e00"), Place{3.5, 0.5, std::numbers::pi / 2.0}, ViewedField{1.0, 0.0, 120.0}},
-          {"camera", colour_of("#0072b2"), std::nullopt, std::nullopt}};
+std::vector<scene::ViewedSensor> two_sensors() {
+  return {{"laser", "#d55e00", scene::Place{3.5, 0.5, std::numbers::pi / 2.0}, scene::ViewedField{1.0, 0.0, 120.0}},
+          {"camera", "#0072b2", std::nullopt, std::nullopt}};
 }
 
 // Every instant is the same on all clocks.
@@ -39,7 +39,7 @@ struct Scene {
   FoxgloveExport out;
   SceneCounts counts;
 
-  explicit Scene(std::vector<ViewedSensor> sensors = {}) : out(path, std::move(sensors)) {}
+  explicit Scene(std::vector<scene::ViewedSensor> sensors = {}) : out(path, std::move(sensors)) {}
 
   static records::Stamp at(NodeId node, std::int64_t ns) { return {{ns}, {ns}, {ns}, node}; }
 

@@ -1,19 +1,10 @@
-// Plain terms for the parts of a scene.
+// A sensor in a scene, in plain terms. Coordinates follow ISO 8855: metres and radians.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <string_view>
 
-namespace ttf::recording::exports::viewer {
-
-// Red, green, blue and opacity, each 0..1.
-struct Colour {
-  double r = 1.0, g = 1.0, b = 1.0, a = 1.0;
-};
-// Returns the colour of "#d55e00"; white for other texts.
-Colour colour_of(std::string_view text);
-constexpr Colour with_opacity(Colour colour, double a) { return {colour.r, colour.g, colour.b, a}; }
+namespace ttf::recording::scene {
 
 struct Point {
   double x = 0.0, y = 0.0;  // [m]
@@ -29,9 +20,9 @@ struct ViewedField {
 };
 struct ViewedSensor {
   std::string name;
-  Colour colour;
+  std::string colour;                // "#d55e00"
   std::optional<Place> mounting;     // on the vehicle; absent: unknown
   std::optional<ViewedField> field;  // absent: unknown
 };
 
-}  // namespace ttf::recording::exports::viewer
+}  // namespace ttf::recording::scene

@@ -1,0 +1,89 @@
+#include "cli/logs/viewed_sensors.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/file_kind.h"
+#include "drives/scenario.h"
+#include "drives/step_catalog.h"
+#include "report/drawing/names.h"
+#include "schedules/file/loader.h"
+
+namespace ttf::cli::logs {
+namespace {
+
+using recording::scene::Place;
+using recording::scene::ViewedField;
+using recording::scene::ViewedSensor;
+
+// The drive's descriptions, as its log has them.
+struct Attached {
+  std::optional<drives::Scenario> scenario;
+  std::optional<schedules::model::Cluster> cluster;
+};
+
+Attached attached_to(const recording::merge::MergedLogs& drive, std::vector<std::string>& warnings) {
+  Attached found;
+  for (const recording::log::Attachment& one : drive.attachments()) {
+    if (one.media_type != "application/yaml") continue;
+    try {
+      const std::optional<FileKind> kind = kind_of(StrictYaml::parse(one.bytes, one.name));
+      if (kind == FileKind::kScenario) found.scenario = drives::parse_scenario(one.bytes, one.name);
+      if (kind == FileKind::kCluster) found.cluster = schedules::file::parse_cluster(one.bytes, one.name);
+    } catch (const InputError& error) {
+      // An older version's scenario, or a damaged one.
+      warnings.push_back(fmt::format("the sensors' places are left out: {}", error.findings().front().sentence()));
+    }
+  }
+  return found;
+}
+
+// A sensor that the world emulates, as it is. The knowledge of the fusion may differ.
+template <class Model> void place_emulated(const Model& model, ViewedSensor& sensor) {
+  sensor.mounting = Place{model.device.placement.x, model.device.placement.y, model.device.placement.heading};
+  sensor.field = ViewedField{model.half_field_rad, 0.0, model.max_range_m};
+}
+
+// A recorded sensor, as the fusion knows it.
+void place_known(const fusion::sensors::KnownSensor& known, ViewedSensor& sensor) {
+  sensor.mounting = Place{known.mounting.position.x(), known.mounting.position.y(), known.mounting.yaw};
+  if (known.field && known.field->max_range < fusion::sensors::Field::kUnbounded)
+    sensor.field = ViewedField{known.field->half_angle, known.field->min_range, known.field->max_range};
+}
+
+void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor) {
+  if (!attached.scenario || !attached.cluster || index >= attached.cluster->sensors.size()) return;
+  const schedules::model::Sensor& of = attached.cluster->sensors[index];
+  if (!drives::is_recorded(*attached.cluster)) {
+    switch (of.kind) {
+      case schedules::model::SensorKind::kLaser:
+        return place_emulated(attached.scenario->sensors.lasers.of(of.name).model, sensor);
+      case schedules::model::SensorKind::kCamera:
+        return place_emulated(attached.scenario->sensors.cameras.of(of.name).model, sensor);
+      case schedules::model::SensorKind::kRadar: break;
+    }
+  }
+  for (const fusion::sensors::KnownSensor& known : attached.scenario->tracker.sensors)
+    if (known.name == of.name) place_known(known, sensor);
+}
+
+}  // namespace
+
+std::vector<ViewedSensor> viewed_sensors(const recording::merge::MergedLogs& drive,
+                                         std::vector<std::string>& warnings) {
+  const report::drawing::Names names = report::drawing::names_of(drive.manifest());
+  const Attached attached = attached_to(drive, warnings);
+  std::vector<ViewedSensor> sensors(names.sensors.size());
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const auto id = static_cast<SensorId>(s);
+    sensors[s].name = names.sensor(id);
+    sensors[s].colour = report::drawing::sensor_colour(names, id);
+    place_in(attached, s, sensors[s]);
+  }
+  return sensors;
+}
+
+}  // namespace ttf::cli::logs

@@ -1,0 +1,58 @@
+#include "recording/scene/geometry.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace ttf::recording::scene {
+namespace {
+
+constexpr int kEllipsePoints = 24, kArcPoints = 32;
+
+}  // namespace
+
+std::vector<Point> ellipse(const records::ImageObject& object) {
+  if (!std::isfinite(object.sigma_x) || !std::isfinite(object.sigma_y)) return {};
+  const double rest = std::sqrt(std::max(0.0, 1.0 - object.correlation_xy * object.correlation_xy));
+  std::vector<Point> points;
+  for (int k = 0; k < kEllipsePoints; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / kEllipsePoints, c = std::cos(angle), s = std::sin(angle);
+    points.push_back({object.x + kEllipseSigmas * object.sigma_x * c,
+                      object.y + kEllipseSigmas * object.sigma_y * (object.correlation_xy * c + rest * s)});
+  }
+  return points;
+}
+
+std::array<Point, 4> rectangle(const Place& place, double length, double width) {
+  const double c = std::cos(place.heading), s = std::sin(place.heading), l = 0.5 * length, w = 0.5 * width;
+  const auto corner = [&](double along, double across) {
+    return Point{place.x + c * along - s * across, place.y + s * along + c * across};
+  };
+  return {corner(l, w), corner(-l, w), corner(-l, -w), corner(l, -w)};
+}
+
+std::vector<Point> edge(const ViewedField& field) {
+  const bool all_around = field.half_angle >= std::numbers::pi;
+  const double half = all_around ? std::numbers::pi : field.half_angle;
+  std::vector<Point> points;
+  const auto arc = [&](double range, double from, double to) {
+    for (int k = 0; k <= kArcPoints; ++k) {
+      const double angle = from + (to - from) * k / kArcPoints;
+      points.push_back({range * std::cos(angle), range * std::sin(angle)});
+    }
+  };
+  arc(field.max_range, -half, half);
+  if (all_around) return points;
+  if (field.min_range > 0.0)
+    arc(field.min_range, half, -half);
+  else
+    points.push_back({});
+  return points;
+}
+
+std::vector<Point> mounted(const Place& mounting, std::vector<Point> points) {
+  const double c = std::cos(mounting.heading), s = std::sin(mounting.heading);
+  for (Point& p : points) p = {mounting.x + c * p.x - s * p.y, mounting.y + s * p.x + c * p.y};
+  return points;
+}
+
+}  // namespace ttf::recording::scene

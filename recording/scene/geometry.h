@@ -1,0 +1,33 @@
+// Outlines of a scene's parts: an object's rectangle, an estimate's ellipse, the edge of a sensor's field.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "recording/records/records.h"
+#include "recording/scene/viewed.h"
+
+namespace ttf::recording::scene {
+
+// Checks that an object of a truth or an image has finite numbers; a damaged log may have others.
+template <class Object> bool drawable(const Object& object) {
+  return std::isfinite(object.x) && std::isfinite(object.y) && std::isfinite(object.heading) &&
+         std::isfinite(object.length) && std::isfinite(object.width);
+}
+template <class Object> Place place_of(const Object& object) { return {object.x, object.y, object.heading}; }
+
+// The ellipse of so many standard deviations has 39 % (1), 86 % (2) or 99 % (3) of a Gaussian in the plane.
+inline constexpr double kEllipseSigmas = 2.0;
+// Returns the outline of an object's position as a Gaussian; empty if a damaged log has none.
+std::vector<Point> ellipse(const records::ImageObject& object);
+
+// Returns the corners of a rectangle with its centre at `place`, counter-clockwise from the front left.
+std::array<Point, 4> rectangle(const Place& place, double length, double width);
+
+// Returns the edge of a field in the sensor's axes: an arc at its longest range, and back at its shortest.
+std::vector<Point> edge(const ViewedField& field);
+// Returns the points, given in the axes of `mounting`, in the vehicle's.
+std::vector<Point> mounted(const Place& mounting, std::vector<Point> points);
+
+}  // namespace ttf::recording::scene
