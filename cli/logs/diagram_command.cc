@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
+#include "cli/decimal_option.h"
 #include "cli/drive_progress.h"
 #include "cli/logs/log_inputs.h"
 #include "cli/logs/scan_verdict.h"
+#include "cli/logs/viewed_sensors.h"
 #include "cli/output.h"
 #include "cli/paper_size.h"
 #include "cli/time_window.h"
@@ -26,6 +29,8 @@
 #include "report/plots/boxes_picture.h"
 #include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
+#include "report/scene/replay.h"
+#include "report/scene/still.h"
 #include "report/startup/diagram.h"
 #include "report/timing/diagram.h"
 
@@ -41,6 +46,7 @@ struct DiagramOptions {
   std::string out;
   std::optional<int> frame, object;
   PaperSizeOptions paper;
+  std::optional<std::string> at;
 };
 
 // Finds the end of the last task.
@@ -194,6 +200,36 @@ std::string over_time(const DiagramOptions& options, const report::drawing::Shee
   return as_timing ? timing(drives[0], from, to, sheet) : positions(drives, from, to, options, sheet);
 }
 
+// Draws the scene at an instant, by default half-way through the log.
+std::string scene(const DiagramOptions& options) {
+  for (const auto& [name, text] : {std::pair("--from", options.window.from), std::pair("--to", options.window.to)})
+    if (text)
+      throw InputError(
+          {"command line", 0, name, *text, "does not go with --kind scene, which shows one instant (--at)"});
+  constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+  constexpr Range<std::int64_t> kInstants{0, 1'000'000'000 * kNsPerSecond};  // as of a time window
+  std::optional<TrueTime> at;
+  if (options.at) at = TrueTime{decimal_option("--at", *options.at, kNsPerSecond, kInstants, " s")};
+  const recording::merge::MergedLogs drive = drive_in(options.logs);
+  Extent extent;
+  read_shown(drive, extent);
+  if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
+  if (at && *at > extent.last)
+    throw InputError({"command line", 0, "--at", *options.at,
+                      fmt::format("must be at most {:g} s, the end of the log", (extent.last - TrueTime{}).seconds())});
+  const TrueTime shown = at.value_or(TrueTime{extent.last.ns / 2});
+  std::vector<std::string> warnings;
+  report::scene::SceneLimits limits;
+  limits.bytes = std::numeric_limits<std::size_t>::max();
+  limits.from = shown - report::scene::SceneSink::kBefore;
+  limits.to = shown + report::scene::SceneSink::kAfter;
+  report::scene::SceneSink sink(viewed_sensors(drive, warnings), limits);
+  read_shown(drive, sink);
+  for (const std::string& warning : warnings) print_warnings(warning);
+  const report::drawing::Names names = report::drawing::names_of(drive.manifest());
+  return report::scene::scene_svg(sink.finished(), shown, names, names.drive);
+}
+
 // Draws any kind but boxes.
 std::string picture(const DiagramOptions& options) {
   if (options.frame)
@@ -201,8 +237,11 @@ std::string picture(const DiagramOptions& options) {
   if (options.object && options.kind != "position" && options.kind != "plane")
     throw InputError(
         {"command line", 0, "--object", fmt::format("{}", *options.object), "goes with --kind position or plane only"});
+  if (options.at && options.kind != "scene")
+    throw InputError({"command line", 0, "--at", *options.at, "goes with --kind scene only"});
   const report::drawing::Sheet sheet = sheet_of(options.paper);
   if (options.kind == "startup") return startup(options, sheet);
+  if (options.kind == "scene") return scene(options);
   return options.kind == "lateness" ? lateness(options, sheet) : over_time(options, sheet);
 }
 
@@ -218,13 +257,15 @@ int run_diagram(const DiagramOptions& options) {
 
 void add_diagram(CLI::App& app, Action& action) {
   auto options = std::make_shared<DiagramOptions>();
-  CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
+  CLI::App* command =
+      app.add_subcommand("diagram", "Timing and start-up diagrams, position plots and scenes from logs");
   command->footer(
       "The logs of a run's processes are merged; position and plane show several runs side by side.\n"
       "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o out/timing.svg\n"
       "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o out/timing.svg\n"
       "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o out/startup.svg\n"
-      "          ttfusion diagram out/drive/tt.mcap --kind plane --width 88mm --font-size 8 -o out/plane.pdf");
+      "          ttfusion diagram out/drive/tt.mcap --kind plane --width 88mm --font-size 8 -o out/plane.pdf\n"
+      "          ttfusion diagram out/drive/tt.mcap --kind scene --at 1.5 -o out/scene.svg");
   command
       ->add_option(
           "logs", options->logs,
@@ -237,10 +278,12 @@ void add_diagram(CLI::App& app, Action& action) {
       "End of the time window, in true time (default: the end; for a timing diagram 160 ms after its start, "
       "for a start-up diagram two cycles after the start-up)");
   command
-      ->add_option("--kind", options->kind,
-                   "timing, startup (states and transmissions), lateness (of wake-ups, in real time), "
-                   "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
-      ->check(one_of({"timing", "startup", "lateness", "position", "plane", "boxes"}))
+      ->add_option(
+          "--kind", options->kind,
+          "timing, startup (states and transmissions), lateness (of wake-ups, in real time), "
+          "position (x and y over time), plane (y over x), scene (an instant, seen from above), or boxes (of a "
+          "recorded laser scan)")
+      ->check(one_of({"timing", "startup", "lateness", "position", "plane", "scene", "boxes"}))
       ->capture_default_str();
   command
       ->add_option("--object", options->object,
@@ -248,6 +291,7 @@ void add_diagram(CLI::App& app, Action& action) {
       ->check(whole_number({0, kMostObjects - 1}));
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(whole_number({0, kMostScans - 1}));
+  command->add_option("--at", options->at, "Instant of a scene, in true time [s] (default: half-way through the log)");
   add_paper_size(*command, options->paper);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required()->check(named());
   command->callback([options, &action] { action = [options] { return run_diagram(*options); }; });

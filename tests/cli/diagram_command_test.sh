@@ -55,6 +55,17 @@ expect 2 'tt.mcap: has no lateness: the run was not in real time' \
   diagram "$work/tt.mcap" --kind lateness -o "$work/none.svg"
 expect 2 '--to = 1.5: does not go with --kind lateness' \
   diagram "$work/tt.mcap" --kind lateness --to 1.5 -o "$work/none.svg"
+expect 0 '^wrote .*/scene.svg$' diagram "$work/tt.mcap" --kind scene --at 1.75 -o "$work/scene.svg"
+for part in 'at 1.750 s' 'class="truth"' 'class="track"' 'class="ellipse"' 'class="field"' 'class="observation"'; do
+  grep -q "$part" "$work/scene.svg" || fail "the scene has no $part"
+done
+expect 2 '--at = 50: must be at most .* s, the end of the log' \
+  diagram "$work/tt.mcap" --kind scene --at 50 -o "$work/none.svg"
+expect 2 '--at = soon: must be a decimal number 0..1000000000 s' \
+  diagram "$work/tt.mcap" --kind scene --at soon -o "$work/none.svg"
+expect 2 '--from = 1: does not go with --kind scene' \
+  diagram "$work/tt.mcap" --kind scene --from 1 -o "$work/none.svg"
+expect 2 '--at = 1: goes with --kind scene only' diagram "$work/tt.mcap" --at 1 -o "$work/none.svg"
 expect 2 '--frame = 3: goes with --kind boxes' diagram "$work/tt.mcap" --frame 3 -o "$work/none.svg"
 head -c 100 "$work/tt.mcap" >"$work/empty.mcap"
 expect 2 'empty.mcap: holds only the beginning of a log: 100 bytes, no manifest, no record' \

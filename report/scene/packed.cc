@@ -1,0 +1,211 @@
+#include "report/scene/packed.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "recording/scene/geometry.h"
+
+namespace ttf::report::scene {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian");
+
+// A column of numbers, as bytes.
+template <class Number> class Column {
+ public:
+  // Adds the value in units of 1 / per_unit.
+  void add(double value, double per_unit = 1.0) {
+    value *= per_unit;
+    if constexpr (std::is_floating_point_v<Number>) {
+      put(static_cast<Number>(value));
+    } else {
+      using Limits = std::numeric_limits<Number>;
+      const double whole = std::isnan(value) ? 0.0 : std::round(value);
+      put(static_cast<Number>(
+          std::clamp(whole, static_cast<double>(Limits::min()), static_cast<double>(Limits::max()))));
+    }
+  }
+  std::string text() const { return base64(bytes_); }
+
+ private:
+  void put(Number number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof number); }
+
+  std::string bytes_;
+};
+
+struct Times {
+  Column<double> at;
+  Column<std::uint16_t> count;
+  template <class Part> explicit Times(const std::vector<Moment<Part>>& moments) {
+    for (const Moment<Part>& moment : moments) {
+      at.add(static_cast<double>(moment.at.ns) * 1e-9);
+      count.add(static_cast<double>(most(moment)));
+    }
+  }
+  template <class Part> static std::size_t most(const Moment<Part>& moment) {
+    return std::min<std::size_t>(moment.parts.size(), std::numeric_limits<std::uint16_t>::max());
+  }
+  Json json() const { return {{"at", at.text()}, {"count", count.text()}}; }
+};
+
+template <class Part, class F> void each(const std::vector<Moment<Part>>& moments, F&& f) {
+  for (const Moment<Part>& moment : moments)
+    for (std::size_t i = 0; i < Times::most(moment); ++i) f(moment.parts[i]);
+}
+
+double angle(double heading) { return std::remainder(heading, 2.0 * std::numbers::pi) / std::numbers::pi * 32767.0; }
+
+Json truth_json(const Scene& scene, double unit) {
+  Column<std::uint16_t> id;
+  Column<std::int16_t> x, y, heading;
+  std::map<std::uint16_t, std::pair<float, float>> sizes;
+  each(scene.truth, [&](const TrueObject& one) {
+    id.add(static_cast<double>(index_of(one.id)));
+    x.add(one.x, 1.0 / unit);
+    y.add(one.y, 1.0 / unit);
+    heading.add(angle(one.heading));
+    sizes[static_cast<std::uint16_t>(one.id)] = {one.length, one.width};
+  });
+  Json json = Times(scene.truth).json();
+  json["id"] = id.text();
+  json["x"] = x.text();
+  json["y"] = y.text();
+  json["heading"] = heading.text();
+  Column<std::uint16_t> of, length, width;
+  for (const auto& [object, size] : sizes) {
+    of.add(object);
+    length.add(size.first, 100.0);
+    width.add(size.second, 100.0);
+  }
+  json["sizes"] = {{"id", of.text()}, {"length", length.text()}, {"width", width.text()}};
+  return json;
+}
+
+Json images_json(const Scene& scene, double unit) {
+  Column<std::uint16_t> id, length, width, sigma_x, sigma_y;
+  Column<std::int16_t> x, y, heading, speed;
+  Column<std::int8_t> correlation;
+  Column<std::uint8_t> status;
+  each(scene.images, [&](const ShownTrack& one) {
+    id.add(static_cast<double>(index_of(one.id)));
+    x.add(one.x, 1.0 / unit);
+    y.add(one.y, 1.0 / unit);
+    heading.add(angle(one.heading));
+    speed.add(one.speed, 100.0);
+    length.add(one.length, 100.0);
+    width.add(one.width, 100.0);
+    sigma_x.add(one.sigma_x, 100.0);
+    sigma_y.add(one.sigma_y, 100.0);
+    correlation.add(one.correlation, 127.0);
+    status.add(one.status);
+  });
+  Json json = Times(scene.images).json();
+  json["id"] = id.text();
+  json["x"] = x.text();
+  json["y"] = y.text();
+  json["heading"] = heading.text();
+  json["speed"] = speed.text();
+  json["length"] = length.text();
+  json["width"] = width.text();
+  json["sigma_x"] = sigma_x.text();
+  json["sigma_y"] = sigma_y.text();
+  json["correlation"] = correlation.text();
+  json["status"] = status.text();
+  return json;
+}
+
+Json list_json(const std::vector<Moment<Point>>& moments, double unit) {
+  Column<std::int16_t> x, y;
+  each(moments, [&](const Point& one) {
+    x.add(one.x, 1.0 / unit);
+    y.add(one.y, 1.0 / unit);
+  });
+  Json json = Times(moments).json();
+  json["x"] = x.text();
+  json["y"] = y.text();
+  return json;
+}
+
+Json warnings_json(const Scene& scene) {
+  Column<std::uint16_t> id;
+  Column<float> collision, gap;
+  each(scene.warnings, [&](const Warning& one) {
+    id.add(static_cast<double>(index_of(one.track)));
+    collision.add(one.time_to_collision_s);
+    gap.add(one.time_gap_s);
+  });
+  Json json = Times(scene.warnings).json();
+  json["id"] = id.text();
+  json["collision"] = collision.text();
+  json["gap"] = gap.text();
+  return json;
+}
+
+Json sensor_json(const Scene& scene, std::size_t index, const drawing::Names& names) {
+  static constexpr std::string_view kMarkers[] = {"circle",  "cross",         "triangle", "square",
+                                                  "diamond", "down_triangle", "plus"};
+  const ViewedSensor& sensor = scene.sensors[index];
+  const drawing::Marker marker = drawing::sensor_marker(names, static_cast<SensorId>(index));
+  Json json{{"name", sensor.name}, {"colour", sensor.colour}, {"marker", kMarkers[static_cast<std::size_t>(marker)]}};
+  json["edge"] = Json::array();
+  if (!sensor.field || !sensor.mounting) return json;
+  const auto cm = [](double metres) { return std::round(metres * 100.0) / 100.0; };
+  for (const Point& p : recording::scene::mounted(*sensor.mounting, recording::scene::edge(*sensor.field)))
+    json["edge"].push_back({cm(p.x), cm(p.y)});
+  return json;
+}
+
+// The centimetre, or as much as the farthest object needs.
+double unit_of(const Scene& scene) {
+  double farthest = 0.0;
+  const auto reach = [&](const auto& one) {
+    farthest = std::max({farthest, std::abs(static_cast<double>(one.x)), std::abs(static_cast<double>(one.y))});
+  };
+  each(scene.truth, reach);
+  each(scene.images, reach);
+  for (const auto& moments : scene.lists) each(moments, reach);
+  return std::max(0.01, farthest / 32000.0);
+}
+
+}  // namespace
+
+std::string base64(std::string_view bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return out;
+}
+
+Json packed(const Scene& scene, const drawing::Names& names, const std::string& label, int colour) {
+  const double unit = unit_of(scene);
+  Json json{{"label", label},
+            {"colour", colour},
+            {"from", static_cast<double>(scene.first.ns) * 1e-9},
+            {"to", static_cast<double>(scene.last.ns) * 1e-9},
+            {"unit", unit},
+            {"note", scene.thinned_words()},
+            {"sensors", Json::array()},
+            {"truth", truth_json(scene, unit)},
+            {"images", images_json(scene, unit)},
+            {"lists", Json::array()},
+            {"warnings", warnings_json(scene)}};
+  for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+    json["sensors"].push_back(sensor_json(scene, s, names));
+    json["lists"].push_back(list_json(scene.lists[s], unit));
+  }
+  return json;
+}
+
+}  // namespace ttf::report::scene

@@ -1,0 +1,37 @@
+// A scene as JSON for the page's script (report/page/scene_data.js). Numbers are columns of little-endian integers in base64:
+//
+//   at       float64 [s]      one a moment; "count", uint16, has the parts of each
+//   x, y     int16            in units of "unit" [m]
+//   heading  int16            [pi / 32768]
+//   speed    int16 [cm/s], length and width uint16 [cm], sigma_x and sigma_y uint16 [cm], correlation int8 [1/127]
+//
+// Values beyond their type are shown at its end.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <type_traits>
+
+#include "report/drawing/names.h"
+#include "report/scene/replay.h"
+
+namespace ttf::report::scene {
+
+// Bytes of a moment with so many parts, before base64.
+template <class Part> constexpr std::size_t packed_bytes(std::size_t parts) {
+  constexpr std::size_t kMoment = 10;
+  constexpr std::size_t kPart = std::is_same_v<Part, TrueObject>   ? 8
+                                : std::is_same_v<Part, ShownTrack> ? 20
+                                : std::is_same_v<Part, Warning>    ? 10
+                                                                   : 4;
+  return kMoment + kPart * parts;
+}
+
+// `colour` is the drive's number on the page.
+nlohmann::ordered_json packed(const Scene& scene, const drawing::Names& names, const std::string& label, int colour);
+
+// Returns bytes in base64 (RFC 4648, with padding).
+std::string base64(std::string_view bytes);
+
+}  // namespace ttf::report::scene

@@ -1,0 +1,194 @@
+#include "report/scene/still.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "recording/scene/geometry.h"
+#include "report/drawing/axes.h"
+#include "report/scene/view.h"
+
+namespace ttf::report::scene {
+namespace {
+
+using drawing::LegendEntry;
+constexpr std::size_t kMostNamed = 100, kMostLarge = 200;  // tracks with an id, observations in full size
+constexpr std::string_view kTruth = "#777777", kTrack = drawing::kBlack, kWarning = "#d00000";
+
+recording::records::ImageObject image_of(const ShownTrack& track) {
+  recording::records::ImageObject object;
+  object.x = track.x;
+  object.y = track.y;
+  object.sigma_x = track.sigma_x;
+  object.sigma_y = track.sigma_y;
+  object.correlation_xy = track.correlation;
+  return object;
+}
+template <class Object> std::array<Point, 4> corners(const Object& one) {
+  return recording::scene::rectangle({one.x, one.y, one.heading}, one.length, one.width);
+}
+
+struct Window {
+  drawing::Extent x, y;
+  double scale = 1.0;  // user units per metre
+};
+
+// The wider extent fills its side of at most 1100 x 760; the vehicle at the origin is always there.
+Window window_of(const View& view) {
+  Window window;
+  const auto take = [&](const auto& points) {
+    for (const auto& p : points) window.x.add(p.x), window.y.add(p.y);
+  };
+  take(std::array{Point{0.0, 0.0}});
+  for (const TrueObject& one : view.truth) take(corners(one));
+  for (const ShownTrack& one : view.tracks) take(corners(one));
+  for (const auto& points : view.lists) take(points);
+  for (const auto& points : view.trails) take(points);
+  window.x = window.x.padded(0.04, 8.0);
+  window.y = window.y.padded(0.06, 8.0);
+  window.scale = std::min(1100.0 / window.x.size(), 760.0 / window.y.size());
+  window.x = window.x.padded(0.0, 420.0 / window.scale);
+  window.y = window.y.padded(0.0, 200.0 / window.scale);
+  return window;
+}
+
+std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const drawing::Names& names) {
+  std::vector<LegendEntry> legend;
+  const auto add = [&](LegendEntry::Kind kind, std::string text, std::string_view colour) {
+    legend.push_back({kind, std::move(text), std::string(colour)});
+  };
+  legend.push_back(
+      {LegendEntry::Kind::kMarker, "vehicle", std::string(drawing::kBlack), drawing::Marker::kTriangle, true});
+  if (!view.truth.empty()) add(LegendEntry::Kind::kBox, "true object", kTruth);
+  if (!view.tracks.empty()) {
+    const bool named = view.tracks.size() <= kMostNamed;
+    add(LegendEntry::Kind::kBox,
+        fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s", named ? "its id, " : ""), kTrack);
+    const auto coasts = [](const ShownTrack& one) { return (one.status & recording::records::kImageCoasting) != 0; };
+    if (std::ranges::any_of(view.tracks, coasts)) add(LegendEntry::Kind::kBox, "dashed: not observed of late", kTrack);
+  }
+  if (!view.warnings.empty()) add(LegendEntry::Kind::kBox, "warning", kWarning);
+  for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+    const auto id = static_cast<SensorId>(s);
+    const bool field = scene.sensors[s].field && scene.sensors[s].mounting;
+    legend.push_back({LegendEntry::Kind::kMarker,
+                      fmt::format("{}: observations{}", scene.sensors[s].name, field ? ", field" : ""),
+                      scene.sensors[s].colour, drawing::sensor_marker(names, id)});
+  }
+  return legend;
+}
+
+class Painter {
+ public:
+  Painter(drawing::Svg& svg, const drawing::PlotFrame& frame) : svg_(svg), frame_(frame) {}
+
+  void outline(std::span<const Point> points, const drawing::Paint& paint, std::string_view hover,
+               std::string_view css_class, bool closed = true) {
+    std::vector<drawing::Point> at;
+    for (const Point& p : points) at.push_back(frame_.at(p.x, p.y));
+    svg_.polyline(at, paint, closed, hover, css_class);
+  }
+  void field(const ViewedSensor& sensor) {
+    if (!sensor.field || !sensor.mounting) return;
+    const std::vector<Point> edge = recording::scene::mounted(*sensor.mounting, recording::scene::edge(*sensor.field));
+    outline(edge, {.fill = sensor.colour, .opacity = 0.05}, {}, "field");
+    outline(edge, {.stroke = sensor.colour, .width = 0.8, .dash = "6 4", .opacity = 0.6}, sensor.name, "field");
+  }
+  void truth(const TrueObject& one) {
+    outline(corners(one), {.fill = "#dddddd", .stroke = kTruth, .width = 1.1},
+            fmt::format("object {}: {:.1f} m long, {:.1f} m wide", index_of(one.id), one.length, one.width), "truth");
+  }
+  void track(const ShownTrack& one, std::span<const Point> trail) {
+    if (trail.size() > 1) outline(trail, {.stroke = kTrack, .width = 1.0, .opacity = 0.6}, {}, "trail", false);
+    const std::vector<Point> around = recording::scene::ellipse(image_of(one));
+    if (!around.empty()) outline(around, {.stroke = kTrack, .width = 0.8}, {}, "ellipse");
+    const bool coasting = (one.status & recording::records::kImageCoasting) != 0;
+    outline(corners(one), {.stroke = kTrack, .width = 1.6, .dash = coasting ? "4 3" : ""},
+            fmt::format("track {}: {:.1f} m/s", index_of(one.id), one.speed), "track");
+    if (std::abs(one.speed) < 0.1f) return;
+    svg_.arrow(frame_.at(one.x, one.y),
+               frame_.at(one.x + one.speed * std::cos(one.heading), one.y + one.speed * std::sin(one.heading)),
+               {.stroke = kTrack, .width = 1.0}, {}, "velocity");
+  }
+  // Writes beside an object, where there is room.
+  template <class Object>
+  void name(const Object& one, const std::string& text, std::string_view colour, drawing::LabelSpace& labels) {
+    drawing::Extent x, y;
+    for (const Point& p : corners(one)) {
+      const drawing::Point at = frame_.at(p.x, p.y);
+      x.add(at.x), y.add(at.y);
+    }
+    const drawing::TextStyle style{
+        .size = 10.5, .anchor = drawing::Anchor::kMiddle, .fill = colour, .bold = true, .halo = true};
+    const double half = drawing::text_width(text, style.size, true) / 2, centre = (x.low + x.high) / 2;
+    const std::array candidates{drawing::Point{centre, y.low - 5}, drawing::Point{centre, y.high + 13},
+                                drawing::Point{x.high + 6 + half, (y.low + y.high) / 2 + 4},
+                                drawing::Point{x.low - 6 - half, (y.low + y.high) / 2 + 4}};
+    if (const auto at = labels.place(text, style, candidates, frame_.area())) svg_.text(*at, text, style);
+  }
+
+ private:
+  drawing::Svg& svg_;
+  const drawing::PlotFrame& frame_;
+};
+
+void paint(const Scene& scene, const View& view, const drawing::Names& names, const drawing::PlotFrame& frame,
+           drawing::Svg& svg) {
+  Painter painter(svg, frame);
+  svg.open_group("scene", frame.area());
+  for (const ViewedSensor& sensor : scene.sensors) painter.field(sensor);
+  for (const TrueObject& one : view.truth) painter.truth(one);
+  for (std::size_t t = 0; t < view.tracks.size(); ++t) painter.track(view.tracks[t], view.trails[t]);
+  std::size_t observations = 0;
+  for (const auto& points : view.lists) observations += points.size();
+  const double size = observations <= kMostLarge ? 8.0 : 5.0;
+  for (std::size_t s = 0; s < view.lists.size(); ++s)
+    for (const Point& p : view.lists[s])
+      svg.marker(drawing::sensor_marker(names, static_cast<SensorId>(s)), frame.at(p.x, p.y), size,
+                 {.stroke = scene.sensors[s].colour, .width = 1.4}, scene.sensors[s].name, "observation");
+  const drawing::Point own = frame.at(0, 0);  // an arrow head along x
+  svg.polyline(std::array{drawing::Point{own.x + 7, own.y}, drawing::Point{own.x - 6, own.y - 6},
+                          drawing::Point{own.x - 6, own.y + 6}},
+               {.fill = drawing::kBlack}, true, "vehicle", "vehicle");
+  drawing::LabelSpace labels;
+  for (const Warning& warning : view.warnings) {
+    const auto one = std::ranges::find(view.tracks, warning.track, &ShownTrack::id);
+    painter.outline(corners(*one), {.stroke = kWarning, .width = 2.6}, words_of(warning), "warning");
+    painter.name(*one, fmt::format("{}: {}", index_of(one->id), words_of(warning)), kWarning, labels);
+  }
+  for (const ShownTrack& one : view.tracks)
+    if (view.tracks.size() <= kMostNamed &&
+        std::ranges::find(view.warnings, one.id, &Warning::track) == view.warnings.end())
+      painter.name(one, std::to_string(index_of(one.id)), kTrack, labels);
+  svg.close_group();
+}
+
+}  // namespace
+
+std::string scene_svg(const Scene& scene, TrueTime at, const drawing::Names& names, std::string_view title) {
+  const View view = view_at(scene, at);
+  const std::string heading = fmt::format("{}, at {:.3f} s", title, static_cast<double>(at.ns) * 1e-9);
+  const auto empty = [](const auto& points) { return points.empty(); };
+  if (view.truth.empty() && view.tracks.empty() && std::ranges::all_of(view.lists, empty))
+    return drawing::empty_picture(heading, "At this instant the log has no object, no track and no observation.");
+  const Window window = window_of(view);
+  const double width = window.x.size() * window.scale, height = window.y.size() * window.scale;
+  const std::vector<LegendEntry> legend = legend_of(scene, view, names);
+  const double top = 34 + legend_height(legend, width) + 8;
+  drawing::Svg svg(width + 90, top + height + 76, heading);
+  svg.text({70 + width / 2, 22}, heading, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
+  draw_legend(svg, {70, 34}, width, legend);
+  const drawing::PlotFrame frame({70, top, width, height}, window.x, window.y);
+  frame.draw(svg, "x, forward [m]", "y, left [m]");
+  paint(scene, view, names, frame, svg);
+  const drawing::TextStyle small{.size = 10, .fill = "#444444"};
+  svg.text({70, top + height + 54}, "In the vehicle's frame: x forward, y to the left (ISO 8855).", small);
+  svg.text({70, top + height + 68}, "Tracks are moved on by their velocity since the newest image.", small);
+  return svg.str();
+}
+
+}  // namespace ttf::report::scene

@@ -1,0 +1,28 @@
+// A scene at one instant. The page's script has the same rules (report/page/scene_data.js).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/scene/replay.h"
+
+namespace ttf::report::scene {
+
+// Truth and images last so long without another one, a list until its sensor's next one, or shorter.
+inline constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife = Duration::milliseconds(300);
+inline constexpr Duration kTrail = Duration::milliseconds(2000);
+
+struct View {
+  std::vector<TrueObject> truth;          // between two instants of the log: on the straight line between them
+  std::vector<ShownTrack> tracks;         // of the newest image at most as old; moved on by their velocity since
+  std::vector<std::vector<Point>> lists;  // by SensorId
+  std::vector<Warning> warnings;          // of these tracks
+  std::vector<std::vector<Point>>
+      trails;  // of each track: the newest images' places, at most kTrail old, the oldest first
+};
+View view_at(const Scene& scene, TrueTime at);
+
+// Returns "collision in 1.2 s", "gap of 0.4 s" or "warning".
+std::string words_of(const Warning& warning);
+
+}  // namespace ttf::report::scene
