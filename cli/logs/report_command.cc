@@ -14,6 +14,7 @@
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/experiment/drives.h"
+#include "cli/logs/viewed_sensors.h"
 #include "cli/output.h"
 #include "cli/time_window.h"
 #include "core/errors.h"
@@ -39,10 +40,18 @@ struct ReportOptions {
 constexpr std::size_t kMostDrives = 10;                   // an experiment's with timing diagrams
 constexpr Duration kDrawn = Duration::milliseconds(960);  // all of them together, at most 160 ms each
 
+void place_sensors(std::vector<report::drive::Drive>& drives) {
+  std::vector<std::string> warnings;
+  for (report::drive::Drive& drive : drives)
+    if (drive.log) drive.sensors = viewed_sensors(*drive.log, warnings);
+  print_warnings(warnings);
+}
+
 std::string experiment_html(const ReportOptions& options, report::drive::DiagramWindow window) {
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);
   report::experiment::ExperimentDrives drives;
   if (!options.no_drives) drives = experiment::drives_of(folder, options.file, options.point);
+  place_sensors(drives.drives);
   if (!drives.why_none.empty()) print_warnings(drives.why_none);
   window.most = kMostDrives;
   const auto shown = static_cast<std::int64_t>(std::clamp(drives.drives.size(), std::size_t{1}, kMostDrives));
@@ -90,6 +99,7 @@ std::string html(const ReportOptions& options) {
     std::vector<report::drive::ResultsFolder> folders;
     for (const std::string& path : options.folders) {
       folders.push_back(report::drive::read_results_folder(path));
+      place_sensors(folders.back().drives);
       for (const report::drive::Drive& drive : folders.back().drives)
         if (drive.log) print_warnings(drive.log->warnings());
     }

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "core/counted.h"
+#include "recording/records/tee.h"
 #include "report/drive/plots.h"
 #include "report/drive/scenario_words.h"
+#include "report/scene/packed.h"
 #include "report/timing/diagram.h"
 
 namespace ttf::report::drive {
@@ -15,12 +19,58 @@ namespace {
 
 constexpr Duration kLongestDiagram = Duration::milliseconds(2000);
 
+// Sensors whose places are unknown have their names and colours.
+std::vector<scene::ViewedSensor> sensors_of(const Drive& drive) {
+  if (!drive.sensors.empty()) return drive.sensors;
+  const drawing::Names names = drawing::names_of(drive.log->manifest());
+  std::vector<scene::ViewedSensor> sensors;
+  for (std::size_t s = 0; s < names.sensors.size(); ++s) {
+    const auto id = static_cast<SensorId>(s);
+    sensors.push_back({names.sensor(id), drawing::sensor_colour(names, id), std::nullopt, std::nullopt});
+  }
+  return sensors;
+}
+
 }  // namespace
 
-ToldDrive told_of(const Drive& drive) {
-  DriveSeriesSink sink;
-  if (drive.log) drive.log->read(sink);
-  return {&drive, sink.finish()};
+std::vector<ToldDrive> told_of(const std::vector<const Drive*>& drives) {
+  std::vector<ToldDrive> told;
+  std::size_t scenes = 0;
+  for (const Drive* drive : drives) {
+    ToldDrive& one = told.emplace_back();
+    one.drive = drive;
+    if (!drive->log) continue;
+    DriveSeriesSink series;
+    if (scenes++ < kMostScenes) {
+      scene::SceneSink scene(sensors_of(*drive), {});
+      recording::records::Tee both({&series, &scene});
+      drive->log->read(both);
+      one.scene = scene.finished();
+    } else {
+      drive->log->read(series);
+    }
+    one.series = series.finish();
+  }
+  return told;
+}
+
+void scene_section(page::Page& page, const std::vector<ToldDrive>& drives) {
+  std::vector<nlohmann::ordered_json> scenes;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const ToldDrive& told = drives[d];
+    if (told.scene.empty()) continue;
+    const drawing::Names names = drawing::names_of(told.drive->log->manifest());
+    scenes.push_back(scene::packed(told.scene, names, told.drive->label, static_cast<int>(d)));
+  }
+  if (scenes.empty()) return;
+  const auto logs = static_cast<std::size_t>(
+      std::ranges::count_if(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; }));
+  page.section("The drive from above");
+  std::string caption;
+  if (logs > kMostScenes) caption = fmt::format("The first {} of {} drives are shown. ", kMostScenes, logs);
+  page.scenes(std::move(scenes), caption +
+                                     "In the vehicle's frame, x to the right. Tracks are moved on by their velocity "
+                                     "from image to image. Plots over time and timing diagrams show the same instant.");
 }
 
 void errors_section(page::Page& page, const std::vector<ToldDrive>& drives) {

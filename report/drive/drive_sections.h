@@ -20,10 +20,13 @@ struct DiagramWindow {
   std::size_t most = 6;                           // drives
 };
 
-// Returns the drive with the series of its log.
-ToldDrive told_of(const Drive& drive);
+inline constexpr std::size_t kMostScenes = 6;  // drives
+
+// Returns the drives with the series of their logs, and the first with their scenes.
+std::vector<ToldDrive> told_of(const std::vector<const Drive*>& drives);
 
 // Each section is omitted if it is empty, except the faults: their absence deserves a sentence.
+void scene_section(page::Page& page, const std::vector<ToldDrive>& drives);
 void errors_section(page::Page& page, const std::vector<ToldDrive>& drives);
 void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window);
 void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives,

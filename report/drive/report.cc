@@ -157,17 +157,19 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
 
 std::string drive_report_html(std::vector<ResultsFolder> folders, const DiagramWindow& window) {
   label_drives(folders);
-  std::vector<ToldDrive> drives;
+  std::vector<const Drive*> all;
   std::set<std::string> scenarios;
   for (const ResultsFolder& folder : folders)
     for (const Drive& drive : folder.drives) {
-      drives.push_back(told_of(drive));
+      all.push_back(&drive);
       scenarios.insert(drive.scenario);
     }
+  const std::vector<ToldDrive> drives = told_of(all);
   page::Page page(joined({scenarios.begin(), scenarios.end()}),
                   folders.size() == 1 ? "Report of a run" : fmt::format("Report of {} runs", folders.size()));
   asked(page, folders, drives);
   answered(page, folders, drives);
+  scene_section(page, drives);
   errors_section(page, drives);
   timing_section(page, drives, window);
   time_base_section(page, drives, window.most);

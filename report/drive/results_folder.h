@@ -11,6 +11,7 @@
 
 #include "core/time.h"
 #include "recording/merge/merge.h"
+#include "recording/scene/viewed.h"
 
 namespace ttf::report::drive {
 
@@ -27,6 +28,7 @@ struct Drive {
   nlohmann::ordered_json summary;                           // its part of summary.json; null without one
   std::shared_ptr<const recording::merge::MergedLogs> log;  // null if no log was kept
   std::optional<Duration> duration{};                       // by the folder's summary
+  std::vector<recording::scene::ViewedSensor> sensors{};    // by SensorId; empty: only the log's names are known
 };
 
 struct ResultsFolder {

@@ -8,12 +8,14 @@
 #include "report/drive/results_folder.h"
 #include "report/drive/series.h"
 #include "report/page/page.h"
+#include "report/scene/replay.h"
 
 namespace ttf::report::drive {
 
 struct ToldDrive {
   const Drive* drive = nullptr;
-  DriveSeries series;  // empty without a log
+  DriveSeries series;    // empty without a log
+  scene::Scene scene{};  // empty without one, and beyond the first kMostScenes
 };
 
 // Returns the number at the pointer ("/rmse_truth/position_m") of a drive's summary.

@@ -283,8 +283,10 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
       "The runs of point {}{}, replication {}, driven again for their logs, with the very numbers in "
       "results.sqlite. All paradigms had the same draws. One replication of many makes no difference certain.",
       drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
-  std::vector<drive::ToldDrive> all;
-  for (const drive::Drive& drive : drives.drives) all.push_back(told_of(drive));
+  std::vector<const drive::Drive*> shown;
+  for (const drive::Drive& drive : drives.drives) shown.push_back(&drive);
+  const std::vector<drive::ToldDrive> all = drive::told_of(shown);
+  scene_section(page, all);
   errors_section(page, all);
   timing_section(page, all, window);
   time_base_section(page, all, window.most);

@@ -169,6 +169,15 @@ void Page::diagrams(const std::vector<PageDiagram>& diagrams, std::string_view c
   body_ += "</figure>\n";
 }
 
+void Page::scenes(std::vector<Json> scenes, std::string_view caption) {
+  if (scenes.empty()) return;
+  body_ += fmt::format(
+      "<figure class=\"scenes\" data-first=\"{}\" data-count=\"{}\"><figcaption>{}</figcaption>"
+      "<noscript><p>The replay needs JavaScript, which is in this page.</p></noscript></figure>\n",
+      scenes_.size(), scenes.size(), drawing::escape(caption));
+  for (Json& scene : scenes) scenes_.push_back(std::move(scene));
+}
+
 void Page::command(std::string_view words) {
   body_ += fmt::format("<pre class=\"command\" tabindex=\"0\"><code>{}</code></pre>\n", drawing::escape(words));
 }
@@ -204,11 +213,13 @@ std::string Page::html() const {
   out += fmt::format("<details><summary>Plots: uPlot, MIT licence</summary><pre>{}</pre></details></footer>\n",
                      drawing::escape(kUplotLicence));
   out += "<script type=\"application/json\" id=\"plots\">" + script_data(plots_) + "</script>\n";
-  for (const std::string_view script : {kUplot, kPlotsScript, kTimingDrawingScript, kTimingScript}) {
-    out += "<script>";
-    out += script;
-    out += "</script>\n";
-  }
+  const auto add = [&out](std::string_view script) { out.append("<script>").append(script).append("</script>\n"); };
+  for (const std::string_view script : {kUplot, kInstantScript, kPlotsScript, kTimingDrawingScript, kTimingScript})
+    add(script);
+  if (scenes_.empty()) return out + "</body></html>\n";
+  out += "<script type=\"application/json\" id=\"scenes\">" + script_data(scenes_) + "</script>\n";
+  for (const std::string_view script : {kSceneDataScript, kSceneDrawingScript, kSceneControlsScript, kSceneScript})
+    add(script);
   return out + "</body></html>\n";
 }
 

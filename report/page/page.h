@@ -1,4 +1,4 @@
-// One HTML page that needs no other file: text, tables, pictures, plots and timing diagrams, with their style
+// One HTML page that needs no other file: text, tables, pictures, plots, scenes and timing diagrams, with their style
 // and scripts (report/page/). Sections keep the order of their addition; the contents at the top list them.
 //
 // The page escapes all text, because names come from files.
@@ -61,6 +61,8 @@ class Page {
   // Adds an SVG document of ours unchanged.
   void picture(std::string_view svg, std::string_view caption);
   void diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption);
+  // Adds scenes side by side, each as report/scene/packed.h packs it, with one clock for all.
+  void scenes(std::vector<nlohmann::ordered_json> scenes, std::string_view caption);
   void command(std::string_view words);                                // to copy into a shell
   void preformatted(std::string_view summary, std::string_view text);  // folded behind a line
   void open_details(std::string_view summary);
@@ -75,6 +77,7 @@ class Page {
   };
   std::vector<Entry> contents_;
   nlohmann::ordered_json plots_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json scenes_ = nlohmann::ordered_json::array();
   int pictures_ = 0, diagrams_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // The page's plots, drawn by uPlot. Dragging, buttons, keys (with the focus) and the wheel (with Ctrl or
-// Shift) zoom. data-from and data-to hold the visible range.
+// Shift) zoom. A click chooses the page's instant. data-from and data-to hold the visible range.
 "use strict";
 (() => {
   const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
@@ -39,6 +39,9 @@
       this.spec = spec;
       this.view = spec.views[0];
       this.hidden = new Set();
+      this.timed = spec.x === "true time [s]";
+      this.line = make("div", { className: "instant", hidden: true });
+      if (this.timed) Instant.on((at) => this.mark(at));
       figure.querySelector("noscript")?.remove();
       this.range = make("span", { className: "range" });
       const bar = make("div", { className: "bar" });
@@ -123,6 +126,7 @@
       const x = curve.x[at];
       if (x < from || x > to) return;
       this.uplot.setCursor({ left: this.uplot.valToPos(x, "x"), top: this.uplot.valToPos(curve.y[at] ?? 0, "y") });
+      if (this.timed) Instant.set(x, this);
       this.tell(x);
       const value = (i) => this.legend.children[i].querySelector(".value").textContent;
       const values = this.view.curves.map((one, i) => this.hidden.has(i) ? "" : `${one.label}: ${value(i)}`);
@@ -146,6 +150,24 @@
       const turn = event.deltaY || event.deltaX;
       const left = event.clientX - this.uplot.over.getBoundingClientRect().left;
       this.zoom(turn > 0 ? 1.25 : 0.8, this.uplot.posToVal(left, "x"));
+    }
+
+    // Shows the page's instant.
+    mark(at) {
+      if (!this.uplot || !this.timed) return;
+      const { min, max } = this.uplot.scales.x;
+      this.line.hidden = at === undefined || !(at >= min && at <= max);
+      if (!this.line.hidden) this.line.style.transform = `translateX(${this.uplot.valToPos(at, "x")}px)`;
+    }
+    // A click chooses the page's instant; a drag zooms.
+    choose_by(over) {
+      let down;
+      over.addEventListener("mousedown", (event) => { down = event.clientX; });
+      over.addEventListener("mouseup", (event) => {
+        if (event.button === 0 && down !== undefined && Math.abs(event.clientX - down) < 3)
+          Instant.set(this.uplot.posToVal(event.clientX - over.getBoundingClientRect().left, "x"), this);
+        down = undefined;
+      });
     }
 
     // Shows the values of all curves at the cursor.
@@ -210,6 +232,7 @@
             this.figure.dataset.from = min;
             this.figure.dataset.to = max;
             this.range.textContent = `${this.spec.x}: ${figures(min)} to ${figures(max)}`;
+            this.mark(Instant.at);
           }],
           setCursor: [(u) => this.tell(u.cursor.left >= 0 ? u.posToVal(u.cursor.left, "x") : undefined)],
           drawAxes: [(u) => {
@@ -226,6 +249,11 @@
           }],
         },
       }, uPlot.join(tables), this.canvas);
+      if (this.timed) {
+        this.uplot.over.append(this.line);
+        this.choose_by(this.uplot.over);
+        this.mark(Instant.at);
+      }
       if (this.uplot.data[0].length === 1) this.reset();   // uPlot picks another range around a single point
       this.key_to_curves();
     }

@@ -19,6 +19,10 @@
       this.things = this.items.filter((item) => item.title).sort((p, q) => p.a - q.a || p.y - q.y);
       this.by_element = new Map(this.things.map((item) => [item.element, item]));
       this.controls();
+      this.line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+      this.line.setAttribute("class", "instant");
+      this.svg.append(this.line);
+      Instant.on((at, by) => this.mark(at, by));
       new ResizeObserver(() => this.fit()).observe(this.paper);
     }
 
@@ -41,7 +45,7 @@
       this.told.setAttribute("aria-live", "polite");
       this.keys = make("p", { className: "keys" });
       this.keys.innerHTML =
-          "Drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
+          "Click to choose the instant, drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
           "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, " +
           "<kbd>,</kbd> <kbd>.</kbd> from thing to thing" +
           "<span class=\"scrolls\">, <kbd>Shift</kbd> with <kbd>←</kbd> <kbd>→</kbd> to the parts beside it</span>.";
@@ -62,8 +66,22 @@
     }
 
     drawn() {
+      this.mark(Instant.at, this);
       this.range.textContent =
           `${this.box.dataset.label}: ${ms(this.from)} to ${ms(this.to)} ms, ${lasting(this.to - this.from)}`;
+    }
+
+    // Shows the page's instant. A part of the diagram follows it.
+    mark(at, by) {
+      const t = at === undefined ? NaN : at * 1e3, span = this.to - this.from;
+      const drawn = t >= this.first && t <= this.last;
+      if (drawn && by !== this && (t < this.from || t > this.to)) this.show(t - span / 2, t + span / 2);
+      if (drawn && t >= this.from && t <= this.to) {
+        this.line.removeAttribute("display");
+        this.line.setAttribute("d", `M${this.x(t).toFixed(2)} ${this.top}V${this.top + this.height}`);
+      } else {
+        this.line.setAttribute("display", "none");
+      }
     }
 
     words(item) {
@@ -129,7 +147,9 @@
         const by = held - this.t(moved.clientX);
         this.show(this.from + by, this.to + by);
       };
-      const drop = () => {
+      const drop = (dropped) => {
+        if (dropped.type === "pointerup" && Math.abs(dropped.clientX - event.clientX) < 3)
+          Instant.set(held / 1e3, this);
         this.paper.classList.remove("dragging");
         this.paper.removeEventListener("pointermove", drag);
       };

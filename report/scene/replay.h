@@ -48,8 +48,8 @@ struct Scene {
   std::vector<std::vector<Moment<Point>>> lists;  // by SensorId, at the instants of measuring
   std::vector<Moment<Warning>> warnings;          // at uses of an image; each holds until the next
   Duration spacing{};                             // least time between moments of one kind; zero: all are there
-  TrueTime first{}, last{};                       // of the moments; both zero without any
-  TrueTime end{};                                 // of the log's moments
+  TrueTime first{}, last{};                       // the moments' ends; both zero without any
+  TrueTime end{};                                 // the end of the log's moments
   bool cut = false;                               // the scene ends at `last`, before them
   bool empty() const { return truth.empty() && images.empty() && last == TrueTime{}; }
   std::string thinned_words() const;  // a sentence about what is left out; empty if all is there

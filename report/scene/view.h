@@ -13,12 +13,11 @@ inline constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife 
 inline constexpr Duration kTrail = Duration::milliseconds(2000);
 
 struct View {
-  std::vector<TrueObject> truth;          // between two instants of the log: on the straight line between them
-  std::vector<ShownTrack> tracks;         // of the newest image at most as old; moved on by their velocity since
-  std::vector<std::vector<Point>> lists;  // by SensorId
-  std::vector<Warning> warnings;          // of these tracks
-  std::vector<std::vector<Point>>
-      trails;  // of each track: the newest images' places, at most kTrail old, the oldest first
+  std::vector<TrueObject> truth;           // between two instants of the log: on the straight line between them
+  std::vector<ShownTrack> tracks;          // the newest image's; moved on by their velocity since
+  std::vector<std::vector<Point>> lists;   // by SensorId
+  std::vector<Warning> warnings;           // those that name one of the tracks
+  std::vector<std::vector<Point>> trails;  // each track's places in images at most kTrail old, the oldest first
 };
 View view_at(const Scene& scene, TrueTime at);
 

@@ -34,6 +34,18 @@ lacks run.html 'seed 1 --duration'
 expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --duration 2 --no-pictures --out short
 expect 0 '' report short -o short.html
 has short.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1 --duration 2"
+# Each drive is there from above, with the fields of its scenario's sensors, and every image of its log.
+python3 - <<'END' || fail "the scenes of the page are not those of the logs"
+import base64, json, re
+page = open("run.html", encoding="utf-8").read()
+scenes = json.loads(re.search(r'<script type="application/json" id="scenes">(.*?)</script>', page, re.S)[1])
+told = json.load(open("seed1/summary.json"))["strategies"]
+assert [s["label"] for s in scenes] == [s["strategy"] for s in told]
+for scene in scenes:
+    assert scene["note"] == "" and [s["name"] for s in scene["sensors"]] == ["laser", "camera"]
+    assert all(len(s["edge"]) > 30 for s in scene["sensors"])
+    assert len(base64.b64decode(scene["images"]["at"])) == 8 * 75
+END
 # The page loads no other files.
 lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
 # The same folder makes the same page.
@@ -76,7 +88,7 @@ expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log 
 expect 0 'wrote' report without -o without.html
 has without.html 'tt kept no log'
 has without.html 'There is no log: slot problems and missed deadlines are in the table above only'
-for heading in 'Errors and ages' 'Positions' 'How to repeat it' 'No fault was injected'; do
+for heading in 'The drive from above' 'Errors and ages' 'Positions' 'How to repeat it' 'No fault was injected'; do
   lacks without.html "$heading"
 done
 expect 0 'wrote' report seed1 without -o some.html
@@ -110,7 +122,7 @@ export TMPDIR=$PWD/scratch
 expect 0 '^small: 2 runs of point 0, replication 0, again' report small -o small.html
 has small.html 'The runs of point 0 (noise 1), replication 0, driven again'
 has small.html '160 ms are drawn, from 0.4 s on'
-for words in 'data-label="adva"' 'data-label="tt"' 'Ages of measurements' '"heading":"Precision"' \
+for words in '"note":""' 'data-label="adva"' 'data-label="tt"' 'Ages of measurements' '"heading":"Precision"' \
   'No fault was injected, no slot had a problem'; do
   has small.html "$words"
 done
@@ -135,7 +147,7 @@ expect 0 'wrote' report small --point 1 --from 0.5 --to 0.52 -o point.html
 has point.html 'The runs of point 1 (noise 40), replication 0'
 has point.html 'only 20 ms are drawn, from 0.5 s on'
 expect 0 'wrote' report small --no-drives -o none.html
-lacks none.html 'One drive of each paradigm|class="diagram"'
+lacks none.html 'One drive of each paradigm|class="diagram"|id="scenes"'
 
 # ---- a changed experiment is not driven again as if it were the same, and the page reports it
 mkdir changed away

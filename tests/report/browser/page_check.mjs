@@ -1,9 +1,10 @@
 // Opens pages of `ttfusion report` in headless Chromium, by file://, and acts as a reader.
-//   node page_check.mjs CHROMIUM SCREENSHOT_FOLDER run=FILE compared=FILE experiment=FILE hostile=FILE
+//   node page_check.mjs CHROMIUM SCREENSHOT_FOLDER run=FILE compared=FILE experiment=FILE hostile=FILE many=FILE
 // Exit 1 and a line for every failure.
 import { chromium } from "playwright-core";
 import { mkdirSync } from "node:fs";
 import { pathToFileURL } from "node:url";
+import { many_play, scene_replays } from "./scene_check.mjs";
 
 const [executablePath, pictures, ...named] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -280,12 +281,20 @@ for (const one of named) {
     await page.context().close();
     continue;
   }
+  if (name === "many") {
+    await many_play(name, page, check, pictures);
+    await page.context().close();
+    continue;
+  }
   check(`${name}: sections`, await page.locator("section").count() >= 5);
   check(`${name}: an answer`, (await page.locator(".lead").last().textContent()).length > 30);
   check(`${name}: plots are drawn`, await page.locator("figure.plot canvas:visible").count() >= 2);
   check(`${name}: tables`, await page.locator("table tbody tr").count() >= 5);
   check(`${name}: commands`, /ttfusion (run|experiment)/.test(await page.locator("pre.command").first().textContent()));
   check(`${name}: uPlot's licence`, (await page.locator("footer").textContent()).includes("Leon Sorokin"));
+  if (name !== "compared") await scene_replays(name, page, check, pictures);
+  const scenes = await page.locator("figure.scenes canvas").count();
+  check(`${name}: ${scenes} drives are seen from above`, scenes === { run: 3, compared: 6, experiment: 2 }[name]);
   await plot_zooms(name, page);
   await diagram_zooms(name, page);
   if (name === "experiment") await side_by_side(name, page);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Opens the report of a drive, of two side by side, of an experiment, and one with hostile names, in headless
-# Chromium.
+# Opens the report of a drive, of two side by side, of an experiment, of a thousand objects, and one with hostile names, in
+# headless Chromium.
 #
 # page_test.sh PROGRAM SOURCE_DIR WORK_DIR      exit 77: skipped, with the reason
 #
@@ -16,7 +16,7 @@ command -v node >/dev/null || skip "node is not installed"
 command -v npm >/dev/null || skip "npm is not installed"
 
 mkdir -p "$work"
-cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$here/page_check.mjs" "$work/"
+cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$here/page_check.mjs" "$here/scene_check.mjs" "$work/"
 if ! cmp -s "$work/package-lock.json" "$work/fetched.json"; then
   (cd "$work" && timeout 120 npm ci --no-progress >npm.log 2>&1) || {
     rm -rf "$work/node_modules"
@@ -60,12 +60,17 @@ json.dump(summary, open(sys.argv[2], "w"))
 END
 cp runs/seed1/*.mcap runs/hostile/
 
+"$program" run "$source/scenarios/thousand.yaml" --strategy tt --no-pictures --out runs/many >/dev/null 2>&1
+
 "$program" report runs/seed1 -o run.html
 "$program" report runs/seed1 runs/seed2 -o compared.html
 "$program" report runs/small -o experiment.html
 "$program" report runs/hostile -o hostile.html
+"$program" report runs/many -o many.html
+# A scene is at most a megabyte.
+[[ $(stat -c %s many.html) -lt 1500000 ]] || { echo "FAILED: many.html is larger than 1.5 MB"; exit 1; }
 # For a drive of 3 s; each further timing diagram is half a megabyte.
 [[ $(stat -c %s run.html) -lt 3000000 ]] || { echo "FAILED: run.html is larger than 3 MB"; exit 1; }
 timeout 300 node page_check.mjs "$chromium" pictures run=run.html compared=compared.html experiment=experiment.html \
-  hostile=hostile.html
+  hostile=hostile.html many=many.html
 echo "screenshots: $work/pictures"

@@ -87,7 +87,7 @@ TEST(Scene, AnInstantHasTheNewestOfEverything) {
   log.truth(1000, 30.0);
   log.image(1000, {Records::track(7, 29.0, 10.0), Records::track(8, 60.0, 0.0)});
   log.observation(1010, 0, 1, 28.0);
-  log.observation(1010, 9, 1, 28.0);  // of a sensor that the log does not name
+  log.observation(1010, 9, 1, 28.0);  // the log does not name this sensor
   log.use(1020, 7, true);
   log.truth(1100, 32.0);
   log.truth(1100, 1e300, 4);  // a damaged log's

@@ -1,0 +1,163 @@
+// Replays scenes side by side, with one clock and one view: plays, follows the page's instant, moves and zooms.
+"use strict";
+(() => {
+  const STEP = 1;   // s
+  const counted = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
+  const side = (y) => `${Math.abs(y).toFixed(1)} m ${y < 0 ? "right" : "left"}`;
+  const tip = document.querySelector(".tip");   // that of the timing diagrams
+
+  class Replay extends SceneControls {
+    constructor(figure, scenes) {
+      super(figure, scenes);
+      this.playing = false;
+      this.from = Math.min(...scenes.map((scene) => scene.from));
+      this.to = Math.max(...scenes.map((scene) => scene.to));
+      this.at = this.from;
+      const grid = this.build();
+      figure.addEventListener("keydown", (event) => this.key(event));
+      new ResizeObserver(() => this.fit()).observe(grid);
+      Instant.on((at) => this.show(at));
+      // A middle instant shows more than the first one.
+      this.show(Instant.at ?? (this.from + this.to) / 2);
+    }
+
+    // All canvases have one size, and one view of the places that all drives need.
+    fit() {
+      const width = this.panels[0].canvas.clientWidth;
+      if (width < 50) return;
+      const extents = this.scenes.map((scene) => scene.extent());
+      const [x, y] = [0, 1].map((i) => Math.min(...extents.map((e) => e[i])) - 4);
+      const [right, left] = [2, 3].map((i) => Math.max(...extents.map((e) => e[i])) + 4);
+      this.whole = { x: (x + right) / 2, y: (y + left) / 2, wide: right - x, high: left - y };
+      const height = Math.round(width * Math.min(0.75, Math.max(0.3, this.whole.high / this.whole.wide)));
+      const first = this.width === undefined, shrunk = width / (this.width ?? width);
+      this.width = width;
+      this.height = height;
+      for (const { drawing } of this.panels) drawing.fit(width, height);
+      if (first) this.all(); else this.view.scale *= shrunk;
+      this.redraw();
+    }
+    get fitting() { return Math.min(this.width / this.whole.wide, this.height / this.whole.high); }
+    all() {
+      Object.assign(this.view, { x: this.whole.x, y: this.whole.y, scale: this.fitting });
+      this.redraw();
+    }
+    zoom(factor, x = this.view.x, y = this.view.y) {
+      const scale = Math.min(this.fitting * 200, Math.max(this.fitting / 8, this.view.scale * factor));
+      const by = this.view.scale / scale;
+      Object.assign(this.view, { scale, x: x + (this.view.x - x) * by, y: y + (this.view.y - y) * by });
+      this.redraw();
+    }
+
+    go(at) { Instant.set(Math.min(this.to, Math.max(this.from, at)), this); }
+    show(at) {
+      this.at = Math.min(this.to, Math.max(this.from, at));
+      this.slider.value = this.at;
+      this.told.textContent = `${this.at.toFixed(3)} s of ${this.to.toFixed(3)} s`;
+      this.figure.dataset.at = this.at;
+      this.redraw();
+    }
+    play(on) {
+      if (on && this.at >= this.to) this.go(this.from);
+      this.playing = on;
+      this.player.textContent = on ? "❚❚" : "▶";
+      this.player.title = on ? "Pause" : "Play";
+      this.player.setAttribute("aria-label", this.player.title);
+      this.figure.dataset.playing = on;
+      if (!on) { this.tell(); return; }
+      let before;
+      const step = (now) => {
+        if (!this.playing) return;
+        const next = this.at + (now - (before ?? now)) / 1000 * Number(this.speed.value);
+        before = now;
+        this.go(next);
+        if (next >= this.to) this.play(false); else requestAnimationFrame(step);
+      };
+      requestAnimationFrame(step);
+    }
+    redraw() {
+      if (this.width === undefined) return;
+      this.pending ??= requestAnimationFrame(() => { this.pending = undefined; this.draw(); });
+    }
+    draw(all = false) {
+      for (const { near, drawing, canvas, counts } of this.panels) {
+        if (!near && !all) continue;
+        drawing.draw(this.at);
+        const { truth, tracks, warnings } = canvas.dataset;
+        counts.textContent = ` ${counted(Number(truth), "object")}, ${counted(Number(tracks), "track")}` +
+            (warnings > 0 ? `, ${counted(Number(warnings), "warning")}` : "");
+      }
+    }
+    tell() {
+      const words = this.panels.map(({ scene, counts }) => `${scene.label}:${counts.textContent}`);
+      this.heard.textContent = `${this.at.toFixed(3)} s; ${words.join("; ")}`;
+    }
+
+    key(event) {
+      if (event.ctrlKey || event.altKey || event.metaKey || event.target.matches("select")) return;
+      const by = (sign) => {
+        this.go(event.shiftKey ? this.at + sign * STEP : this.scenes[0].image_beside(this.at, sign));
+      };
+      const act = {
+        " ": () => this.play(!this.playing), "ArrowLeft": () => by(-1), "ArrowRight": () => by(1),
+        "Home": () => this.go(this.from), "End": () => this.go(this.to), "0": () => this.all(),
+        "+": () => this.zoom(2), "=": () => this.zoom(2), "-": () => this.zoom(0.5), "_": () => this.zoom(0.5),
+      }[event.key];
+      if (!act || (event.key === " " && event.target.matches("button"))) return;   // a button presses itself
+      event.preventDefault();
+      act();
+      if (!this.playing) requestAnimationFrame(() => this.tell());
+    }
+    wheel(event, { drawing }) {
+      if (!event.ctrlKey && !event.shiftKey) return;
+      event.preventDefault();
+      const factor = (event.deltaY || event.deltaX) > 0 ? 0.8 : 1.25;
+      this.zoom(factor, drawing.to_x(event.offsetX), drawing.to_y(event.offsetY));
+    }
+    // On a touch screen, dragging scrolls the page.
+    grab(event, { canvas }) {
+      if (event.button !== 0 || event.pointerType === "touch") return;
+      canvas.setPointerCapture(event.pointerId);
+      const drag = (moved) => {
+        this.view.x -= moved.movementX / this.view.scale;
+        this.view.y += moved.movementY / this.view.scale;
+        this.redraw();
+      };
+      const drop = () => canvas.removeEventListener("pointermove", drag);
+      canvas.addEventListener("pointermove", drag);
+      canvas.addEventListener("pointerup", drop, { once: true });
+      canvas.addEventListener("pointercancel", drop, { once: true });
+    }
+    point(event, { drawing }) {
+      tip.hidden = true;
+      if (event.buttons !== 0 || !drawing.seen) return;
+      const x = drawing.to_x(event.offsetX), y = drawing.to_y(event.offsetY);
+      const within = (one) => Math.hypot(one.x - x, one.y - y) < Math.max(one.length / 2, 10 / this.view.scale);
+      const lines = [];
+      for (const one of drawing.seen.tracks.filter(within).slice(0, 3))
+        lines.push(`track ${one.id}${one.coasting ? ", not observed of late" : one.confirmed ? "" : ", tentative"}: ` +
+          `${one.x.toFixed(1)} m ahead, ${side(one.y)}, ${one.speed.toFixed(1)} m/s, ` +
+          `sigma ${one.sigma_x.toFixed(2)} m and ${one.sigma_y.toFixed(2)} m`);
+      for (const one of drawing.seen.objects.filter(within).slice(0, 3))
+        lines.push(`object ${one.id}: ${one.x.toFixed(1)} m ahead, ${side(one.y)}, ` +
+          `${one.length.toFixed(1)} m long, ${one.width.toFixed(1)} m wide`);
+      if (lines.length === 0) return;
+      tip.textContent = lines.join("\n");
+      tip.hidden = false;
+      tip.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8))}px`;
+      tip.style.top = `${event.clientY + 18}px`;
+    }
+  }
+
+  const data = JSON.parse(document.getElementById("scenes").textContent);
+  const replays = [...document.querySelectorAll("figure.scenes")].map((figure) => {
+    const first = Number(figure.dataset.first);
+    return new Replay(figure, data.slice(first, first + Number(figure.dataset.count)).map((one) => new SceneData(one)));
+  });
+  const repaint = () => replays.forEach((replay) => {
+    for (const { drawing } of replay.panels) drawing.colours();
+    if (replay.width !== undefined) replay.draw(true);
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+  matchMedia("print").addEventListener("change", repaint);
+})();

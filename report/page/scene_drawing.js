@@ -1,0 +1,206 @@
+// Draws a scene's instant on a canvas. All objects of a kind are one path, so that a thousand take a few milliseconds.
+"use strict";
+const SceneDrawing = (() => {
+  const SIGMAS = 2, MOST_NAMED = 120, NAMED_SCALE = 14;   // px per metre at which all are named
+  const SMALLEST = 4;   // px: smaller things are dots
+  const ROUND = [...Array(16).keys()].map((k) => [Math.cos(k * Math.PI / 8), Math.sin(k * Math.PI / 8)]);
+  const variable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  // Sensors' colours are those of all pictures; on a dark page they are lighter.
+  const lighter = (colour) => {
+    const parts = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+    return `rgb(${parts.map((part) => Math.round(part + (255 - part) * 0.4)).join(" ")})`;
+  };
+
+  // Adds lines from point to point, each [x, y] in units of r about the place.
+  const polygon = (c, x, y, r, points) => {
+    points.forEach(([u, v], i) => i ? c.lineTo(x + r * u, y + r * v) : c.moveTo(x + r * u, y + r * v));
+  };
+  const closed = (points) => (c, x, y, r) => { polygon(c, x, y, r, points); c.closePath(); };
+  const crossed = (first, second) => (c, x, y, r) => { polygon(c, x, y, r, first); polygon(c, x, y, r, second); };
+  const MARKS = {
+    circle: (c, x, y, r) => { c.moveTo(x + r, y); c.arc(x, y, r, 0, 7); },
+    cross: crossed([[-1, -1], [1, 1]], [[-1, 1], [1, -1]]),
+    plus: crossed([[-1, 0], [1, 0]], [[0, -1], [0, 1]]),
+    triangle: closed([[0, -1], [1, 1], [-1, 1]]),
+    down_triangle: closed([[0, 1], [1, -1], [-1, -1]]),
+    square: closed([[-1, -1], [1, -1], [1, 1], [-1, 1]]),
+    diamond: closed([[0, -1], [1, 0], [0, 1], [-1, 0]]),
+  };
+
+  return class {
+    // `view` is {x, y, scale}: the centre in metres, and pixels per metre. `hidden` has the names of hidden layers.
+    constructor(canvas, data, view, hidden) {
+      Object.assign(this, { canvas, data, view, hidden, c: canvas.getContext("2d") });
+      this.colours();
+    }
+    colours() {
+      this.ink = variable("--ink");
+      this.soft = variable("--soft");
+      this.grid = variable("--grid");
+      this.page = variable("--page");
+      this.alarm = variable("--alarm");
+      this.own = variable(`--c${this.data.colour % 8}`);
+      const dark = matchMedia("(prefers-color-scheme: dark)").matches && !matchMedia("print").matches;
+      this.sensors = this.data.sensors.map((sensor) => dark ? lighter(sensor.colour) : sensor.colour);
+    }
+    fit(width, height) {
+      this.width = width;
+      this.height = height;
+      this.canvas.width = Math.round(width * devicePixelRatio);
+      this.canvas.height = Math.round(height * devicePixelRatio);
+      this.canvas.style.height = `${height}px`;
+    }
+    px(x) { return this.width / 2 + (x - this.view.x) * this.view.scale; }
+    py(y) { return this.height / 2 - (y - this.view.y) * this.view.scale; }
+    to_x(px) { return this.view.x + (px - this.width / 2) / this.view.scale; }
+    to_y(py) { return this.view.y - (py - this.height / 2) / this.view.scale; }
+
+    // Draws one path: `lines(c)` adds to it.
+    path(lines, { stroke, fill, width = 1, dash = [], opacity = 1, covers = 0.25 }) {
+      const { c } = this;
+      c.beginPath();
+      lines(c);
+      if (fill) { c.globalAlpha = covers; c.fillStyle = fill; c.fill(); }
+      c.globalAlpha = opacity;
+      if (stroke) { c.strokeStyle = stroke; c.lineWidth = width; c.setLineDash(dash); c.stroke(); }
+      c.globalAlpha = 1;
+    }
+    // Returns whether a thing of so many metres is seen as more than a dot.
+    large(metres) { return metres * this.view.scale >= SMALLEST; }
+    box(one) {
+      const { c } = this, { scale } = this.view, x = this.px(one.x), y = this.py(one.y);
+      if (!this.large(one.length)) { c.rect(x - 1, y - 1, 2, 2); return; }
+      const a = Math.cos(one.heading) * scale / 2, b = Math.sin(one.heading) * scale / 2;
+      const [al, bl, aw, bw] = [a * one.length, b * one.length, a * one.width, b * one.width];
+      c.moveTo(x + al - bw, y - bl - aw);
+      c.lineTo(x - al - bw, y + bl - aw);
+      c.lineTo(x - al + bw, y + bl + aw);
+      c.lineTo(x + al + bw, y - bl + aw);
+      c.closePath();
+    }
+    ellipse(one) {
+      if (!this.large(SIGMAS * Math.max(one.sigma_x, one.sigma_y))) return;
+      const { c } = this, rest = Math.sqrt(Math.max(0, 1 - one.correlation ** 2));
+      ROUND.forEach(([a, b], i) => {
+        const x = this.px(one.x + SIGMAS * one.sigma_x * a);
+        const y = this.py(one.y + SIGMAS * one.sigma_y * (one.correlation * a + rest * b));
+        if (i) c.lineTo(x, y); else c.moveTo(x, y);
+      });
+      c.closePath();
+    }
+    observations(t) {
+      let count = 0;
+      this.data.sensors.forEach((sensor, s) => {
+        if (this.hidden.has(sensor.name)) return;
+        const places = [];
+        this.data.observations(s, t, (x, y) => places.push([this.px(x), this.py(y)]));
+        count += places.length;
+        const colour = this.sensors[s];
+        if (places.length > MOST_NAMED && this.view.scale < NAMED_SCALE)
+          this.path((to) => { for (const [x, y] of places) to.rect(x - 1, y - 1, 2, 2); }, { fill: colour, covers: 1 });
+        else
+          this.path((to) => { for (const [x, y] of places) MARKS[sensor.marker](to, x, y, 4.5); },
+            { stroke: colour, width: 1.5 });
+      });
+      return count;
+    }
+
+    draw(t) {
+      const { c, data, hidden } = this, begin = performance.now();
+      c.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+      c.clearRect(0, 0, this.width, this.height);
+      this.ground();
+      const objects = hidden.has("truth") ? [] : data.objects(t), tracks = hidden.has("tracks") ? [] : data.tracks(t);
+      const coasting = tracks.filter((one) => one.coasting), seen = tracks.filter((one) => !one.coasting);
+      const warnings = hidden.has("warnings") ? new Map() : data.warnings(t);
+      const warned = tracks.filter((one) => warnings.has(one.id));
+      this.path(() => objects.forEach((one) => this.box(one)), { stroke: this.soft, fill: this.soft });
+      if (!hidden.has("trails")) this.path(() => this.trails(tracks, t), { stroke: this.own, opacity: 0.5 });
+      if (!hidden.has("ellipses")) this.path(() => tracks.forEach((one) => this.ellipse(one)), { stroke: this.own });
+      this.path(() => seen.forEach((one) => this.box(one)), { stroke: this.own, width: 1.8 });
+      this.path(() => coasting.forEach((one) => this.box(one)), { stroke: this.own, width: 1.8, dash: [4, 3] });
+      this.path(() => tracks.forEach((one) => this.velocity(one)), { stroke: this.own, width: 1.2 });
+      const observations = this.observations(t);
+      this.path(() => warned.forEach((one) => this.box(one)), { stroke: this.alarm, width: 3 });
+      this.path((to) => this.vehicle(to), { fill: this.ink, covers: 1 });
+      this.names(tracks, warnings);
+      this.seen = { objects, tracks };
+      Object.assign(this.canvas.dataset, {
+        truth: objects.length, tracks: tracks.length, warnings: warned.length, observations,
+        drawn: Number(this.canvas.dataset.drawn ?? 0) + 1, took: (performance.now() - begin).toFixed(2),
+      });
+    }
+
+    // An arrow head at the origin, along x.
+    vehicle(to) {
+      const x = this.px(0), y = this.py(0);
+      to.moveTo(x + 7, y);
+      to.lineTo(x - 6, y - 6);
+      to.lineTo(x - 6, y + 6);
+    }
+    // A thousand trails would be too many lines: then they have fewer points.
+    trails(tracks, t) {
+      const { c } = this, every = Math.max(1, Math.ceil(tracks.length / 250));
+      for (const track of tracks) {
+        let n = 0;
+        c.moveTo(this.px(track.x), this.py(track.y));
+        this.data.trail(track, t, (x, y) => { if (n++ % every === 0) c.lineTo(this.px(x), this.py(y)); });
+      }
+    }
+    // Points where the track is after a second.
+    velocity(one) {
+      if (Math.abs(one.speed) < 0.1 || !this.large(Math.abs(one.speed))) return;
+      const { c } = this, x = this.px(one.x), y = this.py(one.y), way = one.speed * this.view.scale;
+      c.moveTo(x, y);
+      c.lineTo(x + way * Math.cos(one.heading), y - way * Math.sin(one.heading));
+    }
+    text(words, x, y, colour) {
+      const { c } = this;
+      c.lineWidth = 3;
+      c.strokeStyle = this.page;
+      c.setLineDash([]);
+      c.strokeText(words, x, y);
+      c.fillStyle = colour;
+      c.fillText(words, x, y);
+    }
+    names(tracks, warnings) {
+      const all = tracks.length <= MOST_NAMED || this.view.scale > NAMED_SCALE, { c } = this;
+      c.font = "600 12px system-ui, sans-serif";
+      c.textAlign = "center";
+      for (const one of tracks) {
+        const words = warnings.get(one.id), x = this.px(one.x), a = Math.cos(one.heading), b = Math.sin(one.heading);
+        const y = this.py(one.y + (Math.abs(one.length * b) + Math.abs(one.width * a)) / 2) - 5;
+        if (x < 0 || x > this.width || y < 0 || y > this.height) continue;
+        if (words) this.text(`${one.id}: ${words}`, x, y, this.alarm);
+        else if (all) this.text(String(one.id), x, y, this.own);
+      }
+    }
+
+    // Grid, its numbers, and the sensors' fields.
+    ground() {
+      const { c } = this, rough = 90 / this.view.scale, power = 10 ** Math.floor(Math.log10(rough));
+      const step = [1, 2, 5, 10].map((n) => n * power).find((n) => n >= rough);
+      const marks = (low, high) => {
+        const out = [];
+        for (let n = Math.ceil(low / step); n * step <= high; ++n) out.push(Number((n * step).toPrecision(12)));
+        return out;
+      };
+      const xs = marks(this.to_x(0), this.to_x(this.width)), ys = marks(this.to_y(this.height), this.to_y(0));
+      this.path((to) => {
+        for (const x of xs) { to.moveTo(this.px(x), 0); to.lineTo(this.px(x), this.height); }
+        for (const y of ys) { to.moveTo(0, this.py(y)); to.lineTo(this.width, this.py(y)); }
+      }, { stroke: this.grid });
+      if (!this.hidden.has("fields"))
+        this.data.sensors.forEach((sensor, s) => this.path(
+            (to) => polygon(to, this.px(0), this.py(0), this.view.scale, sensor.edge.map(([x, y]) => [x, -y])),
+            { stroke: this.sensors[s], fill: this.sensors[s], dash: [6, 4], opacity: 0.5, covers: 0.05 }));
+      c.font = "11px system-ui, sans-serif";
+      c.textAlign = "center";
+      for (const x of xs)
+        if (this.px(x) > 30 && this.px(x) < this.width - 20) this.text(`${x}`, this.px(x), this.height - 5, this.soft);
+      c.textAlign = "left";
+      for (const y of ys)
+        if (this.py(y) < this.height - 22 && this.py(y) > 12) this.text(`${y}`, 4, this.py(y) + 4, this.soft);
+    }
+  };
+})();
