@@ -201,7 +201,7 @@ std::string over_time(const DiagramOptions& options, const report::drawing::Shee
 }
 
 // Draws the scene at an instant, by default half-way through the log.
-std::string scene(const DiagramOptions& options) {
+std::string scene(const DiagramOptions& options, const report::drawing::Sheet& sheet) {
   for (const auto& [name, text] : {std::pair("--from", options.window.from), std::pair("--to", options.window.to)})
     if (text)
       throw InputError(
@@ -227,7 +227,7 @@ std::string scene(const DiagramOptions& options) {
   read_shown(drive, sink);
   for (const std::string& warning : warnings) print_warnings(warning);
   const report::drawing::Names names = report::drawing::names_of(drive.manifest());
-  return report::scene::scene_svg(sink.finished(), shown, names, names.drive);
+  return report::scene::scene_svg(sink.finished(), shown, names, names.drive, sheet);
 }
 
 // Draws any kind but boxes.
@@ -241,7 +241,7 @@ std::string picture(const DiagramOptions& options) {
     throw InputError({"command line", 0, "--at", *options.at, "goes with --kind scene only"});
   const report::drawing::Sheet sheet = sheet_of(options.paper);
   if (options.kind == "startup") return startup(options, sheet);
-  if (options.kind == "scene") return scene(options);
+  if (options.kind == "scene") return scene(options, sheet);
   return options.kind == "lateness" ? lateness(options, sheet) : over_time(options, sheet);
 }
 

@@ -17,6 +17,7 @@ namespace {
 
 using drawing::LegendEntry;
 constexpr std::size_t kMostNamed = 100, kMostLarge = 200;  // tracks with an id, observations in full size
+constexpr double kBeside = 90;  // units left and right of the plot
 constexpr std::string_view kTruth = "#777777", kTrack = drawing::kBlack, kWarning = "#d00000";
 
 recording::records::ImageObject image_of(const ShownTrack& track) {
@@ -37,8 +38,8 @@ struct Window {
   double scale = 1.0;  // user units per metre
 };
 
-// The wider extent fills its side of at most 1100 x 760; the vehicle at the origin is always there.
-Window window_of(const View& view) {
+// The wider extent fills its side of at most 1100 x 760 on a screen; the vehicle at the origin is always there.
+Window window_of(const View& view, const drawing::Sheet& sheet) {
   Window window;
   const auto take = [&](const auto& points) {
     for (const auto& p : points) window.x.add(p.x), window.y.add(p.y);
@@ -50,9 +51,11 @@ Window window_of(const View& view) {
   for (const auto& points : view.trails) take(points);
   window.x = window.x.padded(0.04, 8.0);
   window.y = window.y.padded(0.06, 8.0);
-  window.scale = std::min(1100.0 / window.x.size(), 760.0 / window.y.size());
-  window.x = window.x.padded(0.0, 420.0 / window.scale);
-  window.y = window.y.padded(0.0, 200.0 / window.scale);
+  const bool on_paper = sheet.on_paper();
+  const double widest = sheet.plot_width(1100, kBeside), highest = on_paper ? 0.8 * widest : 760.0;
+  window.scale = std::min(widest / window.x.size(), highest / window.y.size());
+  window.x = window.x.padded(0.0, (on_paper ? widest : 420.0) / window.scale);
+  window.y = window.y.padded(0.0, (on_paper ? 90.0 : 200.0) / window.scale);
   return window;
 }
 
@@ -84,7 +87,8 @@ std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const d
 
 class Painter {
  public:
-  Painter(drawing::Svg& svg, const drawing::PlotFrame& frame) : svg_(svg), frame_(frame) {}
+  Painter(drawing::Svg& svg, const drawing::PlotFrame& frame, const drawing::Sheet& sheet)
+      : svg_(svg), frame_(frame), name_size_(sheet.text(10.5)) {}
 
   void outline(std::span<const Point> points, const drawing::Paint& paint, std::string_view hover,
                std::string_view css_class, bool closed = true) {
@@ -123,7 +127,7 @@ class Painter {
       x.add(at.x), y.add(at.y);
     }
     const drawing::TextStyle style{
-        .size = 10.5, .anchor = drawing::Anchor::kMiddle, .fill = colour, .bold = true, .halo = true};
+        .size = name_size_, .anchor = drawing::Anchor::kMiddle, .fill = colour, .bold = true, .halo = true};
     const double half = drawing::text_width(text, style.size, true) / 2, centre = (x.low + x.high) / 2;
     const std::array candidates{drawing::Point{centre, y.low - 5}, drawing::Point{centre, y.high + 13},
                                 drawing::Point{x.high + 6 + half, (y.low + y.high) / 2 + 4},
@@ -134,11 +138,12 @@ class Painter {
  private:
   drawing::Svg& svg_;
   const drawing::PlotFrame& frame_;
+  double name_size_;
 };
 
 void paint(const Scene& scene, const View& view, const drawing::Names& names, const drawing::PlotFrame& frame,
-           drawing::Svg& svg) {
-  Painter painter(svg, frame);
+           const drawing::Sheet& sheet, drawing::Svg& svg) {
+  Painter painter(svg, frame, sheet);
   svg.open_group("scene", frame.area());
   for (const ViewedSensor& sensor : scene.sensors) painter.field(sensor);
   for (const TrueObject& one : view.truth) painter.truth(one);
@@ -169,25 +174,34 @@ void paint(const Scene& scene, const View& view, const drawing::Names& names, co
 
 }  // namespace
 
-std::string scene_svg(const Scene& scene, TrueTime at, const drawing::Names& names, std::string_view title) {
+std::string scene_svg(const Scene& scene, TrueTime at, const drawing::Names& names, std::string_view title,
+                      const drawing::Sheet& sheet) {
   const View view = view_at(scene, at);
   const std::string heading = fmt::format("{}, at {:.3f} s", title, static_cast<double>(at.ns) * 1e-9);
   const auto empty = [](const auto& points) { return points.empty(); };
   if (view.truth.empty() && view.tracks.empty() && std::ranges::all_of(view.lists, empty))
-    return drawing::empty_picture(heading, "At this instant the log has no object, no track and no observation.");
-  const Window window = window_of(view);
+    return drawing::empty_picture(heading, "At this instant the log has no object, no track and no observation.",
+                                  sheet);
+  const Window window = window_of(view, sheet);
   const double width = window.x.size() * window.scale, height = window.y.size() * window.scale;
   const std::vector<LegendEntry> legend = legend_of(scene, view, names);
-  const double top = 34 + legend_height(legend, width) + 8;
-  drawing::Svg svg(width + 90, top + height + 76, heading);
-  svg.text({70 + width / 2, 22}, heading, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
-  draw_legend(svg, {70, 34}, width, legend);
+  const double left = sheet.on_paper() ? 10 : 70, room = 70 + width - left;
+  const std::vector<std::string> titles = drawing::broken(heading, sheet.text(14), sheet.line(room), true);
+  const auto caption = [&](std::string_view words) { return drawing::broken(words, sheet.text(10), sheet.line(room)); };
+  const std::vector<std::string> axes = caption("In the vehicle's frame: x forward, y to the left (ISO 8855)."),
+                                 moved = caption("Tracks are moved on by their velocity since the newest image.");
+  const auto rows = [](std::size_t lines) { return drawing::kLineHeight * static_cast<double>(lines); };
+  const double legend_top = 34 + rows(titles.size() - 1);
+  const double top = legend_top + legend_height(legend, room) + 8;
+  drawing::Svg svg(width + kBeside, top + height + 48 + rows(axes.size() + moved.size()), heading, sheet);
+  svg.lines({left + room / 2, 22}, titles, {.size = 14, .anchor = drawing::Anchor::kMiddle, .bold = true});
+  draw_legend(svg, {left, legend_top}, room, legend);
   const drawing::PlotFrame frame({70, top, width, height}, window.x, window.y);
   frame.draw(svg, "x, forward [m]", "y, left [m]");
-  paint(scene, view, names, frame, svg);
+  paint(scene, view, names, frame, sheet, svg);
   const drawing::TextStyle small{.size = 10, .fill = "#444444"};
-  svg.text({70, top + height + 54}, "In the vehicle's frame: x forward, y to the left (ISO 8855).", small);
-  svg.text({70, top + height + 68}, "Tracks are moved on by their velocity since the newest image.", small);
+  svg.lines({left, top + height + 54}, axes, small);
+  svg.lines({left, top + height + 54 + rows(axes.size())}, moved, small);
   return svg.str();
 }
 

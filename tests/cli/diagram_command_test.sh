@@ -20,6 +20,8 @@ for kind in timing position plane; do
   grep -q '<svg [^>]*width="88.0000mm"' "$work/paper.svg" || fail "the $kind picture is not 88 mm wide"
   [[ $(grep -o 'font-size="[^"]*"' "$work/paper.svg" | sort -u | wc -l) -eq 1 ]] || fail "the $kind picture has several sizes of text"
 done
+expect 0 '' diagram "$work/tt.mcap" --kind scene --at 1.5 --width 88mm --font-size 8 -o "$work/paper.svg"
+grep -q '<svg [^>]*width="88.0000mm"' "$work/paper.svg" || fail "the scene is not 88 mm wide"
 for width in 3.5in 8.89cm 252pt; do   # the same width
   expect 0 '' diagram "$work/tt.mcap" --kind plane --width $width -o "$work/$width.pdf"
   cmp "$work/$width.pdf" "$work/3.5in.pdf" || fail "3.5 in is not $width"
