@@ -29,7 +29,7 @@
 #include "report/plots/boxes_picture.h"
 #include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 #include "report/scene/still.h"
 #include "report/startup/diagram.h"
 #include "report/timing/diagram.h"

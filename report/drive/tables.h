@@ -8,7 +8,7 @@
 #include "report/drive/results_folder.h"
 #include "report/drive/series.h"
 #include "report/page/page.h"
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 
 namespace ttf::report::drive {
 

@@ -173,7 +173,7 @@ void Page::scenes(std::vector<Json> scenes, std::string_view caption) {
   if (scenes.empty()) return;
   body_ += fmt::format(
       "<figure class=\"scenes\" data-first=\"{}\" data-count=\"{}\"><figcaption>{}</figcaption>"
-      "<noscript><p>The replay needs JavaScript, which is in this page.</p></noscript></figure>\n",
+      "<noscript><p>Scenes need JavaScript, which is in this page.</p></noscript></figure>\n",
       scenes_.size(), scenes.size(), drawing::escape(caption));
   for (Json& scene : scenes) scenes_.push_back(std::move(scene));
 }

@@ -1,4 +1,4 @@
-// Replays scenes side by side, with one clock and one view: plays, follows the page's instant, moves and zooms.
+// Plays scenes side by side, with one clock and one view: follows the page's instant, moves and zooms.
 "use strict";
 (() => {
   const STEP = 1;   // s
@@ -6,7 +6,7 @@
   const side = (y) => `${Math.abs(y).toFixed(1)} m ${y < 0 ? "right" : "left"}`;
   const tip = document.querySelector(".tip");   // that of the timing diagrams
 
-  class Replay extends SceneControls {
+  class Player extends SceneControls {
     constructor(figure, scenes) {
       super(figure, scenes);
       this.playing = false;
@@ -35,7 +35,7 @@
       this.height = height;
       for (const { drawing } of this.panels) drawing.fit(width, height);
       if (first) this.all(); else this.view.scale *= shrunk;
-      this.redraw();
+      this.draw(true);   // a canvas of another size is empty, in sight or not
     }
     get fitting() { return Math.min(this.width / this.whole.wide, this.height / this.whole.high); }
     all() {
@@ -55,6 +55,7 @@
       this.slider.value = this.at;
       this.told.textContent = `${this.at.toFixed(3)} s of ${this.to.toFixed(3)} s`;
       this.figure.dataset.at = this.at;
+      this.panels[0].canvas.closest(".panels").dataset.words = `At ${this.told.textContent}`;
       this.redraw();
     }
     play(on) {
@@ -150,13 +151,13 @@
   }
 
   const data = JSON.parse(document.getElementById("scenes").textContent);
-  const replays = [...document.querySelectorAll("figure.scenes")].map((figure) => {
+  const players = [...document.querySelectorAll("figure.scenes")].map((figure) => {
     const first = Number(figure.dataset.first);
-    return new Replay(figure, data.slice(first, first + Number(figure.dataset.count)).map((one) => new SceneData(one)));
+    return new Player(figure, data.slice(first, first + Number(figure.dataset.count)).map((one) => new SceneData(one)));
   });
-  const repaint = () => replays.forEach((replay) => {
-    for (const { drawing } of replay.panels) drawing.colours();
-    if (replay.width !== undefined) replay.draw(true);
+  const repaint = () => players.forEach((player) => {
+    for (const { drawing } of player.panels) drawing.colours();
+    if (player.width !== undefined) player.draw(true);
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
   matchMedia("print").addEventListener("change", repaint);

@@ -1,4 +1,4 @@
-// The controls of a replay: the bar with its slider, a panel for each scene, the layers to hide, the keys.
+// The controls of scenes that play: the bar with its slider, a panel for each scene, the layers to hide, the keys.
 "use strict";
 const SceneControls = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
@@ -10,7 +10,7 @@ const SceneControls = (() => {
     return element;
   };
 
-  // The replay acts: play, go, zoom, all, redraw, and what a pointer does in a panel.
+  // The player acts: play, go, zoom, all, redraw, and what a pointer does in a panel.
   return class {
     constructor(figure, scenes) {
       Object.assign(this, { figure, scenes, hidden: new Set(), view: { x: 0, y: 0, scale: 1 } });
@@ -49,7 +49,7 @@ const SceneControls = (() => {
       this.slider.addEventListener("input", () => this.go(Number(this.slider.value)));
       this.told = make("output", { className: "range" });
       this.speed = make("select");
-      this.speed.setAttribute("aria-label", "Speed of the replay");
+      this.speed.setAttribute("aria-label", "Speed");
       for (const speed of SPEEDS) this.speed.append(new Option(`${speed} ×`, speed, speed === 1, speed === 1));
       bar.append(this.slider, this.told, this.speed);
       button("+", "Zoom in", () => this.zoom(2));

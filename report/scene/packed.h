@@ -14,7 +14,7 @@
 #include <type_traits>
 
 #include "report/drawing/names.h"
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 
 namespace ttf::report::scene {
 

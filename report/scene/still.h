@@ -6,7 +6,7 @@
 
 #include "report/drawing/names.h"
 #include "report/drawing/sheet.h"
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 
 namespace ttf::report::scene {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 
 namespace ttf::report::scene {
 

@@ -4,7 +4,7 @@
 import { chromium } from "playwright-core";
 import { mkdirSync } from "node:fs";
 import { pathToFileURL } from "node:url";
-import { many_play, scene_replays } from "./scene_check.mjs";
+import { coloured, many_play, scene_plays } from "./scene_check.mjs";
 
 const [executablePath, pictures, ...named] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -263,6 +263,8 @@ async function looks(name, file) {
   await paper.emulateMedia({ media: "print" });
   const hidden = await paper.locator("nav").isHidden();
   check(`${name}: contents are not printed`, hidden);
+  for (const canvas of await paper.locator("figure.scenes canvas").all())
+    check(`${name}: a scene is printed, in ink for paper`, await coloured(canvas, "--ink") > 20);
   const diagrams = paper.locator(".diagram"), all = await diagrams.count();
   check(`${name}: all ${all} diagrams are printed`, await paper.locator(".diagram:visible").count() === all);
   for (let i = 0; i < all; ++i) {
@@ -292,7 +294,7 @@ for (const one of named) {
   check(`${name}: tables`, await page.locator("table tbody tr").count() >= 5);
   check(`${name}: commands`, /ttfusion (run|experiment)/.test(await page.locator("pre.command").first().textContent()));
   check(`${name}: uPlot's licence`, (await page.locator("footer").textContent()).includes("Leon Sorokin"));
-  if (name !== "compared") await scene_replays(name, page, check, pictures);
+  if (name !== "compared") await scene_plays(name, page, check, pictures);
   const scenes = await page.locator("figure.scenes canvas").count();
   check(`${name}: ${scenes} drives are seen from above`, scenes === { run: 3, compared: 6, experiment: 2 }[name]);
   await plot_zooms(name, page);

@@ -1,9 +1,10 @@
-// The replay of drives from above, as a reader sees and uses it; page_check.mjs opens the pages.
+// Scenes, drives from above, as a reader sees and uses it; page_check.mjs opens the pages.
 const range = (element) => element.evaluate((e) => [Number(e.dataset.from), Number(e.dataset.to)]);
 // Counts the pixels of a canvas whose colour is that of a variable of the page.
-const coloured = (canvas, variable) => canvas.evaluate((element, name) => {
+export const coloured = (canvas, variable) => canvas.evaluate((element, name) => {
   const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const wanted = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+  const digits = hex.length === 4 ? hex.replace(/[0-9a-f]/g, "$&$&") : hex;   // "#000"
+  const wanted = [1, 3, 5].map((i) => parseInt(digits.slice(i, i + 2), 16));
   const copy = new OffscreenCanvas(element.width, element.height).getContext("2d", { willReadFrequently: true });
   copy.drawImage(element, 0, 0);
   const { data } = copy.getImageData(0, 0, element.width, element.height);
@@ -16,8 +17,8 @@ const coloured = (canvas, variable) => canvas.evaluate((element, name) => {
 const pixels = (canvas) => canvas.evaluate((element) => element.toDataURL());
 const instant = (figure) => figure.evaluate((element) => Number(element.dataset.at));
 
-// The replay plays, and goes where keys, slider, plots and timing diagram send it.
-export async function scene_replays(name, page, check, pictures) {
+// A scene plays, and goes where keys, slider, plots and timing diagram send it.
+export async function scene_plays(name, page, check, pictures) {
   const figure = page.locator("figure.scenes"), canvas = figure.locator("canvas").first();
   const settled = () => page.waitForTimeout(80);
   await canvas.scrollIntoViewIfNeeded();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "report/scene/packed.h"
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 #include "report/scene/still.h"
 #include "report/scene/view.h"
 #include "tests/report/layout.h"

@@ -1,4 +1,4 @@
-#include "report/scene/replay.h"
+#include "report/scene/scene.h"
 
 #include <fmt/format.h>
 

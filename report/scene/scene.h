@@ -56,7 +56,7 @@ struct Scene {
 };
 
 struct SceneLimits {
-  std::size_t bytes = 740'000;  // as the page packs it (packed.h); base64 makes a megabyte of it
+  std::size_t bytes = 720'000;  // as the page packs it (packed.h); base64 makes a megabyte of it
   TrueTime from{}, to{recording::scene::kReach_ns};
 };
 
