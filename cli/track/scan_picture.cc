@@ -27,14 +27,14 @@ void ScanPicture::take(std::span<const fusion::tracks::TrackView> tracks) {
                       track.has_length && track.has_width});
 }
 
-std::string ScanPicture::svg() const {
+std::string ScanPicture::svg(const report::drawing::Sheet& sheet) const {
   std::vector<report::drawing::Point> points;
   for (const recording::rows::RecordedReturn& hit : scan_.returns)
     points.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
   return report::plots::boxes_svg(
       points, boxes_,
       fmt::format("Scan {}: {}, {}", scan_.frame, counted(points.size(), "return"), counted(boxes_.size(), "track")),
-      "track");
+      "track", sheet);
 }
 
 }  // namespace ttf::cli::track

@@ -18,7 +18,7 @@ class ScanPicture {
   ScanPicture(const recording::rows::RecordedScan& scan, const nodes::laser::RecordedScansConfig& how);
   // Takes the tracks whose state is of the scan's instant; the last ones count.
   void take(std::span<const fusion::tracks::TrackView> tracks);
-  std::string svg() const;
+  std::string svg(const report::drawing::Sheet& sheet) const;
 
  private:
   const recording::rows::RecordedScan& scan_;

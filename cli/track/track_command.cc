@@ -14,6 +14,7 @@
 #include "cli/drive/drive_setup.h"
 #include "cli/logs/scan_verdict.h"
 #include "cli/output.h"
+#include "cli/paper_size.h"
 #include "cli/progress.h"
 #include "cli/track/scan_lists.h"
 #include "cli/track/scan_picture.h"
@@ -109,6 +110,9 @@ void check_options(const TrackOptions& options) {
   if (options.frame && options.picture.empty())
     throw InputError({"command line", 0, "--frame", std::to_string(*options.frame), "goes with --picture only"});
   if (!options.picture.empty()) report::drawing::check_picture_path(options.picture);
+  if (options.paper.width && options.picture.empty())
+    throw InputError({"command line", 0, "--width", *options.paper.width, "goes with --picture only"});
+  sheet_of(options.paper);  // refuses a size before the work
 }
 
 // A box comes of many returns, which are the rows of scans.
@@ -219,7 +223,7 @@ int run_track(const TrackOptions& options) {
     say_written(options.out);
   }
   if (picture) {
-    report::drawing::write_picture(picture->svg(), options.picture);
+    report::drawing::write_picture(picture->svg(sheet_of(options.paper)), options.picture);
     say_written(options.picture);
   }
   return print_reasons(options.observations, result.verdict.headline, result.verdict.reasons);
@@ -272,6 +276,7 @@ void add_track(CLI::App& app, Action& action) {
       ->check(named());
   command->add_option("--frame", options->frame, "Which scan to draw, from 0 (default: the last one)")
       ->check(whole_number({0, 1'000'000'000}));
+  add_paper_size(*command, options->paper);
   command->add_flag("--json", options->json, "Summary as JSON on standard output; needs --out");
   command->callback([options, &action] { action = [options] { return run_track(*options); }; });
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/paper_size.h"
 #include "replay/config.h"
 #include "replay/recorded_lists.h"
 
@@ -20,6 +21,7 @@ struct TrackOptions {
   std::vector<std::string> delay;        // SENSOR=DURATION or SENSOR=LEAST..MOST
   std::size_t shuffle = 1;
   std::optional<std::int64_t> frame;  // the one in the picture
+  PaperSizeOptions paper;
   bool predict = false, skip_damaged = false, json = false;
 };
 

@@ -306,6 +306,10 @@ expect 0 '^1 damaged row left out$' track "$work/scan_leap.csv" --format scans -
 awk -F, -v OFS=, 'NR > 1 && NR % 401 > 80 && NR % 401 <= 320 && damaged < 3200 { $2 = "nan"; ++damaged } 1' "$work/plane.csv" >"$work/most_scans.csv"
 expect 1 ': 3200 of 6015 rows were damaged and left out' track "$work/most_scans.csv" --format scans --skip-damaged -o "$work/most_tracks.csv"
 expect 2 '--picture = .*: goes with --format scans only' "${cars[@]}" --picture "$work/cars.svg"
+expect 2 '--width = 88mm: goes with --picture only' track "$work/scans.csv" --format scans --width 88mm
+expect 2 '--width = 10 mm: must be 30..1000 mm' track "$work/scans.csv" --format scans --picture "$work/x.svg" --width 10mm
+expect 0 '' track "$work/scans.csv" --format scans --picture "$work/paper.svg" --width 88mm -o "$work/paper_tracks.csv"
+grep -q '<svg [^>]*width="88.0000mm"' "$work/paper.svg" || fail "the picture of a scan is not 88 mm wide"
 expect 2 '--frame = 15: must be 0..14: the recording has 15 scans' track "$work/scans.csv" --format scans --picture "$work/x.svg" --frame 15
 printf 'scans: {period: 50 ms}\n' >"$work/scanner.yaml"
 expect 2 'scanner.yaml:1: scans: goes with --format scans only' "${cars[@]}" --config "$work/scanner.yaml"
