@@ -7,6 +7,7 @@
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/paper_size.h"
 #include "cli/schedule/capture_against.h"
 #include "cli/schedule/medium_check.h"
 #include "cli/schedule/schedule_input.h"
@@ -34,6 +35,7 @@ struct ScheduleOptions {
   std::string format;
   std::string can;
   bool json = false;
+  PaperSizeOptions paper;
   CaptureArguments capture;
   MediumArguments medium;
 };
@@ -124,12 +126,15 @@ int check(const ScheduleOptions& options) {
 
 int show(const ScheduleOptions& options) {
   if (!options.out.empty()) report::drawing::check_picture_path(options.out);
+  const report::drawing::Sheet sheet = sheet_of(options.paper);
+  if (options.paper.width && options.out.empty())
+    throw InputError({"command line", 0, "--width", *options.paper.width, "goes with --out only"});
   const schedules::model::Cluster cluster = consistent_cluster(options.file);
   if (options.out.empty()) {
     fmt::print("{}", schedules::exchange::show_text(cluster));
     return 0;
   }
-  report::drawing::write_picture(report::plots::schedule_svg(cluster), options.out);
+  report::drawing::write_picture(report::plots::schedule_svg(cluster, sheet), options.out);
   say_written(options.out);
   return 0;
 }
@@ -201,6 +206,7 @@ void add_schedule(CLI::App& app, Action& action) {
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
   showing->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->check(named());
+  add_paper_size(*showing, options->paper);
   call_on_file(*showing, options, action, show);
   CLI::App* exporting = command->add_subcommand("export",
                                                 "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "report/drawing/axes.h"
@@ -24,45 +25,59 @@ constexpr std::string_view kSymbolWindowFill = "#f5eeda";
 
 class SchedulePainter {
  public:
-  explicit SchedulePainter(const Cluster& cluster) : c_(cluster), names_(drawing::names_of(cluster)) {
+  SchedulePainter(const Cluster& cluster, const drawing::Sheet& sheet)
+      : c_(cluster), sheet_(sheet), names_(drawing::names_of(cluster)) {
     for (const FrameSlot& f : c_.frames) {
       repetition_ = std::max(repetition_, f.repetition);
       frames_[f.slot].push_back(&f);
     }
     for (const auto& [slot, frames] : frames_) used_.push_back(slot);
+    if (sheet.on_paper()) left_ = drawing::text_width("channel A", sheet.text(11.5)) + 24;
   }
 
   std::string picture() {
     const std::vector<drawing::LegendEntry> legend = make_legend();
     const std::vector<TaskLane> lanes = task_lanes();
-    for (const TaskLane& lane : lanes) left_ = std::clamp(drawing::text_width(lane.label, 10) + 24, left_, 320.0);
-    const double matrix_cell = std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
-    const double width = left_ + std::max(kPlot, matrix_cell * static_cast<double>(used_.size())) + 30;
-    const double legend_y = 40, strip = legend_y + legend_height(legend, kPlot) + 34;
+    const double widest = sheet_.on_paper() ? std::max(left_, 0.35 * sheet_.width(0)) : 320.0;
+    for (const TaskLane& lane : lanes)
+      left_ = std::clamp(drawing::text_width(lane.label, sheet_.text(10)) + 24, left_, widest);
+    plot_ = sheet_.plot_width(kPlot, left_ + 30);
+    const double matrix_cell = std::clamp(plot_ / std::max<double>(1.0, static_cast<double>(used_.size())),
+                                          sheet_.on_paper() ? 0.0 : 16.0, 90.0);
+    const double width = left_ + std::max(plot_, matrix_cell * static_cast<double>(used_.size())) + 30;
+    // On paper, words begin at its left edge.
+    words_left_ = sheet_.on_paper() ? 10 : left_;
+    words_width_ = sheet_.on_paper() ? width - 20 : plot_;
+    const std::vector<std::string> title = drawing::broken(title_text(), sheet_.text(14), line(), true);
+    const double legend_y = 26 + drawing::kLineHeight * static_cast<double>(title.size());
+    const double strip = legend_y + legend_height(legend, words_width_) + 34;
     const double tasks = strip + 2 * (kSlotLane + 6) + 14;
     const double axis = tasks + static_cast<double>(lanes.size()) * kTaskLane;
     const double notes = axis + 58;
     const std::vector<std::string> notes_text = other_tasks();
-    const double matrix = notes + 14 * static_cast<double>(notes_text.size()) + 48;
+    const std::vector<std::string> matrix_title = drawing::broken(matrix_text(), sheet_.text(11.5), line(), true);
+    const std::vector<std::string> matrix_notes = drawing::broken(
+        "Numbers in the cells: fragment of the PDU / most fragments it can have.", sheet_.text(10), line());
+    const double matrix = notes + 14 * static_cast<double>(notes_text.size()) + 34 +
+                          drawing::kLineHeight * static_cast<double>(matrix_title.size());
     const double row = 24;
-    const double height = matrix + row * static_cast<double>(rows()) + 40;
-    drawing::Svg svg(width, height, "Schedule of " + c_.name);
+    const double height = matrix + row * static_cast<double>(rows()) + 26 +
+                          drawing::kLineHeight * static_cast<double>(matrix_notes.size());
+    drawing::Svg svg(width, height, "Schedule of " + c_.name, sheet_);
     svg_ = &svg;
-    const auto& g = c_.flexray;
-    svg.text({20, 24},
-             fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT", c_.name,
-                         drawing::number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
-                         g.gdStaticSlot, g.gNumberOfMinislots,
-                         g.gdSymbolWindow > 0 ? fmt::format(", symbol window {} MT", g.gdSymbolWindow) : "", g.gdNIT),
-             {.size = 14, .bold = true});
-    draw_legend(svg, {left_, legend_y}, kPlot, legend);
+    svg.lines({sheet_.on_paper() ? words_left_ : 20.0, 24}, title, {.size = 14, .bold = true});
+    draw_legend(svg, {words_left_, legend_y}, words_width_, legend);
     draw_axis(strip - 6, axis);
     for (const Channel channel : schedules::model::kBothChannels)
       draw_channel(channel, strip + (channel == Channel::kA ? 0 : kSlotLane + 6));
     draw_tasks(lanes, tasks);
-    for (std::size_t i = 0; i < notes_text.size(); ++i)
-      svg.text({left_, notes + 14 * static_cast<double>(i)}, notes_text[i], {.size = 10, .fill = "#333333"});
-    draw_matrix(matrix, matrix_cell, row);
+    svg.lines({words_left_, notes}, notes_text, {.size = 10, .fill = "#333333"});
+    if (!used_.empty()) {
+      svg.lines({words_left_, matrix - 12 - drawing::kLineHeight * static_cast<double>(matrix_title.size())},
+                matrix_title, {.size = 11.5, .bold = true});
+      draw_matrix(matrix, matrix_cell, row);
+      svg.lines({words_left_, matrix + row * rows() + 18}, matrix_notes, {.size = 10, .fill = "#444444"});
+    }
     return svg.str();
   }
 
@@ -76,10 +91,25 @@ class SchedulePainter {
     std::vector<TaskBox> boxes;
   };
 
+  double line() const { return sheet_.line(words_width_); }
+
+  std::string title_text() const {
+    const auto& g = c_.flexray;
+    return fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT", c_.name,
+                       drawing::number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
+                       g.gdStaticSlot, g.gNumberOfMinislots,
+                       g.gdSymbolWindow > 0 ? fmt::format(", symbol window {} MT", g.gdSymbolWindow) : "", g.gdNIT);
+  }
+  std::string matrix_text() const {
+    return fmt::format(
+        "Owned slots over cycles, the pattern repeats every {} (upper half of a cell: channel A, lower half: B)",
+        rows() == 1 ? "cycle" : fmt::format("{} cycles", rows()));
+  }
+
   double macroticks(Duration d) const {
     return static_cast<double>(d.ns) * 1000.0 / static_cast<double>(c_.flexray.gdMacrotick_ps);
   }
-  double x(double macrotick) const { return left_ + macrotick / c_.flexray.gMacroPerCycle * kPlot; }
+  double x(double macrotick) const { return left_ + macrotick / c_.flexray.gMacroPerCycle * plot_; }
   // Rows of the matrix: the cycles until the pattern repeats, at most the counter's 64.
   int rows() const { return std::min(repetition_, c_.flexray.gCycleCountMax + 1); }
 
@@ -147,22 +177,23 @@ class SchedulePainter {
           svg_->rect({left, top + part * static_cast<double>(i), width, part},
                      {.fill = colour(here[i]->pdu), .stroke = "#444444", .width = 0.5}, hover, "slot");
       }
-      if (width >= 7 * std::max<double>(1.0, drawing::text_width(fmt::format("{}", slot), 1.0)) + 1)
+      if (width >= sheet_.text(7) * std::max<double>(1.0, drawing::text_width(fmt::format("{}", slot), 1.0)) + 1)
         svg_->text({left + width / 2, top + kSlotLane - 4}, fmt::format("{}", slot),
                    {.size = 7, .anchor = drawing::Anchor::kMiddle});
-      if (width >= 10 && !here.empty()) {
+      const double size = sheet_.text(8.5);
+      if (width >= size + 1.5 && !here.empty()) {
         // Shows the owner above the PDU if two lines fit, otherwise the PDU; the hover text has everything.
         const FrameSlot& f = *here.front();
         std::string text =
             f.pdu == kNoPdu ? "status"
                             : fmt::format("{} {}/{}", names_.pdu(f.pdu), f.fragment + 1, c_.pdu(f.pdu).max_fragments());
         if (here.size() > 1) text += fmt::format(" +{}", here.size() - 1);
-        const bool two = width >= 21;
+        const bool two = width >= 2 * size + 4;
         const double centre = left + width / 2 + 3, foot = top + kSlotLane - 14;
         if (two)
-          svg_->text({centre - 6, foot}, fitted(names_.node(f.sender), 8.5, kSlotLane - 18),
+          svg_->text({centre - 6, foot}, fitted(names_.node(f.sender), size, kSlotLane - 18),
                      {.size = 8.5, .rotate = -90});
-        svg_->text({two ? centre + 3.5 : centre, foot}, fitted(text, 8.5, kSlotLane - 18),
+        svg_->text({two ? centre + 3.5 : centre, foot}, fitted(text, size, kSlotLane - 18),
                    {.size = 8.5, .rotate = -90});
       }
     }
@@ -174,9 +205,9 @@ class SchedulePainter {
       svg_->rect({left, top, width, kSlotLane}, {.fill = fill, .stroke = "#666666", .width = 0.5},
                  fmt::format("{}: {} MT", name, drawing::number(length)), "segment");
       const double free = x(at + taken), room = left + width - free;
-      if (room > drawing::text_width(name, 10) + 6)
+      if (room > drawing::text_width(name, sheet_.text(10)) + 6)
         svg_->text({free + room / 2, top + kSlotLane / 2 + 4}, name, {.size = 10, .anchor = drawing::Anchor::kMiddle});
-      else if (room > 11)
+      else if (room > sheet_.text(9) + 2)
         svg_->text({free + room / 2 + 4, top + kSlotLane / 2}, name,
                    {.size = 9, .anchor = drawing::Anchor::kMiddle, .rotate = -90});
       at += length;
@@ -215,9 +246,9 @@ class SchedulePainter {
                              f.base_cycle, f.repetition),
                  "slot");
       const std::string text = fmt::format("{}: {}", f.slot, frame_text(f));
-      if (part >= 9)
-        svg_->text({left + 3, top + part * (static_cast<double>(i) + 0.5) + 3}, fitted(text, 8.5, right - left - 6),
-                   {.size = 8.5});
+      if (part >= sheet_.text(8.5) + 0.5)
+        svg_->text({left + 3, top + part * (static_cast<double>(i) + 0.5) + 3},
+                   fitted(text, sheet_.text(8.5), right - left - 6), {.size = 8.5});
     }
   }
 
@@ -248,9 +279,16 @@ class SchedulePainter {
     const double cycle = c_.flexray.gMacroPerCycle;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       const double centre = top + kTaskLane * (static_cast<double>(i) + 0.5);
-      svg_->line({left_, centre}, {left_ + kPlot, centre}, {.stroke = "#e0e0e0", .width = 0.7});
-      svg_->text({left_ - 12, centre + 4}, fitted(lanes[i].label, 10, left_ - 20),
-                 {.size = 10, .anchor = drawing::Anchor::kEnd});
+      svg_->line({left_, centre}, {left_ + plot_, centre}, {.stroke = "#e0e0e0", .width = 0.7});
+      // A lane has room for two lines.
+      std::vector<std::string> label = drawing::broken(lanes[i].label, sheet_.text(10), sheet_.line(left_ - 20));
+      while (label.size() > 2) {
+        label[label.size() - 2] += ' ' + label.back();
+        label.pop_back();
+      }
+      for (std::string& one : label) one = fitted(one, sheet_.text(10), left_ - 20);
+      svg_->lines({left_ - 12, centre + 4 - drawing::kLineHeight / 2 * static_cast<double>(label.size() - 1)}, label,
+                  {.size = 10, .anchor = drawing::Anchor::kEnd});
       for (const TaskBox& box : lanes[i].boxes) {
         if (box.length_mt <= 0) {
           svg_->marker(drawing::Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = drawing::kBlack},
@@ -266,7 +304,7 @@ class SchedulePainter {
                       "runs on into the next cycle", "overrun");
         const std::string length = fmt::format(
             "{} us", drawing::number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
-        if (x(end) - x(box.offset_mt) > drawing::text_width(length, 9) + 6)
+        if (x(end) - x(box.offset_mt) > drawing::text_width(length, sheet_.text(9)) + 6)
           svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length,
                      {.size = 9, .anchor = drawing::Anchor::kMiddle});
       }
@@ -275,15 +313,15 @@ class SchedulePainter {
 
   void draw_axis(double top, double bottom) {
     const double ms = static_cast<double>(c_.flexray.cycle_ps()) * 1e-9;
-    const drawing::Ticks ticks = drawing::nice_ticks({0, ms}, 12);
-    svg_->line({left_, bottom}, {left_ + kPlot, bottom}, {.stroke = drawing::kBlack, .width = 0.8});
+    const drawing::Ticks ticks = drawing::nice_ticks({0, ms}, sheet_.on_paper() ? static_cast<int>(plot_ / 50) : 12);
+    svg_->line({left_, bottom}, {left_ + plot_, bottom}, {.stroke = drawing::kBlack, .width = 0.8});
     for (const double t : ticks.at) {
-      const double px = left_ + t / ms * kPlot;
+      const double px = left_ + t / ms * plot_;
       svg_->line({px, top}, {px, bottom + 4}, {.stroke = "#888888", .width = 0.5, .dash = "2 3"});
       svg_->text({px, bottom + 16}, drawing::tick_label(t, ticks.step),
                  {.size = 10.5, .anchor = drawing::Anchor::kMiddle});
     }
-    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]",
+    svg_->text({left_ + plot_ / 2, bottom + 33}, "time in the cycle [ms]",
                {.size = 11.5, .anchor = drawing::Anchor::kMiddle});
   }
 
@@ -306,24 +344,25 @@ class SchedulePainter {
           case ActivationKind::kSensor: when = "when " + names_.sensor(task.activation.sensor) + " measures"; break;
           case ActivationKind::kCompletion: when = "when " + task.activation.after + " ends"; break;
         }
-        lines.push_back(fmt::format("{}: {} runs {}, {} to {} us", node.name, task.name, when,
-                                    drawing::number(task.best_case.seconds() * 1e6),
-                                    drawing::number(task.worst_case.seconds() * 1e6)));
+        const std::string words = fmt::format("{}: {} runs {}, {} to {} us", node.name, task.name, when,
+                                              drawing::number(task.best_case.seconds() * 1e6),
+                                              drawing::number(task.worst_case.seconds() * 1e6));
+        for (std::string& one : drawing::broken(words, sheet_.text(10), line())) lines.push_back(std::move(one));
       }
     return lines;
   }
 
   // Draws slots by cycles: both channels in one cell, A above B.
   void draw_matrix(double top, double cell, double row) {
-    if (used_.empty()) return;
-    svg_->text({left_, top - 26},
-               fmt::format("Owned slots over cycles, the pattern repeats every {} (upper half of a cell: "
-                           "channel A, lower half: B)",
-                           rows() == 1 ? "cycle" : fmt::format("{} cycles", rows())),
-               {.size = 11.5, .bold = true});
-    for (std::size_t s = 0; s < used_.size(); ++s)
-      svg_->text({left_ + cell * (static_cast<double>(s) + 0.5), top - 6}, fmt::format("{}", used_[s]),
-                 {.size = cell < 22 ? 7.5 : 9.5, .anchor = drawing::Anchor::kMiddle});
+    drawing::LabelSpace numbers;
+    for (std::size_t s = 0; s < used_.size(); ++s) {
+      const drawing::Point at{left_ + cell * (static_cast<double>(s) + 0.5), top - 6};
+      const std::string text = fmt::format("{}", used_[s]);
+      const drawing::TextStyle style{.size = sheet_.text(cell < 22 ? 7.5 : 9.5), .anchor = drawing::Anchor::kMiddle};
+      drawing::Area room = text_area(at, text, style);
+      room.x -= 1, room.width += 2;
+      if (!sheet_.on_paper() || numbers.claim(room)) svg_->text(at, text, style);
+    }
     svg_->text({left_ - 12, top - 6}, "slot", {.size = 10, .anchor = drawing::Anchor::kEnd});
     for (int cycle = 0; cycle < rows(); ++cycle) {
       const double y = top + row * cycle;
@@ -340,20 +379,19 @@ class SchedulePainter {
           const std::string text =
               f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
           const double middle = a && b ? y + row / 2 : a ? y + row / 4 : y + row * 3 / 4;
-          if (drawing::text_width(text, 8) <= cell - 2)
+          if (drawing::text_width(text, sheet_.text(8)) <= cell - 2)
             svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = drawing::Anchor::kMiddle});
         }
         svg_->rect({left, y, cell, row}, {.stroke = "#bbbbbb", .width = 0.5});
       }
     }
-    svg_->text({left_, top + row * rows() + 18},
-               "Numbers in the cells: fragment of the PDU / most fragments it can have.",
-               {.size = 10, .fill = "#444444"});
   }
 
   const Cluster& c_;
+  drawing::Sheet sheet_;
   drawing::Names names_;
   double left_ = 110;  // start of the plot, right of the lane labels
+  double plot_ = kPlot, words_left_ = 0, words_width_ = 0;
   int repetition_ = 1;
   std::map<int, std::vector<const FrameSlot*>> frames_;
   std::vector<int> used_;
@@ -362,10 +400,10 @@ class SchedulePainter {
 
 }  // namespace
 
-std::string schedule_svg(const Cluster& cluster) {
+std::string schedule_svg(const Cluster& cluster, const drawing::Sheet& sheet) {
   if (cluster.frames.empty() && cluster.nodes.empty())
-    return drawing::empty_picture("Schedule of " + cluster.name, "The cluster has no nodes and no frames.");
-  return SchedulePainter(cluster).picture();
+    return drawing::empty_picture("Schedule of " + cluster.name, "The cluster has no nodes and no frames.", sheet);
+  return SchedulePainter(cluster, sheet).picture();
 }
 
 }  // namespace ttf::report::plots

@@ -5,10 +5,11 @@
 
 #include <string>
 
+#include "report/drawing/sheet.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::report::plots {
 
-std::string schedule_svg(const schedules::model::Cluster& cluster);
+std::string schedule_svg(const schedules::model::Cluster& cluster, const drawing::Sheet& sheet = {});
 
 }  // namespace ttf::report::plots

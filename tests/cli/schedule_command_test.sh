@@ -29,6 +29,9 @@ expect 2 'lazer_preprocessing' schedule check "$cluster"
 expect 0 'laser_objects' schedule show "$schedule"
 expect 0 '^wrote .*/schedule.svg$' schedule show "$schedule" -o "$work/schedule.svg"
 [[ -s $work/schedule.svg ]] || fail "schedule show -o writes no picture"
+expect 0 '' schedule show "$schedule" -o "$work/paper.svg" --width 18cm --font-size 7
+grep -q '<svg [^>]*width="180.0000mm"' "$work/paper.svg" || fail "the picture of a schedule is not 180 mm wide"
+expect 2 '--width = 18cm: goes with --out only' schedule show "$schedule" --width 18cm
 mutate schedules/paper_unsynchronised.yaml 's/fragment_bytes: 8$/fragment_bytes: 12/' "$cluster"
 expect 2 \
   'broken.yaml:[0-9]+: can.camera_can.messages\[0\] = 12 bytes: must fit a frame of this CAN, at most 8 bytes' \

@@ -333,6 +333,9 @@ TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
     expect_no_overlaps(svg);
     expect_inside(svg);
     expect_renders(svg);
+    const schedules::model::Cluster cluster =
+        schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".yaml");
+    for (const double width_mm : {88.0, 180.0}) expect_on_paper(schedule_svg(cluster, {width_mm, 8}), width_mm, 8);
     // The demo alone has one, of 13 macroticks in 2000: too narrow for its name.
     const bool window = name == std::string_view("flexray_demo");
     EXPECT_EQ(count(svg, ">symbol window</text>"), window ? 1u : 0u) << "in the legend";
