@@ -66,7 +66,9 @@ class Density {
 
   static std::size_t cells_in(double length) { return static_cast<std::size_t>(std::ceil(length / kCell)); }
   static std::size_t place(double units, std::size_t cells) {
-    return std::min(static_cast<std::size_t>(std::max(0.0, units) / kCell), cells - 1);
+    // A damaged log may have any values.
+    if (!(units > 0)) return 0;
+    return static_cast<std::size_t>(std::min(units / kCell, static_cast<double>(cells - 1)));
   }
   std::size_t look(std::size_t cell) const {
     return tracks_[cell] > 0 ? shade_of(tracks_[cell]) : truths_[cell] ? kUntracked : kEmpty;

@@ -137,6 +137,24 @@ TEST(PositionCrowd, ShowsWhereADensityHasNoTrack) {
   EXPECT_EQ(count_class(crowd(36).over_time_svg(), "untracked"), 0u) << "trails";
 }
 
+TEST(PositionCrowd, ImpossiblePlacesOfADamagedLogAreNoTrouble) {
+  for (const int objects : {3, 40}) {
+    PositionPlots plots = crowd(objects);
+    for (const double value :
+         {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 1e300}) {
+      recording::records::TruthState truth;
+      truth.at = {3'000'000'000};
+      truth.object = ObjectId{1};
+      truth.x = value;
+      plots.on(truth);
+      truth.at = {std::numeric_limits<std::int64_t>::max()};
+      plots.on(truth);
+    }
+    EXPECT_NE(plots.over_time_svg().find("</svg>"), std::string::npos);
+    EXPECT_NE(plots.plane_svg().find("</svg>"), std::string::npos);
+  }
+}
+
 TEST(PositionCrowd, AChosenObjectIsDrawnAsBefore) {
   const PositionPlots plots = crowd(25, {.object = ObjectId{7}});
   EXPECT_FALSE(plots.several());
