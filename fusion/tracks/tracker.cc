@@ -38,8 +38,8 @@ bool remembers_front(const Heading& heading, const linear::Vector<2>& velocity) 
   return !heading.known || heading.front * ahead > 0.0;
 }
 
-// The first of a sorted range that is not `before`. A search has as many halvings whatever it finds, and no branch on what it
-// finds: the processor could not foresee it.
+// Returns the first element of a sorted range that is not `before`. The number of halvings is that of the range alone, and none
+// of them branches. The processor would foresee half of the branches wrongly.
 template <class T, class Before> const T* first_not(std::span<const T> range, const Before& before) {
   const T* first = range.data();
   for (std::size_t left = range.size(); left > 0;) {

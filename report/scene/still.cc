@@ -17,7 +17,7 @@ namespace {
 
 using drawing::LegendEntry;
 constexpr std::size_t kMostNamed = 100, kMostLarge = 200;  // tracks with an id, observations in full size
-constexpr double kBeside = 90;  // units left and right of the plot
+constexpr double kBeside = 90;                             // units left and right of the plot
 constexpr std::string_view kTruth = "#777777", kTrack = drawing::kBlack, kWarning = "#d00000";
 
 recording::records::ImageObject image_of(const ShownTrack& track) {
