@@ -13,27 +13,29 @@ namespace {
 
 using report::drawing::Sheet;
 
-constexpr std::int64_t kThousand = 1000;  // decimals are exact to a thousandth
-constexpr const char* kUsualFont = "8";   // pt, that of captions
+constexpr std::int64_t kMillion = 1'000'000;  // decimals are exact to a millionth
+constexpr const char* kUsualFont = "8";       // pt, that of captions
 
 double width_mm(const std::string& text) {
   constexpr std::pair<std::string_view, double> kUnits[] = {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}};
   for (const auto& [unit, mm] : kUnits) {
     if (!text.ends_with(unit)) continue;
-    const auto number = parse_scaled(std::string_view(text).substr(0, text.size() - unit.size()), kThousand);
+    std::string_view digits = std::string_view(text).substr(0, text.size() - unit.size());
+    if (digits.ends_with(' ')) digits.remove_suffix(1);
+    const auto number = parse_scaled(digits, kMillion);
     if (!number) break;
-    return static_cast<double>(*number) / kThousand * mm;
+    return static_cast<double>(*number) / kMillion * mm;
   }
-  throw InputError({"command line", 0, "--width", text, "must be a decimal number and mm, cm, in or pt, as in 88mm"});
+  throw InputError(
+      {"command line", 0, "--width", text, "must be a number of up to six decimals and mm, cm, in or pt, as in 88mm"});
 }
 
 double font_pt(std::string text) {
   if (text.ends_with("pt")) text.resize(text.size() - 2);
-  const auto thousandths = [](double pt) { return static_cast<std::int64_t>(pt * kThousand); };
-  return static_cast<double>(decimal_option("--font-size", text, kThousand,
-                                            {thousandths(Sheet::kSmallest_pt), thousandths(Sheet::kLargest_pt)},
-                                            " pt")) /
-         kThousand;
+  const auto millionths = [](double pt) { return static_cast<std::int64_t>(pt * kMillion); };
+  return static_cast<double>(decimal_option("--font-size", text, kMillion,
+                                            {millionths(Sheet::kSmallest_pt), millionths(Sheet::kLargest_pt)}, " pt")) /
+         kMillion;
 }
 
 }  // namespace

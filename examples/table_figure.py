@@ -5,7 +5,7 @@
     examples/table_figure.py out/tables out/errors.pdf
 
 It draws with Matplotlib (Debian: python3-matplotlib). The name of the figure
-ends with its format: .pdf, .svg or .png. Exit code 1: a table cannot be read, or there is no Matplotlib.
+ends with its format: .pdf, .svg or .png. Exit code 1: there is no Matplotlib. Exit code 2: a table cannot be read.
 """
 import csv
 import math
@@ -63,10 +63,15 @@ def draw(folder: pathlib.Path, picture: str) -> None:
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
-        sys.exit(__doc__)
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
     try:
         draw(pathlib.Path(sys.argv[1]), sys.argv[2])
     except ImportError as error:
         sys.exit(f"error: {error.name} is missing: install Debian's python3-matplotlib")
-    except (OSError, KeyError, ValueError) as error:
-        sys.exit(f"error: {error}")
+    except OSError as error:
+        print(f"error: {error.filename}: {error.strerror}", file=sys.stderr)
+        sys.exit(2)
+    except (KeyError, ValueError) as error:
+        print(f"error: {sys.argv[1]}: not the tables of a drive: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -98,7 +98,10 @@ std::string positions(const std::vector<recording::merge::MergedLogs>& drives, T
     position.title = fmt::format("{}, {}", drive.manifest().scenario_name, drive.manifest().strategy);
     position.from = from;
     position.to = to;
-    if (options.object) position.object = static_cast<ObjectId>(*options.object);
+    if (options.object) {
+      position.object = static_cast<ObjectId>(*options.object);
+      position.title += fmt::format(", object {}", *options.object);
+    }
     plots.push_back(
         std::make_unique<report::plots::PositionPlots>(report::drawing::names_of(drive.manifest()), position));
     read_shown(drive, *plots.back());
@@ -133,7 +136,7 @@ std::string over_time(const DiagramOptions& options, const report::drawing::Shee
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
   if (from > extent.last)
     throw InputError({"command line", 0, "--from", *options.window.from,
-                      fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
+                      fmt::format("must be before the end of the log, {} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: the default is 160 ms.
   const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
   return as_timing ? timing(drives[0], from, to, sheet) : positions(drives, from, to, options, sheet);
@@ -155,7 +158,7 @@ std::string scene(const DiagramOptions& options, const report::drawing::Sheet& s
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "has no execution of a task to draw"});
   if (at && *at > extent.last)
     throw InputError({"command line", 0, "--at", *options.at,
-                      fmt::format("must be at most {:g} s, the end of the log", (extent.last - TrueTime{}).seconds())});
+                      fmt::format("must be at most {} s, the end of the log", (extent.last - TrueTime{}).seconds())});
   const TrueTime shown = at.value_or(TrueTime{extent.last.ns / 2});
   std::vector<std::string> warnings;
   report::scene::SceneLimits limits;

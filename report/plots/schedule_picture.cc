@@ -56,8 +56,10 @@ class SchedulePainter {
     const double notes = axis + 58;
     const std::vector<std::string> notes_text = other_tasks();
     const std::vector<std::string> matrix_title = drawing::broken(matrix_text(), sheet_.text(11.5), line(), true);
-    const std::vector<std::string> matrix_notes = drawing::broken(
-        "Numbers in the cells: fragment of the PDU / most fragments it can have.", sheet_.text(10), line());
+    std::vector<std::string> matrix_notes;
+    if (any_number_fits(matrix_cell))
+      matrix_notes = drawing::broken("Numbers in the cells: fragment of the PDU / most fragments it can have.",
+                                     sheet_.text(10), line());
     const double matrix = notes + 14 * static_cast<double>(notes_text.size()) + 34 +
                           drawing::kLineHeight * static_cast<double>(matrix_title.size());
     const double row = 24;
@@ -376,15 +378,26 @@ class SchedulePainter {
           const bool a = includes(f->channels, Channel::kA), b = includes(f->channels, Channel::kB);
           svg_->rect({left, a ? y : y + row / 2, cell, a && b ? row : row / 2}, {.fill = colour(f->pdu)},
                      frame_text(*f), "cell");
-          const std::string text =
-              f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
+          const std::string text = number_of(*f);
           const double middle = a && b ? y + row / 2 : a ? y + row / 4 : y + row * 3 / 4;
-          if (drawing::text_width(text, sheet_.text(8)) <= cell - 2)
+          if (fits(text, cell))
             svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = drawing::Anchor::kMiddle});
         }
         svg_->rect({left, y, cell, row}, {.stroke = "#bbbbbb", .width = 0.5});
       }
     }
+  }
+
+  std::string number_of(const FrameSlot& f) const {
+    return f.pdu == kNoPdu ? "status" : fmt::format("{}/{}", f.fragment + 1, c_.pdu(f.pdu).max_fragments());
+  }
+  bool fits(const std::string& text, double cell) const {
+    return drawing::text_width(text, sheet_.text(8)) <= cell - 2;
+  }
+  bool any_number_fits(double cell) const {
+    return std::ranges::any_of(frames_, [&](const auto& of_slot) {
+      return std::ranges::any_of(of_slot.second, [&](const FrameSlot* f) { return fits(number_of(*f), cell); });
+    });
   }
 
   const Cluster& c_;

@@ -38,13 +38,15 @@ class LabelPainter {
       in_box(fmt::format("{}", s.step), box->start, box->end,
              canvas_.y({LaneKey::Kind::kTask, index_of(box->node), box->task}), "#c9d7e6");
     }
+    // A number alone does not tell its list. On a screen pointing at it does.
+    const bool brief_counts = !canvas_.tags.on() && !canvas_.sheet.on_paper();
     for (const Transfer& t : transfers) {
       if (!canvas_.visible(t.start, t.end)) continue;
       const std::string full = fmt::format("{} {}", canvas_.names.pdu(t.pdu), t.sequence),
                         brief = fmt::format("{}", t.sequence);
       if (t.lane.kind == LaneKey::Kind::kCan) {
         const std::string behind = drawing::tint(pdu_colour(canvas_.names, t.pdu), 0.55);
-        if (!in_box(full, t.start, t.end, canvas_.y(t.lane), behind) && !canvas_.tags.on())
+        if (!in_box(full, t.start, t.end, canvas_.y(t.lane), behind) && brief_counts)
           in_box(brief, t.start, t.end, canvas_.y(t.lane), behind);
         continue;
       }
@@ -61,7 +63,7 @@ class LabelPainter {
         label(full, style, at, t.start);
       else if (const auto p = space_.place(full, style, at, canvas_.plot))
         svg_.text(*p, full, style);
-      else
+      else if (brief_counts)
         label(brief, style, at, t.start);
     }
     svg_.close_group();

@@ -22,14 +22,14 @@ for kind in timing position plane; do
 done
 expect 0 '' diagram "$work/tt.mcap" --kind scene --at 1.5 --width 88mm --font-size 8 -o "$work/paper.svg"
 grep -q '<svg [^>]*width="88.0000mm"' "$work/paper.svg" || fail "the scene is not 88 mm wide"
-for width in 3.5in 8.89cm 252pt; do   # the same width
-  expect 0 '' diagram "$work/tt.mcap" --kind plane --width $width -o "$work/$width.pdf"
+for width in 3.5in 8.89cm 252pt "88.9 mm"; do   # the same width
+  expect 0 '' diagram "$work/tt.mcap" --kind plane --width "$width" -o "$work/$width.pdf"
   cmp "$work/$width.pdf" "$work/3.5in.pdf" || fail "3.5 in is not $width"
 done
 grep -Eaq '/MediaBox \[ 0 0 252(\.0000[0-9]*)? ' "$work/252pt.pdf" || fail "the PDF is not 252 pt wide: $(grep -a MediaBox "$work/252pt.pdf")"
-expect 2 '^error: command line: --width = 88: must be a decimal number and mm, cm, in or pt, as in 88mm$' \
+expect 2 '^error: command line: --width = 88: must be a number of up to six decimals and mm, cm, in or pt, as in 88mm$' \
   diagram "$work/tt.mcap" --width 88 -o "$work/none.svg"
-expect 2 '^error: command line: --width = 3ft: must be a decimal number and mm' diagram "$work/tt.mcap" --width 3ft -o "$work/none.svg"
+expect 2 '^error: command line: --width = 3ft: must be a number of up to six decimals and mm' diagram "$work/tt.mcap" --width 3ft -o "$work/none.svg"
 expect 2 '^error: command line: --width = 1500 mm: must be 30..1000 mm$' diagram "$work/tt.mcap" --width 150cm -o "$work/none.svg"
 expect 2 '^error: command line: --font-size = 3: must be a decimal number 4..72 pt$' \
   diagram "$work/tt.mcap" --width 88mm --font-size 3 -o "$work/none.svg"
