@@ -29,29 +29,11 @@ void correct_scalar(Scalar& scalar, double innovation, double measured, double s
 // Makes confirmed tracks take precedence over tentative ones for the same observation.
 constexpr double kConfirmedBonus = 100.0;
 
-// So many tracks are searched faster along x alone.
-constexpr std::size_t kFewTracks = 64;
-
 // Returns whether this velocity can tell nothing new of the front. So most tracks need no covariance.
 bool remembers_front(const Heading& heading, const linear::Vector<2>& velocity) {
   const double ahead = std::cos(heading.value) * velocity.x() + std::sin(heading.value) * velocity.y();
   return !heading.known || heading.front * ahead > 0.0;
 }
-
-// Returns the first element of a sorted range that is not `before`. The number of halvings is that of the range alone, and none
-// of them branches. The processor would foresee half of the branches wrongly.
-template <class T, class Before> const T* first_not(std::span<const T> range, const Before& before) {
-  const T* first = range.data();
-  for (std::size_t left = range.size(); left > 0;) {
-    const std::size_t half = (left + 1) / 2;
-    first += half * static_cast<std::size_t>(before(first[half - 1]));
-    left -= half;
-  }
-  return first;
-}
-
-// Makes a rounded bound exclude no pair inside a gate.
-constexpr double kRoundedUp = 1.0 + 1e-12;
 
 // A silhouette is no fixed place of its object.
 bool gives_way(const Anchor& anchor, sensors::SeenPoint seen) {
@@ -74,17 +56,13 @@ double reach_of(const Extent& extent, double gate) {
 Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
     : config_(config), estimator_(estimators::make_estimator(config)), max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
-      assignment_(max_observations, max_tracks_), distances_(max_tracks_),
+      assignment_(max_observations, max_tracks_), places_(max_tracks_), distances_(max_tracks_),
       joint_(config.association == config::Association::kJpda ? max_observations : 0,
              config.association == config::Association::kJpda ? max_tracks_ : 0),
       twins_(config, max_tracks_), visibility_(config, max_tracks_), taken_(max_observations),
       near_track_(max_observations), observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
   squares_.reserve(max_observations * max_tracks_);
-  placed_.reserve(max_tracks_);
-  along_x_.reserve(max_tracks_);
-  unsorted_.reserve(max_tracks_);
-  strips_.reserve(static_cast<std::size_t>(std::sqrt(static_cast<double>(max_tracks_))) + 3);
   if (config.association == config::Association::kJpda) {
     pairs_.reserve(max_observations * max_tracks_);
     explanations_.reserve(max_observations + 1);
@@ -179,66 +157,19 @@ void Tracker::predict(Track& track, const HeadingStep& turn, double dt) const {
   if (config_.birth == config::Birth::kExistence) track.existence = survived(track.existence, dt, config_);
 }
 
-// Strips are as long as many, so that a search passes few of either.
 void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
   const SensorId seen_by = list.observations.empty() ? kNoSensor : list.observations.front().sensor;
   const bool centres = std::all_of(list.observations.begin(), list.observations.end(),
                                    [](const auto& z) { return z.seen == sensors::SeenPoint::kCentre; });
-  unsorted_.clear();
-  strips_.clear();
-  largest_variance_x_ = largest_variance_y_ = largest_reach_ = 0.0;
+  places_.clear();
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     const Track& track = set.tracks[t];
     const linear::Gaussian<2> at = estimator_->seen_position(track.estimate, seen_by);
     const bool same = centres && track.anchor.point == sensors::SeenPoint::kCentre;
     const double reach = same ? 0.0 : reach_of(track.extent, gate_[2]);
-    unsorted_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach, t});
-    largest_reach_ = std::max(largest_reach_, reach);
-    largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
-    largest_variance_y_ = std::max(largest_variance_y_, at.p(1, 1));
+    places_.add({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach, t});
   }
-  sort_along_x();
-  if (placed_.size() <= kFewTracks) return;
-  const auto length = static_cast<std::size_t>(std::sqrt(static_cast<double>(placed_.size())));
-  for (std::size_t begin = 0; begin < placed_.size(); begin += length) {
-    const std::size_t end = std::min(begin + length, placed_.size());
-    strips_.push_back({placed_[begin].x, placed_[end - 1].x, begin, end});
-    std::sort(placed_.begin() + static_cast<std::ptrdiff_t>(begin), placed_.begin() + static_cast<std::ptrdiff_t>(end),
-              [](const Placed& a, const Placed& b) { return a.y != b.y ? a.y < b.y : a.track < b.track; });
-  }
-}
-
-void Tracker::sort_along_x() {
-  if (along_x_.size() != unsorted_.size()) {
-    along_x_.clear();
-    for (std::size_t t = 0; t < unsorted_.size(); ++t) along_x_.push_back({0.0, t});
-  }
-  for (Along& along : along_x_) along.x = unsorted_[along.track].x;
-  std::sort(along_x_.begin(), along_x_.end(),
-            [](const Along& a, const Along& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
-  placed_.clear();
-  for (const Along& along : along_x_) placed_.push_back(unsorted_[along.track]);
-}
-
-// Tries the tracks that are not beyond the reach of the least certain one, on either axis: all others are outside of
-// every gate.
-template <class Try> void Tracker::near(const sensors::Observation& z, double gate, const Try& try_one) const {
-  const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0))) + largest_reach_;
-  const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + z.r(1, 1))) + largest_reach_;
-  const double low = z.z(0) - reach_x, high = z.z(0) + reach_x;
-  const std::span<const Placed> placed(placed_);
-  if (strips_.empty()) {
-    const Placed* at = first_not(placed, [&](const Placed& p) { return p.x < low; });
-    for (; at != placed.data() + placed.size() && at->x <= high; ++at)
-      if (std::abs(at->y - z.z(1)) <= reach_y) try_one(*at);
-    return;
-  }
-  const Strip* strip = first_not(std::span<const Strip>(strips_), [&](const Strip& s) { return s.high < low; });
-  for (; strip != strips_.data() + strips_.size() && strip->low <= high; ++strip) {
-    const std::span<const Placed> here = placed.subspan(strip->begin, strip->end - strip->begin);
-    const Placed* at = first_not(here, [&](const Placed& p) { return p.y < z.z(1) - reach_y; });
-    for (; at != here.data() + here.size() && at->y <= z.z(1) + reach_y; ++at) try_one(*at);
-  }
+  places_.sort();
 }
 
 void Tracker::sum_innovations(const TrackSet& set, const sensors::ObservationList& list) {
@@ -255,7 +186,7 @@ void Tracker::sum_innovations(const TrackSet& set, const sensors::ObservationLis
 // Outside the gate on one axis means outside the gate. This cheap bound comes first: with the track's reach, and then with
 // the distance of the observed point from its anchor. Most pairs end here, so that the rest is out of line.
 inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z, const sensors::Mounting& mounting,
-                              std::size_t row, const Placed& placed) {
+                              std::size_t row, const association::Place& placed) {
   const double gate = gate_[dimension_of(z.kind)];
   const bool is_position = z.kind == sensors::ObservationKind::kPosition;
   const auto outside = [&](double dx, double dy, double variance_x, double variance_y) {
@@ -309,11 +240,11 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
     const sensors::Mounting mounting = mounting_of(z);
-    const auto try_one = [&](const Placed& placed) { try_pair(set, z, mounting, o, placed); };
+    const auto try_one = [&](const association::Place& placed) { try_pair(set, z, mounting, o, placed); };
     if (z.kind == sensors::ObservationKind::kPosition)
-      near(z, gate_[dimension_of(z.kind)], try_one);
+      places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, gate_[dimension_of(z.kind)], try_one);
     else
-      std::for_each(placed_.begin(), placed_.end(), try_one);
+      std::for_each(places_.all().begin(), places_.all().end(), try_one);
   }
   assignment_.solve(candidates_, list.observations.size(), set.tracks.size());
   if (joint) joint_.solve(pairs_, list.observations.size(), set.tracks.size());

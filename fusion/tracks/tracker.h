@@ -29,6 +29,7 @@
 #include "core/time.h"
 #include "fusion/association/assignment.h"
 #include "fusion/association/joint_association.h"
+#include "fusion/association/near_places.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/mounted.h"
@@ -107,18 +108,11 @@ class Tracker {
  private:
   void take_in(TrackSet& set, const sensors::ObservationList& list);
   void predict(Track& track, const HeadingStep& turn, double dt) const;
-  struct Placed {
-    double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
-    double reach = 0.0;  // [m] from the anchor to any point of the object that the list's observations may be of
-    std::size_t track = 0;
-  };
   void place(const TrackSet& set, const sensors::ObservationList& list);
-  void sort_along_x();
   void associate(const TrackSet& set, const sensors::ObservationList& list);
-  template <class Try> void near(const sensors::Observation& position, double gate, const Try& try_one) const;
   void sum_innovations(const TrackSet& set, const sensors::ObservationList& list);
   void try_pair(const TrackSet& set, const sensors::Observation& observation, const sensors::Mounting& mounting,
-                std::size_t row, const Placed& placed);
+                std::size_t row, const association::Place& placed);
   void judge_pair(const Track& track, const sensors::Observation& observation, std::size_t row, int column,
                   const Distance* distance, const sensors::Mounting& mounting);
   void offer(const Track& track, const sensors::Observation& observation, int row, int column);
@@ -146,21 +140,7 @@ class Tracker {
   std::vector<association::Candidate> candidates_;
   std::vector<double> squares_;  // nu' S^-1 nu of each candidate
   Innovations innovations_;
-  // The tracks in strips along x, each sorted by y, so that far ones are skipped. Few tracks are one strip, sorted by x.
-  std::vector<Placed> placed_;
-  // The tracks along x. The next list begins with this order, and hardly changes it.
-  struct Along {
-    double x = 0.0;
-    std::size_t track = 0;
-  };
-  std::vector<Along> along_x_;
-  std::vector<Placed> unsorted_;
-  struct Strip {
-    double low = 0.0, high = 0.0;  // x
-    std::size_t begin = 0, end = 0;
-  };
-  std::vector<Strip> strips_;  // empty if there is only one
-  double largest_variance_x_ = 0.0, largest_variance_y_ = 0.0, largest_reach_ = 0.0;
+  association::NearPlaces places_;  // where the tracks' anchors are
   Distances distances_;
   association::JointAssociation joint_;  // without storage unless jpda
   std::vector<association::Pair> pairs_;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/counted.h"
+#include "experiments/results/percent.h"
 #include "report/drawing/figures.h"
 
 namespace ttf::report::experiment {
@@ -12,24 +14,33 @@ namespace {
 std::string change_text(const ExperimentChange& change) {
   if (!change.percent) return drawing::with_interval(change.difference.mean, change.difference.half_width, true);
   const experiments::results::Ratio& percent = *change.percent;
-  if (std::isnan(percent.value)) return "-";
-  const std::string value = fmt::format("{:+.1f} %", percent.value);
-  return std::isnan(percent.low) ? value : fmt::format("{} ({:+.1f} to {:+.1f})", value, percent.low, percent.high);
+  return experiments::results::percent_words(percent.value, percent.low, percent.high, true);
+}
+
+// "1 of 3 interactions": of all of the experiment, which are one family.
+std::string interactions_told(const ExperimentFolder& folder) {
+  std::size_t interactions = 0, certain = 0;
+  for (const ExperimentInteraction& one : folder.interactions)
+    for (const InteractionPoint& point : one.points) {
+      interactions += std::isfinite(point.interaction.difference.half_width);
+      certain += point.stays;
+    }
+  return fmt::format("{} of {}", certain, counted(interactions, "interaction"));
 }
 
 }  // namespace
 
-page::PageTable interaction_table(const ExperimentFolder& folder, const ExperimentInteraction& of) {
+page::PageTable interaction_table(const ExperimentFolder& folder, const ExperimentInteraction& of, Marks marks) {
   std::string measure = of.measure;
   for (const ExperimentMeasure& one : folder.measures)
     if (one.name == of.measure && of.by != "ratio") measure = one.with_unit();
   page::PageTable table{
-      fmt::format("{} of {} and {}, {} from {} to {}: {}, paired by replication, {:g} % intervals. Those marked * stay "
-                  "certain among all interactions, by Holm's method",
+      fmt::format("{} of {} and {}, {} from {} to {}: {}, paired by replication, {:g} % intervals. {}, {}, stay "
+                  "certain together by Holm's method at {:g} %",
                   measure, of.lowers, of.more_than, of.axis, of.from, of.to,
-                  of.by == "ratio" ? "changes as shares of the values before, and the ratio of their factors"
-                                   : "changes as differences, and their difference",
-                  100.0 * folder.confidence),
+                  experiments::results::interaction_columns(of.by == "ratio"), 100.0 * folder.confidence,
+                  interactions_told(folder), marks == Marks::kBold ? "in bold" : "marked *",
+                  std::round(1e6 * (1.0 - folder.confidence)) * 1e-4),
       of.others,
       {}};
   for (const std::string& head : {std::string("runs"), of.lowers, of.more_than, of.lowers + " against " + of.more_than})
@@ -40,8 +51,9 @@ page::PageTable interaction_table(const ExperimentFolder& folder, const Experime
     row.push_back(std::to_string(interaction.count));
     row.push_back(change_text(point.first));
     row.push_back(change_text(point.second));
-    row.push_back(fmt::format("{} {}{}", change_text(point.interaction),
-                              drawing::verdict(interaction.mean, interaction.half_width), point.stays ? "*" : ""));
+    const std::string words = fmt::format("{} {}", change_text(point.interaction),
+                                          drawing::verdict(interaction.mean, interaction.half_width));
+    row.push_back(!point.stays ? words : marks == Marks::kBold ? "**" + words + "**" : words + "*");
     table.rows.push_back(std::move(row));
   }
   return table;

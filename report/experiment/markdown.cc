@@ -99,7 +99,7 @@ std::string markdown_tables(const ExperimentFolder& folder) {
     text += '\n' + caption(folder, m, family) + '\n' + table_of(folder, m, family);
   }
   for (const ExperimentInteraction& one : folder.interactions) {
-    const page::PageTable table = interaction_table(folder, one);
+    const page::PageTable table = interaction_table(folder, one, Marks::kBold);
     text += '\n' + table.caption + ".\n\n" + head_of(table.header);
     for (const std::vector<std::string>& row : table.rows) text += row_of(row);
   }

@@ -10,8 +10,6 @@
     constructor(figure, scenes) {
       super(figure, scenes);
       this.playing = false;
-      this.from = Math.min(...scenes.map((scene) => scene.from));
-      this.to = Math.max(...scenes.map((scene) => scene.to));
       this.at = this.from;
       const grid = this.build();
       figure.addEventListener("keydown", (event) => this.key(event));
@@ -42,7 +40,15 @@
       Object.assign(this.view, { x: this.whole.x, y: this.whole.y, scale: this.fitting });
       this.redraw();
     }
-    zoom(factor, x = this.view.x, y = this.view.y) {
+    // What is in sight nearest to the middle of all that is: where a zoom keeps something in sight.
+    get middle() {
+      const places = this.panels.flatMap(({ drawing }) => drawing.in_sight());
+      if (places.length === 0) return this.view;
+      const [x, y] = ["x", "y"].map((of) => places.reduce((sum, one) => sum + one[of], 0) / places.length);
+      const away = (one) => Math.hypot(one.x - x, one.y - y);
+      return places.reduce((best, one) => (away(one) < away(best) ? one : best));
+    }
+    zoom(factor, { x, y } = this.middle) {
       const scale = Math.min(this.fitting * 200, Math.max(this.fitting / 8, this.view.scale * factor));
       const by = this.view.scale / scale;
       Object.assign(this.view, { scale, x: x + (this.view.x - x) * by, y: y + (this.view.y - y) * by });
@@ -113,21 +119,29 @@
       if (!event.ctrlKey && !event.shiftKey) return;
       event.preventDefault();
       const factor = (event.deltaY || event.deltaX) > 0 ? 0.8 : 1.25;
-      this.zoom(factor, drawing.to_x(event.offsetX), drawing.to_y(event.offsetY));
+      this.zoom(factor, { x: drawing.to_x(event.offsetX), y: drawing.to_y(event.offsetY) });
     }
-    // On a touch screen, dragging scrolls the page.
+    // On a touch screen, dragging up or down scrolls the page, and dragging sideways moves the scene.
     grab(event, { canvas }) {
-      if (event.button !== 0 || event.pointerType === "touch") return;
+      if (event.button !== 0 || !event.isPrimary) return;
       canvas.setPointerCapture(event.pointerId);
-      const drag = (moved) => {
-        this.view.x -= moved.movementX / this.view.scale;
-        this.view.y += moved.movementY / this.view.scale;
+      const { x, y } = this.view, end = new AbortController();
+      const on = (kind, act) => canvas.addEventListener(kind, act, { signal: end.signal });
+      let at = event;
+      on("pointermove", (moved) => {
+        if (!moved.isPrimary) return;
+        this.view.x -= (moved.clientX - at.clientX) / this.view.scale;
+        this.view.y += (moved.clientY - at.clientY) / this.view.scale;
+        at = moved;
         this.redraw();
-      };
-      const drop = () => canvas.removeEventListener("pointermove", drag);
-      canvas.addEventListener("pointermove", drag);
-      canvas.addEventListener("pointerup", drop, { once: true });
-      canvas.addEventListener("pointercancel", drop, { once: true });
+      });
+      on("pointerup", () => end.abort());
+      // The page scrolls or grows instead.
+      on("pointercancel", () => {
+        end.abort();
+        Object.assign(this.view, { x, y });
+        this.redraw();
+      });
     }
     point(event, { drawing }) {
       tip.hidden = true;
@@ -148,6 +162,7 @@
       tip.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8))}px`;
       tip.style.top = `${event.clientY + 18}px`;
     }
+    leave() { tip.hidden = true; }
   }
 
   const data = JSON.parse(document.getElementById("scenes").textContent);

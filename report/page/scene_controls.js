@@ -72,7 +72,7 @@ const SceneControls = (() => {
       grid.append(box);
       canvas.addEventListener("pointerdown", (event) => this.grab(event, one));
       canvas.addEventListener("pointermove", (event) => this.point(event, one));
-      canvas.addEventListener("pointerleave", () => { tip.hidden = true; });
+      canvas.addEventListener("pointerleave", () => this.leave());
       canvas.addEventListener("wheel", (event) => this.wheel(event, one), { passive: false });
       // A panel out of sight is not drawn.
       new IntersectionObserver(([entry]) => {

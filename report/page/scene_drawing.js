@@ -110,9 +110,10 @@ const SceneDrawing = (() => {
       c.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
       c.clearRect(0, 0, this.width, this.height);
       this.ground();
-      const objects = hidden.has("truth") ? [] : data.objects(t), tracks = hidden.has("tracks") ? [] : data.tracks(t);
+      const all = { objects: data.objects(t), tracks: data.tracks(t), warnings: data.warnings(t) };
+      const objects = hidden.has("truth") ? [] : all.objects, tracks = hidden.has("tracks") ? [] : all.tracks;
       const coasting = tracks.filter((one) => one.coasting), seen = tracks.filter((one) => !one.coasting);
-      const warnings = hidden.has("warnings") ? new Map() : data.warnings(t);
+      const warnings = hidden.has("warnings") ? new Map() : all.warnings;
       const warned = tracks.filter((one) => warnings.has(one.id));
       this.path(() => objects.forEach((one) => this.box(one)), { stroke: this.soft, fill: this.soft });
       if (!hidden.has("trails")) this.path(() => this.trails(tracks, t), { stroke: this.own, opacity: 0.5 });
@@ -126,9 +127,21 @@ const SceneDrawing = (() => {
       this.names(tracks, warnings);
       this.seen = { objects, tracks };
       Object.assign(this.canvas.dataset, {
-        truth: objects.length, tracks: tracks.length, warnings: warned.length, observations,
+        truth: all.objects.length, tracks: all.tracks.length, observations,
+        warnings: all.tracks.filter((one) => all.warnings.has(one.id)).length,
         drawn: Number(this.canvas.dataset.drawn ?? 0) + 1, took: (performance.now() - begin).toFixed(2),
       });
+    }
+
+    // Returns the drawn tracks whose places are on the canvas; objects, without any track.
+    in_sight() {
+      const here = (one) => this.inside(this.px(one.x), this.py(one.y), 0, 0);
+      const { tracks, objects } = this.seen ?? { tracks: [], objects: [] }, near = tracks.filter(here);
+      return near.length > 0 ? near : objects.filter(here);
+    }
+    // Returns whether a rectangle, of so many pixels to each side of its centre, is on the canvas.
+    inside(x, y, across, up) {
+      return x >= across && y >= up && x + across <= this.width && y + up <= this.height;
     }
 
     // An arrow head at the origin, along x.
@@ -163,17 +176,36 @@ const SceneDrawing = (() => {
       c.fillStyle = colour;
       c.fillText(words, x, y);
     }
+    // Returns the rectangle about a track's box, in pixels: its centre, and what it has to each side of it.
+    around(one) {
+      const { scale } = this.view, a = Math.abs(Math.cos(one.heading)), b = Math.abs(Math.sin(one.heading));
+      return { x: this.px(one.x), y: this.py(one.y), across: (one.length * a + one.width * b) * scale / 2,
+        up: (one.length * b + one.width * a) * scale / 2 };
+    }
+    // Ids stand above, beside or below their boxes, and cover neither a box nor each other: one without room is left
+    // out. A warning is always written.
     names(tracks, warnings) {
-      const all = tracks.length <= MOST_NAMED || this.view.scale > NAMED_SCALE, { c } = this;
+      const all = tracks.length <= MOST_NAMED || this.view.scale > NAMED_SCALE, { c, width, height } = this;
+      const taken = tracks.map((one) => this.around(one));
+      const free = (r) => this.inside(r.x, r.y, r.across, r.up) && !taken.some((other) =>
+        Math.abs(r.x - other.x) < r.across + other.across && Math.abs(r.y - other.y) < r.up + other.up);
+      const within = (value, margin, size) => Math.max(margin, Math.min(value, size - margin));
+      const name = (box, words, colour, always) => {
+        if (!this.inside(box.x, box.y, 0, 0)) return;
+        const across = c.measureText(words).width / 2 + 2, up = 7;
+        const x = within(box.x, across, width), beside = box.across + across + 2, over = box.up + up + 2;
+        const places = [[x, box.y - over], [box.x + beside, box.y], [box.x - beside, box.y], [x, box.y + over]]
+            .map(([px, py]) => ({ x: px, y: py, across, up }));
+        const place = places.find(free) ?? (always && { ...places[0], y: within(places[0].y, up, height) });
+        if (!place) return;
+        taken.push(place);
+        this.text(words, place.x, place.y + 4, colour);
+      };
       c.font = "600 12px system-ui, sans-serif";
       c.textAlign = "center";
-      for (const one of tracks) {
-        const words = warnings.get(one.id), x = this.px(one.x), a = Math.cos(one.heading), b = Math.sin(one.heading);
-        const y = this.py(one.y + (Math.abs(one.length * b) + Math.abs(one.width * a)) / 2) - 5;
-        if (x < 0 || x > this.width || y < 0 || y > this.height) continue;
-        if (words) this.text(`${one.id}: ${words}`, x, y, this.alarm);
-        else if (all) this.text(String(one.id), x, y, this.own);
-      }
+      const boxes = tracks.map((one, i) => [one, taken[i]]), warned = ([one]) => warnings.has(one.id);
+      for (const [one, box] of boxes.filter(warned)) name(box, `${one.id}: ${warnings.get(one.id)}`, this.alarm, true);
+      if (all) for (const [one, box] of boxes) if (!warned([one])) name(box, String(one.id), this.own, false);
     }
 
     // Grid, its numbers, and the sensors' fields.
@@ -192,7 +224,7 @@ const SceneDrawing = (() => {
       }, { stroke: this.grid });
       if (!this.hidden.has("fields"))
         this.data.sensors.forEach((sensor, s) => this.path(
-            (to) => polygon(to, this.px(0), this.py(0), this.view.scale, sensor.edge.map(([x, y]) => [x, -y])),
+            (to) => closed(sensor.edge.map(([x, y]) => [x, -y]))(to, this.px(0), this.py(0), this.view.scale),
             { stroke: this.sensors[s], fill: this.sensors[s], dash: [6, 4], opacity: 0.5, covers: 0.05 }));
       c.font = "11px system-ui, sans-serif";
       c.textAlign = "center";

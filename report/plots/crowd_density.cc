@@ -71,16 +71,7 @@ class Density {
     return static_cast<std::size_t>(std::min(units / kCell, static_cast<double>(cells - 1)));
   }
   std::size_t look(std::size_t cell) const {
-    if (tracks_[cell] > 0) return shade_of(tracks_[cell]);
-    return truths_[cell] && !near_track(cell) ? kUntracked : kEmpty;
-  }
-  // An object's track may be in the next cell.
-  bool near_track(std::size_t cell) const {
-    const std::size_t row = cell / columns_, column = cell % columns_;
-    for (std::size_t r = row - std::min<std::size_t>(row, 1); r <= std::min(row + 1, rows_ - 1); ++r)
-      for (std::size_t c = column - std::min<std::size_t>(column, 1); c <= std::min(column + 1, columns_ - 1); ++c)
-        if (tracks_[r * columns_ + c] > 0) return true;
-    return false;
+    return tracks_[cell] > 0 ? shade_of(tracks_[cell]) : truths_[cell] ? kUntracked : kEmpty;
   }
 
   const drawing::Area& area_;
@@ -103,7 +94,7 @@ std::vector<drawing::LegendEntry> density_legend() {
                       shade(i),
                       {},
                       true});
-  legend.push_back({K::kBox, "true objects without a track nearby", untracked_colour(), {}, true});
+  legend.push_back({K::kBox, "true objects, no track in the cell", untracked_colour(), {}, true});
   return legend;
 }
 

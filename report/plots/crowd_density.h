@@ -1,5 +1,5 @@
 // Many objects in one view: a cell's shade counts the positions of tracks in it. Another colour shows cells with true objects
-// and without a track in them and next to them.
+// and without a track; a track may be in the next cell.
 #pragma once
 
 #include <vector>

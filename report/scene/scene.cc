@@ -48,8 +48,8 @@ template <class Part> std::size_t bytes_of(const std::vector<Moment<Part>>& mome
 std::string Scene::thinned_words() const {
   std::string words;
   if (spacing > Duration{})
-    words = fmt::format("The drive is too long to show every instant: one in {:g} ms of each kind is here.",
-                        in_ms(spacing));
+    words =
+        fmt::format("The scene has no room for every instant: one in {:g} ms of each kind is here.", in_ms(spacing));
   if (cut)
     words += fmt::format(" The scene ends at {:.3g} s, the drive at {:.3g} s.", static_cast<double>(last.ns) * 1e-9,
                          static_cast<double>(end.ns) * 1e-9);

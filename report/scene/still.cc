@@ -64,13 +64,13 @@ std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const d
   const auto add = [&](LegendEntry::Kind kind, std::string text, std::string_view colour) {
     legend.push_back({kind, std::move(text), std::string(colour)});
   };
-  legend.push_back(
-      {LegendEntry::Kind::kMarker, "vehicle", std::string(drawing::kBlack), drawing::Marker::kTriangle, true});
   if (!view.truth.empty()) add(LegendEntry::Kind::kBox, "true object", kTruth);
   if (!view.tracks.empty()) {
     const bool named = view.tracks.size() <= kMostNamed;
     add(LegendEntry::Kind::kBox,
-        fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s", named ? "its id, " : ""), kTrack);
+        fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s; arrow: its way in one second",
+                    named ? "its id, " : ""),
+        kTrack);
     const auto coasts = [](const ShownTrack& one) { return (one.status & recording::records::kImageCoasting) != 0; };
     if (std::ranges::any_of(view.tracks, coasts)) add(LegendEntry::Kind::kBox, "dashed: not observed of late", kTrack);
   }
@@ -188,7 +188,7 @@ std::string scene_svg(const Scene& scene, TrueTime at, const drawing::Names& nam
   const double left = sheet.on_paper() ? 10 : 70, room = 70 + width - left;
   const std::vector<std::string> titles = drawing::broken(heading, sheet.text(14), sheet.line(room), true);
   const auto caption = [&](std::string_view words) { return drawing::broken(words, sheet.text(10), sheet.line(room)); };
-  const std::vector<std::string> axes = caption("In the vehicle's frame: x forward, y to the left (ISO 8855)."),
+  const std::vector<std::string> axes = caption("The arrow head is the vehicle: x forward, y to the left (ISO 8855)."),
                                  moved = caption("Tracks are moved on by their velocity since the newest image.");
   const auto rows = [](std::size_t lines) { return drawing::kLineHeight * static_cast<double>(lines); };
   const double legend_top = 34 + rows(titles.size() - 1);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "core/counted.h"
@@ -18,6 +20,7 @@ using results::Interval;
 using results::Ratio;
 
 constexpr const char* kNoDifference = "no difference that these drives can tell";
+constexpr std::uint64_t kEnough = 20;  // replications, for the jackknife's interval
 
 std::string with_unit(const SweepFile& sweep, std::size_t measure, const std::string& text) {
   const std::string_view unit = find_measure(sweep.measures[measure])->unit;
@@ -71,18 +74,32 @@ std::vector<Compared> compared_of(const SweepFile& sweep, const SweepAnswer& ans
   return all;
 }
 
-// Collects effects of several points.
+// Collects estimates of several points: in per cent, or in a unit.
 struct Range {
+  std::string_view unit;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   void add(double value) {
     if (std::isnan(value)) return;
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  std::string in_percent() const { return low <= high ? percent_range(low, high) : ""; }
+  void add(const Range& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+  }
+  bool empty() const { return low > high; }
+  // "-12 %" of one point, or "estimates from -12 to -7 %", which is no interval.
+  std::string estimates() const {
+    if (empty()) return "";
+    const std::string text = range_text(low, high, true, unit);
+    return text.find(" to ") == std::string::npos ? text : "estimates from " + text;
+  }
+  std::string in_brackets() const { return empty() ? "" : " (" + estimates() + ")"; }
 };
 
-std::string in_brackets(const std::string& text) { return text.empty() ? "" : " (" + text + ")"; }
+std::string_view unit_of(const SweepFile& sweep, std::size_t measure, bool by_ratio) {
+  return by_ratio ? "%" : find_measure(sweep.measures[measure])->unit;
+}
 
 std::string sentence_at_one(const SweepFile& sweep, const Compared& of) {
   const Interval& difference = of.points[0]->differences[of.paradigm].front();
@@ -100,28 +117,29 @@ std::string sentence_at_one(const SweepFile& sweep, const Compared& of) {
 
 std::string sentence_at_many(const SweepFile& sweep, const Compared& of) {
   int less = 0, more = 0, undecided = 0;
-  Range range_less, range_more, range;
+  const bool by_ratio = std::ranges::all_of(
+      of.points, [&](const PointAnswer* point) { return !std::isnan(point->ratios[of.paradigm].front().value); });
+  Range all{unit_of(sweep, 0, by_ratio)}, range_less = all, range_more = all;
   for (const PointAnswer* point : of.points) {
     const Interval& difference = point->differences[of.paradigm].front();
-    const double ratio = point->ratios[of.paradigm].front().value;
-    range.add(ratio);
+    const double estimate = by_ratio ? in_percent(point->ratios[of.paradigm].front().value) : difference.mean;
+    all.add(estimate);
     if (difference.below(0.0)) {
       ++less;
-      range_less.add(ratio);
+      range_less.add(estimate);
     } else if (difference.above(0.0)) {
       ++more;
-      range_more.add(ratio);
+      range_more.add(estimate);
     } else {
       ++undecided;
     }
   }
   if (less + more == 0)
     return fmt::format("There is no difference of {} {} that these drives can tell, at any of {}{}.\n",
-                       sweep.measures.front(), of.between, counted(of.points.size(), "point"),
-                       in_brackets(range.in_percent()));
+                       sweep.measures.front(), of.between, counted(of.points.size(), "point"), all.in_brackets());
   return fmt::format("{} is less than {} at {}{}, more at {}{}, undecided at {}.\n", of.one, of.other,
-                     counted(static_cast<std::uint64_t>(less), "point"), in_brackets(range_less.in_percent()), more,
-                     in_brackets(range_more.in_percent()), undecided);
+                     counted(static_cast<std::uint64_t>(less), "point"), range_less.in_brackets(), more,
+                     range_more.in_brackets(), undecided);
 }
 
 // Names up to three points, without one axis; counts more.
@@ -167,41 +185,99 @@ std::string interaction_at_one(const SweepFile& sweep, const Interaction& of, co
                      change_effect(sweep, of, here.second), beside(sweep, of, here, told));
 }
 
-std::string interaction_at_many(const SweepFile& sweep, const Interaction& of, const InteractionAnswer& answer) {
-  const std::string &first = sweep.paradigms[of.first].name, &second = sweep.paradigms[of.second].name;
-  std::vector<std::uint32_t> more, less, nothing;
-  bool lowers = true;
-  Range ones, others, both;
+// Points at which an interaction is told alike, and the first paradigm's change has the same sign.
+struct Alike {
+  Told told = Told::kNothing;
+  bool lowers = false;
+  std::vector<std::uint32_t> points;
+  Range first, second, both;  // the changes, and the first one against the second
+};
+
+// Points without a verdict are one group, whatever their changes' signs.
+std::vector<Alike> alike_of(const SweepFile& sweep, const Interaction& of, const InteractionAnswer& answer) {
+  const bool by_ratio = of.scale == Scale::kRatio && std::ranges::all_of(answer.points, [](const auto& here) {
+                          return !std::isnan(here.first.ratio.value) && !std::isnan(here.second.ratio.value);
+                        });
+  const Range range{unit_of(sweep, of.measure, by_ratio)};
+  std::vector<Alike> groups;
   for (const InteractionPoint& here : answer.points) {
     const Told told = told_of(here);
-    (told == Told::kMore ? more : told == Told::kLess ? less : nothing).push_back(here.point);
-    lowers = lowers && here.first.difference.mean < 0.0;
-    ones.add(here.first.ratio.value);
-    others.add(here.second.ratio.value);
-    both.add(of.scale == Scale::kRatio ? std::exp(here.interaction.mean) : std::nan(""));
+    const bool lowers = told != Told::kNothing && here.first.difference.mean < 0.0;
+    auto group = std::ranges::find_if(groups, [&](const Alike& g) { return g.told == told && g.lowers == lowers; });
+    if (group == groups.end())
+      group = groups.insert(
+          groups.end(),
+          Alike{told, lowers, {}, range, range, Range{unit_of(sweep, of.measure, of.scale == Scale::kRatio)}});
+    group->points.push_back(here.point);
+    group->first.add(by_ratio ? in_percent(here.first.ratio.value) : here.first.difference.mean);
+    group->second.add(by_ratio ? in_percent(here.second.ratio.value) : here.second.difference.mean);
+    group->both.add(of.scale == Scale::kRatio ? in_percent(std::exp(here.interaction.mean)) : here.interaction.mean);
   }
-  const std::size_t points = answer.points.size();
+  return groups;
+}
+
+// "tt's factor is 12 % below adva's": of a group whose interactions all have the same sign.
+std::string against(const SweepFile& sweep, const Interaction& of, const Alike& group, const std::string& where) {
+  const std::string sizes =
+      range_text(std::min(std::abs(group.both.low), std::abs(group.both.high)),
+                 std::max(std::abs(group.both.low), std::abs(group.both.high)), false, group.both.unit);
+  return fmt::format(" {}{}'s {} is {}{} {} {}'s.", where, sweep.paradigms[of.first].name,
+                     of.scale == Scale::kRatio ? "factor" : "change",
+                     sizes.find(" to ") == std::string::npos ? "" : "estimated ", sizes,
+                     group.told == Told::kMore ? "below" : "above", sweep.paradigms[of.second].name);
+}
+
+// Whether the same can be said of all points.
+bool one_for_all(const std::vector<Alike>& groups) {
+  return std::ranges::all_of(groups, [&](const Alike& group) {
+    return group.told == groups[0].told && (group.told != Told::kMore || group.lowers == groups[0].lowers);
+  });
+}
+
+std::string interaction_at_many(const SweepFile& sweep, const Interaction& of, const InteractionAnswer& answer) {
+  const std::string &first = sweep.paradigms[of.first].name, &second = sweep.paradigms[of.second].name;
+  const std::vector<Alike> groups = alike_of(sweep, of, answer);
   const std::string change = change_name(sweep, of), &measure = sweep.measures[of.measure];
-  const std::string one = first + in_brackets(ones.in_percent()), other = second + in_brackets(others.in_percent());
-  std::string text;
-  if (std::max({more.size(), less.size(), nothing.size()}) == points) {
-    const Told told = !more.empty() ? Told::kMore : !less.empty() ? Told::kLess : Told::kNothing;
-    text =
-        fmt::format("{}, at {} {}: {} changes {} of {} and of {}.", begin_of(told, first, lowers),
-                    told == Told::kNothing ? "any of" : "all", counted(points, "point"), change, measure, one, other);
+  const bool alike = one_for_all(groups);
+  std::string text, nothing, behind;
+  if (alike) {
+    Range ones = groups[0].first, others = groups[0].second;
+    for (const Alike& group : groups) {
+      ones.add(group.first);
+      others.add(group.second);
+    }
+    text = fmt::format("{}, at {} {}: {} changes {} of {}{} and of {}{}",
+                       begin_of(groups[0].told, first, groups[0].lowers),
+                       groups[0].told == Told::kNothing ? "any of" : "all", counted(answer.points.size(), "point"),
+                       change, measure, first, ones.in_brackets(), second, others.in_brackets());
   } else {
-    const char* begin = less.empty() ? "In part" : more.empty() ? "No" : "It depends";
-    text = fmt::format("{}: {} lowers {} of {}", begin, change, measure, one);
-    if (!more.empty()) text += fmt::format(" more than that of {} at {}", other, places(sweep, more, of.axis));
-    if (!less.empty())
-      text += more.empty() ? fmt::format(" less than that of {} at {}", other, places(sweep, less, of.axis))
-                           : fmt::format(", less at {}", places(sweep, less, of.axis));
-    if (!nothing.empty()) text += fmt::format("; at {} there is {}", places(sweep, nothing, of.axis), kNoDifference);
-    text += '.';
+    bool yes = false, no = false;
+    std::vector<std::string> clauses;
+    for (const Alike& group : groups) {
+      if (group.told == Told::kNothing) {
+        nothing = fmt::format("; at {} there is {}", places(sweep, group.points, of.axis), kNoDifference);
+        continue;
+      }
+      const bool lowers_more = group.told == Told::kMore && group.lowers;
+      (lowers_more ? yes : no) = true;
+      const bool by_more = (group.told == Told::kMore) == group.lowers;
+      clauses.push_back(fmt::format("{} {} of {}{} {} than that of {}{} at {}", group.lowers ? "lowers" : "raises",
+                                    measure, first, group.first.in_brackets(), by_more ? "more" : "less", second,
+                                    group.second.in_brackets(), places(sweep, group.points, of.axis)));
+    }
+    text = fmt::format("{}: {} {}{}",
+                       !no   ? "In part"
+                       : yes ? "It depends"
+                             : "No",
+                       change, joined(clauses, ", and "), nothing);
   }
-  if (!both.in_percent().empty())
-    text += fmt::format(" Beside that of {}, {}'s changes by {}.", second, first, both.in_percent());
-  return text + '\n';
+  for (const Alike& group : groups)
+    if (group.told != Told::kNothing && !group.both.empty())
+      behind += against(sweep, of, group,
+                        groups.size() == 1 ? "" : fmt::format("At {} ", places(sweep, group.points, of.axis)));
+  if (groups[0].told == Told::kNothing && groups.size() == 1 && !groups[0].both.empty())
+    behind = fmt::format(" {} against {}: {}.", first, second, groups[0].both.estimates());
+  return text + '.' + behind + '\n';
 }
 
 std::string level(const SweepFile& sweep) {
@@ -250,14 +326,20 @@ std::string family_lines(const SweepFile& sweep, const SweepAnswer& answer) {
         "{} of {}, marked *, stay certain together by Holm's method at {}; each interval stands for itself.\n",
         answer.certain, counted(answer.comparisons, "comparison"), level(sweep));
   std::size_t interactions = 0, certain = 0;
-  for (const InteractionAnswer& one : answer.interactions)
-    for (const InteractionPoint& here : one.points) {
-      interactions += !std::isnan(here.interaction.half_width);
+  std::uint64_t fewest = kEnough;
+  for (std::size_t i = 0; i < answer.interactions.size(); ++i)
+    for (const InteractionPoint& here : answer.interactions[i].points) {
+      if (std::isnan(here.interaction.half_width)) continue;
+      ++interactions;
       certain += here.stays;
+      if (sweep.interactions[i].scale == Scale::kRatio) fewest = std::min(fewest, here.interaction.count);
     }
   if (interactions > 0)
-    text += fmt::format("{} of {}, marked *, stay certain together by the same method, as a family of their own.\n",
-                        certain, counted(interactions, "interaction"));
+    text += fmt::format("{} of {}, marked *, stay certain together by Holm's method at {}, as a family of their own.\n",
+                        certain, counted(interactions, "interaction"), level(sweep));
+  if (fewest < kEnough)
+    text += fmt::format("The jackknife's interval of an interaction needs some twenty replications, and here has {}.\n",
+                        fewest);
   return text;
 }
 

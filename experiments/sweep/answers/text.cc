@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/counted.h"
+#include "experiments/results/percent.h"
 #include "experiments/sweep/answers/columns.h"
 #include "experiments/sweep/answers/figures.h"
 #include "experiments/sweep/answers/sentences.h"
@@ -89,12 +90,10 @@ std::string interaction_table(const SweepFile& sweep, const Interaction& of, con
     both.cells.push_back(
         fmt::format("{} {}{}", interaction_effect(sweep, of, here), verdict(here.interaction), here.stays ? "*" : ""));
   }
-  const std::string how = of.scale == Scale::kRatio
-                              ? "changes as shares of the values before, and the ratio of their factors"
-                              : "changes as differences, and their difference";
   return wrapped(fmt::format("{} of {} and {}, {}: {}; {:g} % intervals",
                              with_unit(*find_measure(sweep.measures[of.measure])), first, second,
-                             change_name(sweep, of), how, 100.0 * sweep.confidence)) +
+                             change_name(sweep, of), results::interaction_columns(of.scale == Scale::kRatio),
+                             100.0 * sweep.confidence)) +
          in_columns(axis_columns(sweep, points, of.axis), {{runs}, {one}, {other}, {both}});
 }
 

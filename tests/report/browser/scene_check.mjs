@@ -1,21 +1,58 @@
 // Scenes, drives from above, as a reader sees and uses it; page_check.mjs opens the pages.
 const range = (element) => element.evaluate((e) => [Number(e.dataset.from), Number(e.dataset.to)]);
-// Counts the pixels of a canvas whose colour is that of a variable of the page.
-export const coloured = (canvas, variable) => canvas.evaluate((element, name) => {
+// Returns the places of a canvas' pixels whose colour is that of a variable of the page: [x, y] on the canvas.
+const places = (canvas, variable) => canvas.evaluate((element, name) => {
   const hex = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const digits = hex.length === 4 ? hex.replace(/[0-9a-f]/g, "$&$&") : hex;   // "#000"
   const wanted = [1, 3, 5].map((i) => parseInt(digits.slice(i, i + 2), 16));
   const copy = new OffscreenCanvas(element.width, element.height).getContext("2d", { willReadFrequently: true });
   copy.drawImage(element, 0, 0);
   const { data } = copy.getImageData(0, 0, element.width, element.height);
-  let count = 0;
+  const found = [], { width } = element;
   for (let i = 0; i < data.length; i += 4)
-    if (data[i + 3] > 200 && wanted.every((part, k) => Math.abs(part - data[i + k]) < 40)) ++count;
-  return count;
+    if (data[i + 3] > 200 && wanted.every((part, k) => Math.abs(part - data[i + k]) < 40))
+      found.push([i / 4 % width, Math.floor(i / 4 / width)].map((px) => px / devicePixelRatio));
+  return found;
 }, variable);
+export const coloured = async (canvas, variable) => (await places(canvas, variable)).length;
 // Returns a canvas' pixels, to compare.
 const pixels = (canvas) => canvas.evaluate((element) => element.toDataURL());
 const instant = (figure) => figure.evaluate((element) => Number(element.dataset.at));
+
+// Pointing at a track tells of it, until the pointer leaves the canvas.
+async function tells(name, page, canvas, check) {
+  const tip = page.locator(".tip"), box = await canvas.boundingBox(), drawn = await places(canvas, "--c0");
+  for (let i = 0; i < drawn.length && !await tip.isVisible(); i += 9)
+    await page.mouse.move(box.x + drawn[i][0], box.y + drawn[i][1]);
+  const told = await tip.textContent();
+  check(`${name}: a track tells "${told}"`, await tip.isVisible() && /^(track|object) \d+/.test(told));
+  await page.mouse.move(box.x + 5, box.y - 6);
+  check(`${name}: the tip is gone when the pointer leaves the canvas`, await tip.isHidden());
+}
+
+// The ids that a canvas shows are inside it, and none covers another.
+async function ids_apart(name, page, canvas, check) {
+  await page.waitForTimeout(80);
+  await page.evaluate(() => { globalThis.written = []; });
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForTimeout(80);
+  const ids = await canvas.evaluate((element) => {
+    const c = element.getContext("2d"), { clientWidth, clientHeight } = element;
+    c.font = "600 12px system-ui, sans-serif";
+    // The numbers of the grid stand at its edges.
+    return globalThis.written
+        .filter((one) => one.canvas === element && one.x !== 4 && one.y !== parseFloat(element.style.height) - 5)
+        .map(({ text, x, y }) => ({ text, x, y, half: c.measureText(text).width / 2, clientWidth, clientHeight }));
+  });
+  check(`${name}: ids are shown`, ids.length > 0);
+  ids.forEach((one, i) => {
+    check(`${name}: ${one.text} is on its canvas, at ${one.x}, ${one.y}`,
+      one.x >= one.half && one.x + one.half <= one.clientWidth && one.y >= 9 && one.y <= one.clientHeight);
+    for (const other of ids.slice(i + 1))
+      check(`${name}: ${one.text} and ${other.text} stand apart`,
+        Math.abs(one.x - other.x) >= one.half + other.half || Math.abs(one.y - other.y) >= 12);
+  });
+}
 
 // A scene plays, and goes where keys, slider, plots and timing diagram send it.
 export async function scene_plays(name, page, check, pictures) {
@@ -57,6 +94,7 @@ export async function scene_plays(name, page, check, pictures) {
   // The tracks have the colour of their drive's curves, and can be hidden.
   const seen = Number(await canvas.getAttribute("data-tracks")), ink = await coloured(canvas, "--c0");
   check(`${name}: ${seen} tracks are drawn with ${ink} pixels`, seen > 0 && ink > 20);
+  await tells(name, page, canvas, check);
   const layer = (words) => figure.getByRole("button", { name: words, exact: true });
   for (const words of ["tracks", "camera: observations"]) await layer(words).click();
   await settled();
@@ -64,11 +102,20 @@ export async function scene_plays(name, page, check, pictures) {
   for (const words of ["tracks", "camera: observations"]) await layer(words).click();
   await settled();
   check(`${name}: shown tracks are back`, await coloured(canvas, "--c0") === ink);
+  const head = figure.locator(".panel .label").first(), counts = await head.textContent();
+  await layer("true objects").click();
+  await settled();
+  check(`${name}: hidden objects are counted: ${counts}`, await head.textContent() === counts);
+  await layer("true objects").click();
+  await settled();
   const whole = await pixels(canvas);
   await canvas.focus();
   await page.keyboard.press("+");
   await settled();
   check(`${name}: plus zooms the scene`, await pixels(canvas) !== whole);
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("+");
+  await settled();
+  check(`${name}: a track stays in sight however near`, await coloured(canvas, "--c0") > 20);
   await page.keyboard.press("0");
   await settled();
   check(`${name}: 0 shows all of it`, await pixels(canvas) === whole);
@@ -112,4 +159,9 @@ export async function many_play(name, page, check, pictures) {
   check(`${name}: the page says what is left out`,
     /one in \d+ ms of each kind/.test(await figure.locator(".note").textContent()));
   await page.screenshot({ path: `${pictures}/${name}_scene.png` });
+  await page.keyboard.press("Home");
+  for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowRight");
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("+");
+  await ids_apart(name, page, canvas, check);
+  await page.screenshot({ path: `${pictures}/${name}_scene_near.png` });
 }

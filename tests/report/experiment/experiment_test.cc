@@ -184,7 +184,7 @@ TEST_F(ExperimentReport, PlotsGoOverTheNumericAxis) {
 
 constexpr const char* kInteraction = R"(, "interactions": [{"measure": "error", "by": "ratio", "axis": "noise",
   "from": "0.1 m", "to": "40 m", "lowers": "tt", "more_than": "adva", "points": [{"axes": {"road": "dry"},
-  "first": {"count": 3, "mean": -0.4, "half_width": 0.1, "percent": {"mean": -40, "low": -45.5, "high": -35}},
+  "first": {"count": 3, "mean": -0.4, "half_width": 0.1, "percent": {"mean": -40, "low": -45, "high": -35}},
   "second": {"count": 3, "mean": -0.2, "half_width": null},
   "interaction": {"count": 3, "mean": -0.3, "half_width": 0.1, "percent": {"mean": -26, "low": -33, "high": -18},
                   "p": 0.01, "stays_certain": true}}]}])";
@@ -197,12 +197,14 @@ TEST_F(ExperimentReport, AnInteractionIsATable) {
   EXPECT_EQ(experiment_answer(folder), "a sentence.");
   const std::string html = page();
   EXPECT_EQ(html.find("a sentence."), html.rfind("a sentence."));
-  for (const char* words : {"For certain tt has the smallest error at 1 of 2 points", "tt against adva",
-                            "-40.0 % (-45.5 to -35.0)", "-0.200", "-26.0 % (-33.0 to -18.0) less*"})
+  for (const char* words :
+       {"For certain tt has the smallest error at 1 of 2 points", "tt against adva", "-40 % (-45 to -35)", "-0.200",
+        "-26 % (-33 to -18) less*", "1 of 1 interaction, marked *, stay certain together by Holm"})
     EXPECT_NE(html.find(words), std::string::npos) << words;
-  EXPECT_NE(markdown_tables(folder).find(
-                "| road | runs | tt | adva | tt against adva |\n|---|---|---|---|---|\n"
-                "| dry | 3 | -40.0 % (-45.5 to -35.0) | -0.200 | -26.0 % (-33.0 to -18.0) less* |\n"),
+  EXPECT_NE(markdown_tables(folder).find("| road | runs | tt | adva | tt against adva |\n|---|---|---|---|---|\n"
+                                         "| dry | 3 | -40 % (-45 to -35) | -0.200 | **-26 % (-33 to -18) less** |\n"),
+            std::string::npos);
+  EXPECT_NE(markdown_tables(folder).find("1 of 1 interaction, in bold, stay certain together by Holm's method at 5 %."),
             std::string::npos);
   std::string broken = answer;
   write(broken.replace(broken.find("true}"), 4, "1234"));

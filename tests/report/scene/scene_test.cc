@@ -135,7 +135,7 @@ TEST(Scene, AFullSceneKeepsFewerInstantsAndEveryWarningsEnds) {
   ASSERT_THAT(scene.warnings, SizeIs(2));  // though they are 10 ms apart
   EXPECT_EQ(scene.warnings[0].at, ms(1005));
   EXPECT_EQ(scene.warnings[1].at, ms(1015));
-  EXPECT_EQ(scene.thinned_words(), "The drive is too long to show every instant: one in 20 ms of each kind is here.");
+  EXPECT_EQ(scene.thinned_words(), "The scene has no room for every instant: one in 20 ms of each kind is here.");
 }
 
 TEST(Scene, ASceneThatIsFullAtItsSparsestEnds) {

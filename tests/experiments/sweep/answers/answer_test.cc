@@ -117,9 +117,8 @@ TEST_F(SweepAnswers, MeasuresAgreeWithinAMargin) {
   EXPECT_EQ(unmet(judged(", margin: 2.1 m")),
             "noise 40: cannot tell: the interval +2.00 +- 0.25 is on both sides of the margin of 2.1 m; more "
             "replications\n");
-  EXPECT_THAT(
-      unmet(judged(", margin: 0.1 m")),
-      testing::StartsWith("noise 1: cannot tell: the interval +0.00 +- 0.25 is wider than the margin of 0.1 m"));
+  EXPECT_THAT(unmet(judged(", margin: 0.1 m")),
+              testing::StartsWith("noise 1: cannot tell: the interval 0.00 +- 0.25 is wider than the margin of 0.1 m"));
   EXPECT_EQ(judged(", margin: 3 %").outcome, Outcome::kFails);
   EXPECT_TRUE(judged(", margin: 60 %").holds());
   EXPECT_EQ(judged("").text, judged(", margin: 10 %").text);
@@ -168,7 +167,7 @@ TEST_F(SweepAnswers, ValuesOfAnAxisAreCompared) {
                                   "0.115 +- 0.021 m.\n"));
   EXPECT_THAT(text,
               testing::HasSubstr("\nThere is no difference of position_rmse_truth of tt between noise 40 and 1 that "
-                                 "these drives can tell: +0.0 +- 1.8 m.\n"));
+                                 "these drives can tell: 0.0 +- 1.8 m.\n"));
   EXPECT_THAT(text, testing::HasSubstr("adva, minus 1"));
   EXPECT_THAT(text, testing::HasSubstr("-0.115 +- 0.021 less*"));
   EXPECT_THAT(summary_csv(sweep, answer), testing::HasSubstr("\n1,40,adva,position_rmse_truth,4,4.135"));
@@ -189,7 +188,10 @@ TEST_F(SweepAnswers, InteractionsAnswerFirst) {
     }
     const SweepAnswer answer = answer_of(sweep, made);
     const std::string text = answer_text(sweep, answer);
-    EXPECT_THAT(text, testing::HasSubstr("by the same method, as a family of their own."));
+    EXPECT_THAT(text, testing::HasSubstr("stay certain together by Holm's method at 5 %, as a family of their own."));
+    EXPECT_EQ(text.find("The jackknife's interval of an interaction needs some twenty replications, and here has 4.") !=
+                  std::string::npos,
+              more.find("by: difference") == std::string::npos);
     const std::size_t begin = text.find("\n\n") + 2;
     return text.substr(begin, text.find('\n', begin) - begin);
   };
@@ -212,39 +214,79 @@ TEST_F(SweepAnswers, InteractionsAnswerFirst) {
           "more by 1.25 +- 0.32 m.");
 }
 
-// On a dry and on a wet road. adva falls to a half, in every drive. tt falls to `dry` and `wet`, more or less.
-TEST_F(SweepAnswers, AnInteractionMayDependOnOtherAxes) {
-  std::string file = sweep_text(4, "interactions: [{axis: noise, lowers: tt, more_than: adva}]\n");
-  file.insert(file.find("measures:"), "  road: {settings: {dry: {}, wet: {world.own_speed: 12}}}\n");
-  const SweepFile sweep = parse_sweep(file, TTF_SOURCE_DIR "/experiments/small.yaml");
-  const SweepDrives drives(sweep);
-  int stores = 0;
-  const auto told = [&](double dry, double wet) {
-    results::Store made = store(drives, std::to_string(++stores));
+// On a dry and on a wet road. adva changes by a factor, in every drive. tt changes by `dry` and `wet`, more or less.
+class InteractionsOnTwoRoads : public SweepAnswers {
+ protected:
+  std::string told(const std::string& interaction, double adva, double dry, double wet) {
+    std::string file = sweep_text(4, "interactions: [" + interaction + "]\n");
+    file.insert(file.find("measures:"), "  road: {settings: {dry: {}, wet: {world.own_speed: 12}}}\n");
+    const SweepFile sweep = parse_sweep(file, TTF_SOURCE_DIR "/experiments/small.yaml");
+    const SweepDrives drives(sweep);
+    results::Store made = store(drives, std::to_string(++stores_));
     for (std::uint32_t r = 0; r < 4; ++r) {
       const double common = 5.0 + 0.5 * r, off = r % 2 == 0 ? 1.1 : 0.9;
       for (const std::uint32_t road : {0u, 1u})
-        made.add({made_up(road, r, 0, common), made_up(road, r, 1, common), made_up(2 + road, r, 0, 0.5 * common),
+        made.add({made_up(road, r, 0, common), made_up(road, r, 1, common), made_up(2 + road, r, 0, adva * common),
                   made_up(2 + road, r, 1, (road == 0 ? dry : wet) * common * off)});
     }
     const std::string lines = answer_sentences(sweep, answer_of(sweep, made));
     return lines.substr(0, lines.find('\n'));
+  }
+  int stores_ = 0;
+};
+
+TEST_F(InteractionsOnTwoRoads, AnInteractionMayDependOnOtherAxes) {
+  const auto of = [&](double dry, double wet) {
+    return told("{axis: noise, lowers: tt, more_than: adva}", 0.5, dry, wet);
   };
-  EXPECT_THAT(told(0.1, 0.2),
-              testing::StartsWith("Yes, at all 2 points: noise from 1 to 40 changes position_rmse_truth of "
-                                  "tt ("));
-  EXPECT_THAT(told(0.9, 0.8), testing::StartsWith("No, at all 2 points: "));
-  EXPECT_THAT(told(0.5, 0.5),
+  EXPECT_THAT(of(0.1, 0.2),
+              AllOf(testing::StartsWith("Yes, at all 2 points: noise from 1 to 40 changes position_rmse_truth of "
+                                        "tt (estimates from -90 to -80 %) and of adva (-50 %). "),
+                    testing::EndsWith(" tt's factor is estimated 60 to 80 % below adva's.")));
+  EXPECT_THAT(of(0.9, 0.8), AllOf(testing::StartsWith("No, at all 2 points: "), testing::EndsWith(" above adva's.")));
+  EXPECT_THAT(of(0.5, 0.5),
               testing::StartsWith("There is no difference that these drives can tell, at any of 2 points: "));
-  EXPECT_THAT(told(0.1, 0.5),
-              AllOf(testing::StartsWith("In part: noise from 1 to 40 lowers position_rmse_truth of tt ("),
+  EXPECT_THAT(of(0.1, 0.5),
+              AllOf(testing::StartsWith("In part: noise from 1 to 40 lowers position_rmse_truth of tt (-90 %)"),
                     testing::HasSubstr(" more than that of adva (-50 %) at road dry; at road wet there is no "
-                                       "difference that these drives can tell. Beside that of adva, ")));
-  EXPECT_THAT(told(0.9, 0.5), AllOf(testing::StartsWith("No: noise from 1 to 40 lowers "),
-                                    testing::HasSubstr(" less than that of adva (-50 %) at road dry; at road wet ")));
-  EXPECT_THAT(told(0.1, 0.9),
-              AllOf(testing::StartsWith("It depends: noise from 1 to 40 lowers "),
-                    testing::HasSubstr(" more than that of adva (-50 %) at road dry, less at road wet.")));
+                                       "difference that these drives can tell. At road dry tt's factor is 80 % below "
+                                       "adva's.")));
+  EXPECT_THAT(of(0.9, 0.5), AllOf(testing::StartsWith("No: noise from 1 to 40 lowers "),
+                                  testing::HasSubstr(" less than that of adva (-50 %) at road dry; at road wet ")));
+  EXPECT_THAT(
+      of(0.1, 0.9),
+      AllOf(testing::StartsWith("It depends: noise from 1 to 40 lowers position_rmse_truth of tt (-90 %) more "),
+            testing::HasSubstr(" more than that of adva (-50 %) at road dry, and lowers position_rmse_truth "
+                               "of tt (-10 %) less than that of adva (-50 %) at road wet.")));
+}
+
+// The error of adva doubles, that of tt rises on both roads or on one.
+TEST_F(InteractionsOnTwoRoads, WhatRisesIsNotLowered) {
+  const auto of = [&](double dry, double wet) {
+    return told("{axis: noise, lowers: tt, more_than: adva}", 2.0, dry, wet);
+  };
+  EXPECT_THAT(of(1.5, 2.0),
+              AllOf(testing::StartsWith("No: noise from 1 to 40 raises position_rmse_truth of tt (+49 %) less than "
+                                        "that of adva (+100 %) at road dry; at road wet there is no difference"),
+                    testing::EndsWith("At road dry tt's factor is 25 % below adva's.")));
+  EXPECT_THAT(of(1.2, 1.3), testing::StartsWith("No, it only raises tt less, at all 2 points: "));
+  EXPECT_THAT(of(0.5, 1.3),
+              testing::StartsWith("It depends: noise from 1 to 40 lowers position_rmse_truth of tt (-50 %) more than "
+                                  "that of adva (+100 %) at road dry, and raises position_rmse_truth of tt (+29 %) "
+                                  "less than that of adva (+100 %) at road wet."));
+}
+
+TEST_F(InteractionsOnTwoRoads, DifferencesHaveTheirUnit) {
+  EXPECT_THAT(told("{axis: noise, lowers: tt, more_than: adva, by: difference}", 0.5, 0.1, 0.2),
+              testing::EndsWith(" of tt (estimates from -5.2 to -4.6 m) and of adva (-2.9 m). tt's change is estimated "
+                                "1.7 to 2.3 m below adva's."));
+}
+
+TEST(Figures, AnIntervalThatExcludesZeroShowsIt) {
+  EXPECT_EQ(percent_text({20, 1.0064, 1.0001, 1.0127}), "+0.64 % (+0.01 to +1.27)");
+  EXPECT_EQ(percent_text({20, 0.99999, 0.98, 1.02}), "0 % (-2 to +2)");
+  EXPECT_EQ(range_text(-0.74, -0.04, true, "%"), "-0.74 to -0.04 %");
+  EXPECT_EQ(range_text(-0.5, -0.5, true, "ms"), "-0.50 ms");
 }
 
 // A replication counts only if all four of its drives were done.
