@@ -89,13 +89,13 @@ class DdsProcesses : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Members, DdsProcesses, testing::Values(2, 3, 6));
 
 TEST_P(DdsProcesses, HearEachOtherInRounds) {
-  Launch launch(common::session(GetParam()), Mode::kRounds, 1000, Sizes::kAll);
+  Launch launch(common::session(GetParam()), Mode::kRounds, 400, Sizes::kAll);
   launch.wait_ready();
   launch.expect_all_heard();
 }
 
 TEST_P(DdsProcesses, HearEachOtherAsFastAsTheyCan) {
-  Launch launch(common::session(GetParam()), Mode::kTalk, 1500, Sizes::kAll);
+  Launch launch(common::session(GetParam()), Mode::kTalk, 600, Sizes::kAll);
   launch.wait_ready();
   launch.expect_all_heard();
 }
@@ -103,7 +103,7 @@ TEST_P(DdsProcesses, HearEachOtherAsFastAsTheyCan) {
 TEST_P(DdsProcesses, HearEachOtherWithoutSupervisor) {
   common::Session session = common::session(GetParam());
   session.supervised = false;
-  Launch launch(session, Mode::kRounds, 3000, Sizes::kSmall);
+  Launch launch(session, Mode::kRounds, 1200, Sizes::kSmall);
   launch.expect_all_heard();
 }
 
@@ -163,7 +163,7 @@ TEST(DdsKill, WithoutSupervisorItIsAnErrorThatNamesTheDead) {
 TEST(DdsStop, ForLongerThanTheLeaseChangesNothing) {
   common::Session session = common::session(3);
   session.lease = 1s;
-  Launch launch(session, Mode::kRounds, 20'000, Sizes::kSmall);
+  Launch launch(session, Mode::kRounds, 8000, Sizes::kSmall);
   launch.wait_ready();
   std::this_thread::sleep_for(100ms);
   launch.member(1).signal(SIGSTOP);
