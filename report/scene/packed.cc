@@ -20,8 +20,8 @@ static_assert(std::endian::native == std::endian::little, "columns are little-en
 template <class Number> class Column {
  public:
   // Adds the value in units of 1 / per_unit.
-  void add(double value, double per_unit = 1.0) {
-    value *= per_unit;
+  template <class Given> void add(Given given, double per_unit = 1.0) {
+    const double value = static_cast<double>(given) * per_unit;
     if constexpr (std::is_floating_point_v<Number>) {
       put(static_cast<Number>(value));
     } else {
@@ -59,7 +59,9 @@ template <class Part, class F> void each(const std::vector<Moment<Part>>& moment
     for (std::size_t i = 0; i < Times::most(moment); ++i) f(moment.parts[i]);
 }
 
-double angle(double heading) { return std::remainder(heading, 2.0 * std::numbers::pi) / std::numbers::pi * 32767.0; }
+double angle(float heading) {
+  return std::remainder(static_cast<double>(heading), 2.0 * std::numbers::pi) / std::numbers::pi * 32767.0;
+}
 
 Json truth_json(const Scene& scene, double unit) {
   Column<std::uint16_t> id;

@@ -20,17 +20,19 @@ constexpr std::size_t kMostNamed = 100, kMostLarge = 200;  // tracks with an id,
 constexpr double kBeside = 90;                             // units left and right of the plot
 constexpr std::string_view kTruth = "#777777", kTrack = drawing::kBlack, kWarning = "#d00000";
 
+double wide(float value) { return static_cast<double>(value); }
+
 recording::records::ImageObject image_of(const ShownTrack& track) {
   recording::records::ImageObject object;
-  object.x = track.x;
-  object.y = track.y;
-  object.sigma_x = track.sigma_x;
-  object.sigma_y = track.sigma_y;
-  object.correlation_xy = track.correlation;
+  object.x = wide(track.x);
+  object.y = wide(track.y);
+  object.sigma_x = wide(track.sigma_x);
+  object.sigma_y = wide(track.sigma_y);
+  object.correlation_xy = wide(track.correlation);
   return object;
 }
 template <class Object> std::array<Point, 4> corners(const Object& one) {
-  return recording::scene::rectangle({one.x, one.y, one.heading}, one.length, one.width);
+  return recording::scene::rectangle({wide(one.x), wide(one.y), wide(one.heading)}, wide(one.length), wide(one.width));
 }
 
 struct Window {
@@ -114,8 +116,8 @@ class Painter {
     outline(corners(one), {.stroke = kTrack, .width = 1.6, .dash = coasting ? "4 3" : ""},
             fmt::format("track {}: {:.1f} m/s", index_of(one.id), one.speed), "track");
     if (std::abs(one.speed) < 0.1f) return;
-    svg_.arrow(frame_.at(one.x, one.y),
-               frame_.at(one.x + one.speed * std::cos(one.heading), one.y + one.speed * std::sin(one.heading)),
+    const double x = wide(one.x), y = wide(one.y), heading = wide(one.heading), speed = wide(one.speed);
+    svg_.arrow(frame_.at(x, y), frame_.at(x + speed * std::cos(heading), y + speed * std::sin(heading)),
                {.stroke = kTrack, .width = 1.0}, {}, "velocity");
   }
   // Writes beside an object, where there is room.

@@ -46,7 +46,8 @@ void add_tracks(const Scene& scene, TrueTime at, View& view) {
   for (ShownTrack& track : view.tracks) {
     std::vector<Point>& trail = view.trails.emplace_back();
     for (auto image = now; at - image->at <= kTrail; --image) {
-      if (const ShownTrack* then = found(*image, track.id)) trail.push_back({then->x, then->y});
+      if (const ShownTrack* then = found(*image, track.id))
+        trail.push_back({static_cast<double>(then->x), static_cast<double>(then->y)});
       if (image == scene.images.begin()) break;
     }
     std::ranges::reverse(trail);
