@@ -28,7 +28,10 @@ inline std::string_view between(std::string_view text, std::string_view begin, s
 // It is complete; no name contains markup or ends a script; its plots are data.
 inline void check_page(std::string_view html) {
   TTF_CHECK(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"), "no whole page");
-  TTF_CHECK(count_of(html, "</script") == 5, "{} scripts end", count_of(html, "</script"));
+  // The plots and five scripts; with scenes, these and four more.
+  const bool has_scenes = html.find("<script type=\"application/json\" id=\"scenes\">") != html.npos;
+  const std::size_t scripts = has_scenes ? 11 : 6;
+  TTF_CHECK(count_of(html, "</script") == scripts, "{} scripts end, not {}", count_of(html, "</script"), scripts);
   TTF_CHECK(count_of(html, "<main") == 1 && count_of(html, "</main>") == 1, "a name begins or ends the main part");
   const std::string_view main = between(html, "<main id=\"main\">", "</main>");
   for (const char* tag : {"<script", "<img", "<style", "<!--", "<a "})
