@@ -214,7 +214,8 @@ std::string Page::html() const {
                      drawing::escape(kUplotLicence));
   out += "<script type=\"application/json\" id=\"plots\">" + script_data(plots_) + "</script>\n";
   const auto add = [&out](std::string_view script) { out.append("<script>").append(script).append("</script>\n"); };
-  for (const std::string_view script : {kUplot, kInstantScript, kPlotsScript, kTimingDrawingScript, kTimingScript})
+  for (const std::string_view script :
+       {kUplot, kElementsScript, kInstantScript, kPlotsScript, kTimingDrawingScript, kTimingScript})
     add(script);
   if (scenes_.empty()) return out + "</body></html>\n";
   out += "<script type=\"application/json\" id=\"scenes\">" + script_data(scenes_) + "</script>\n";

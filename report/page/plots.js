@@ -5,11 +5,7 @@
   const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
   const dash_of = (curve) => DASHES[((curve.colour >> 3) + curve.colour) % 4];   // 8 colours, 4 dashes: 32 curves
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
+  const { make, buttons } = Elements;
   const figures = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 
   // Returns the number of decimals of an axis' step: 2.5 has one.
@@ -56,12 +52,7 @@
         });
         bar.append(select);
       }
-      const button = (text, label, act) => {
-        const one = make("button", { type: "button", textContent: text, title: label });
-        one.setAttribute("aria-label", label);
-        one.addEventListener("click", act);
-        bar.append(one);
-      };
+      const button = buttons(bar);
       bar.append(this.range, make("span", { className: "grow" }));
       button("+", "Zoom in", () => this.zoom(0.5));
       button("−", "Zoom out", () => this.zoom(2));

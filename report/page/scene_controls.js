@@ -4,11 +4,7 @@ const SceneControls = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
   const LAYERS = { truth: "true objects", tracks: "tracks", ellipses: "ellipses (2 sigma)", trails: "trails (2 s)",
     warnings: "warnings", fields: "fields" };
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
+  const { make, buttons } = Elements;
 
   // The player acts: play, go, zoom, all, redraw, and what a pointer does in a panel.
   return class {
@@ -36,13 +32,7 @@ const SceneControls = (() => {
 
     bar() {
       const bar = make("div", { className: "bar" });
-      const button = (text, label, act) => {
-        const one = make("button", { type: "button", textContent: text, title: label });
-        one.setAttribute("aria-label", label);
-        one.addEventListener("click", act);
-        bar.append(one);
-        return one;
-      };
+      const button = buttons(bar);
       this.player = button("▶", "Play", () => this.play(!this.playing));
       this.slider = make("input", { type: "range", min: this.from, max: this.to, step: "any" });
       this.slider.setAttribute("aria-label", "Instant");

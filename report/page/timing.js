@@ -1,11 +1,7 @@
 // Moves and zooms the timing diagrams that timing_drawing.js draws, and describes a slot, a task or an arrow.
 "use strict";
 (() => {
-  const make = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-  };
+  const { make, buttons } = Elements;
   const ms = (t) => (Math.round(t * 1e4) / 1e4).toString();
   const lasting = (t) => (t < 1 ? `${Math.round(t * 1e4) / 10} µs` : `${Math.round(t * 1e3) / 1e3} ms`);
 
@@ -29,12 +25,7 @@
     controls() {
       this.range = make("span", { className: "range" });
       const bar = make("div", { className: "bar" });
-      const button = (text, label, act) => {
-        const one = make("button", { type: "button", textContent: text, title: label });
-        one.setAttribute("aria-label", label);
-        one.addEventListener("click", act);
-        bar.append(one);
-      };
+      const button = buttons(bar);
       bar.append(this.range, make("span", { className: "grow" }));
       button("◀", "Earlier", () => this.move(-0.25));
       button("▶", "Later", () => this.move(0.25));

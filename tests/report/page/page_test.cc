@@ -36,14 +36,14 @@ TEST(Page, NothingOfANameIsMarkup) {
   page.diagrams({{kHostile, "<svg></svg>"}}, kHostile);
   page.command(kHostile);
   page.preformatted(kHostile, kHostile);
-  EXPECT_EQ(count(page.html(), "<script>"), 5u);  // uPlot and ours
+  EXPECT_EQ(count(page.html(), "<script>"), 6u);  // uPlot and ours
   nlohmann::ordered_json scene;
   scene["label"] = kHostile;
   page.scenes({scene}, kHostile);
   const std::string html = page.html();
   EXPECT_EQ(count(html, "<img"), 0u);
-  EXPECT_EQ(count(html, "<script>"), 9u);    // uPlot and ours
-  EXPECT_EQ(count(html, "</script>"), 11u);  // and the data of plots and scenes
+  EXPECT_EQ(count(html, "<script>"), 10u);   // uPlot and ours
+  EXPECT_EQ(count(html, "</script>"), 12u);  // and the data of plots and scenes
   EXPECT_EQ(count(html, "<!--"), 0u);
   EXPECT_GT(count(html, "&lt;/script&gt;"), 10u);
 }
