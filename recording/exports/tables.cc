@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "recording/exports/captures.h"
+#include "recording/scene/instants.h"
 
 namespace ttf::recording::exports {
 namespace {
@@ -25,8 +26,8 @@ constexpr std::array<std::string_view, kTables> kHeads{
     "time_s,bus,channel,cycle,id,sender,kind,flags,pdu,sequence,fragment,measurement,payload"};
 static_assert(kHeads.back().substr(6) == kCsvHeader.substr(7, kCsvHeader.size() - 8));  // behind time_s and time_ns
 
-// A damaged log may have any times. Within these bounds arithmetic does not overflow.
-constexpr std::int64_t kFarthest_ns = 3'600'000'000'000, kReach_ns = std::int64_t{1} << 60;
+// A damaged log may have any global times.
+constexpr Duration kFarthest = Duration::milliseconds(3'600'000);
 
 // A number that reads back equal.
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
@@ -38,11 +39,10 @@ std::string seconds(TrueTime at) {
 }
 
 std::string seconds(const records::Stamp& stamp, GlobalTime at) {
-  const auto near = [](std::int64_t a, std::int64_t b) {
-    return a / 2 - b / 2 < kFarthest_ns && b / 2 - a / 2 < kFarthest_ns;  // halves do not overflow
-  };
-  const bool sound = stamp.true_time.ns >= -kReach_ns && stamp.true_time.ns <= kReach_ns;
-  return sound && near(at.ns, stamp.global.ns) ? seconds(records::true_time_of(stamp, at)) : "";
+  using scene::within_reach;
+  if (!within_reach(stamp.true_time.ns) || !within_reach(stamp.global.ns) || !within_reach(at.ns)) return "";
+  const Duration ahead = at - stamp.global;
+  return ahead < kFarthest && ahead > -kFarthest ? seconds(records::true_time_of(stamp, at)) : "";
 }
 
 // Quotes a name that could not be read back without.
