@@ -24,12 +24,12 @@ std::size_t shade_of(std::uint32_t count) {
   return static_cast<std::size_t>(std::ranges::upper_bound(kShades, count) - kShades.begin()) - 1;
 }
 
-// Counts in cells: positions of tracks, and whether there are true objects.
+// Counts in cells: positions of tracks, and whether a true object has none.
 class Density {
  public:
   Density(const drawing::Area& area, const drawing::PlotFrame& frame, PositionView view)
       : area_(area), frame_(frame), view_(view), columns_(cells_in(area.width)), rows_(cells_in(area.height)),
-        tracks_(columns_ * rows_), truths_(columns_ * rows_) {}
+        tracks_(columns_ * rows_), missed_(columns_ * rows_) {}
 
   // Over time, a position counts in all cells until the instant `next`.
   void add(const Sample& s, double next, bool track) {
@@ -41,7 +41,7 @@ class Density {
       if (track)
         ++tracks_[row * columns_ + column];
       else
-        truths_[row * columns_ + column] = true;
+        missed_[row * columns_ + column] = true;
     }
   }
 
@@ -71,7 +71,7 @@ class Density {
     return static_cast<std::size_t>(std::min(units / kCell, static_cast<double>(cells - 1)));
   }
   std::size_t look(std::size_t cell) const {
-    return tracks_[cell] > 0 ? shade_of(tracks_[cell]) : truths_[cell] ? kUntracked : kEmpty;
+    return missed_[cell] ? kUntracked : tracks_[cell] > 0 ? shade_of(tracks_[cell]) : kEmpty;
   }
 
   const drawing::Area& area_;
@@ -79,7 +79,7 @@ class Density {
   PositionView view_;
   std::size_t columns_, rows_;
   std::vector<std::uint32_t> tracks_;
-  std::vector<bool> truths_;
+  std::vector<bool> missed_;
 };
 
 }  // namespace
@@ -94,7 +94,7 @@ std::vector<drawing::LegendEntry> density_legend() {
                       shade(i),
                       {},
                       true});
-  legend.push_back({K::kBox, "true objects, no track in the cell", untracked_colour(), {}, true});
+  legend.push_back({K::kBox, "a true object without a track", untracked_colour(), {}, true});
   return legend;
 }
 
@@ -103,8 +103,9 @@ void draw_density(drawing::Svg& svg, const drawing::PlotFrame& frame, const Crow
   const auto until = [](double t, double next) { return std::min(next, t + kGap_s); };
   for (const Crowd::Trail& trail : crowd.trails)
     for (std::size_t i = 0; i < trail.truth.size(); ++i)
-      density.add(trail.truth[i], until(trail.truth[i].t, trail.truth[std::min(i + 1, trail.truth.size() - 1)].t),
-                  false);
+      if (trail.missed[i])
+        density.add(trail.truth[i], until(trail.truth[i].t, trail.truth[std::min(i + 1, trail.truth.size() - 1)].t),
+                    false);
   std::vector<double> images;  // their instants
   for (const Sample& s : crowd.tracks) images.push_back(s.t);
   std::ranges::sort(images);

@@ -1,5 +1,5 @@
-// Many objects in one view: a cell's shade counts the positions of tracks in it. Another colour shows cells with true objects
-// and without a track; a track may be in the next cell.
+// Many objects in one view: a cell's shade counts the positions of tracks in it. Another colour shows cells with a true
+// object that has no track.
 #pragma once
 
 #include <vector>

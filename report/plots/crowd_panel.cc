@@ -107,14 +107,7 @@ std::string object_colour(std::size_t i) {
 }
 
 Extents extents_of(std::span<const Crowd> crowds, PositionView view) {
-  Extents e;
-  for (const Crowd& crowd : crowds)
-    every_sample(crowd, [&](const Sample& sample) {
-      const drawing::Point p = coordinates(sample, view);
-      e.x.add(p.x);
-      e.y.add(p.y);
-    });
-  return padded(e, view);
+  return extents_of(crowds, view, [](const Crowd& crowd, const auto& visit) { every_sample(crowd, visit); });
 }
 
 std::vector<drawing::LegendEntry> legend_of(std::span<const Crowd> crowds) {

@@ -1,8 +1,13 @@
-// Selects the data of a position plot of several objects: each track of an image belongs to the nearest true object.
+// Selects the data of a position plot of several objects. The tracks of an image belong to true objects as its judgement pairs
+// them.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
+#include <vector>
 
+#include "fusion/metrics/object_pairs.h"
 #include "report/plots/position_plot.h"
 #include "report/plots/position_samples.h"
 
@@ -10,6 +15,14 @@ namespace ttf::report::plots {
 namespace {
 
 constexpr double kSlack = 0.1;  // s that a track may be from the nearest truth
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr fusion::metrics::Point kNowhere{kNan, kNan};
+
+// The objects that have a track in the image of an instant.
+struct Tracked {
+  double t;
+  std::vector<bool> objects;
+};
 
 }  // namespace
 
@@ -25,7 +38,7 @@ PositionPlots::Crowd PositionPlots::crowd() const {
   Crowd crowd;
   std::vector<std::vector<Sample>> truths;  // with their ends outside the window
   for (const auto& [object, samples] : truths_) {
-    Crowd::Trail trail{object, {}, {}};
+    Crowd::Trail trail{object, {}, {}, {}};
     truths.push_back(by_time(samples));
     std::ranges::copy_if(truths.back(), std::back_inserter(trail.truth), [&](const Sample& s) { return inside(s.t); });
     if (trail.truth.empty())
@@ -35,38 +48,37 @@ PositionPlots::Crowd PositionPlots::crowd() const {
   }
   std::vector<Image> images = images_;
   std::ranges::stable_sort(images, {}, &Image::written);
-  const auto shown = [&](const Sample& s) { return inside(s.t) && std::isfinite(s.x) && std::isfinite(s.y); };
-  if (crowd.dense()) {
-    for (const Image& image : images) std::ranges::copy_if(image.objects, std::back_inserter(crowd.tracks), shown);
-    return crowd;
-  }
-  struct Pair {
-    double distance;
-    std::size_t object, track;
-  };
-  std::vector<Pair> pairs;
-  std::vector<bool> objects, tracks;
+  const auto finite = [](const Sample& s) { return std::isfinite(s.x) && std::isfinite(s.y); };
+  std::vector<Tracked> tracked;
+  std::vector<Sample> tracks;
+  std::vector<fusion::metrics::Point> objects, estimates;
   for (const Image& image : images) {
-    pairs.clear();
-    for (std::size_t t = 0; t < image.objects.size(); ++t) {
-      const Sample& track = image.objects[t];
-      if (!shown(track)) continue;
-      for (std::size_t o = 0; o < truths.size(); ++o)
-        if (const auto at = interpolate(truths[o], track.t, kSlack))
-          if (const double d = std::hypot(track.x - at->x, track.y - at->y); d <= options_.gate_m)
-            pairs.push_back({d, o, t});
+    tracks.clear();
+    estimates.clear();
+    std::ranges::copy_if(image.objects, std::back_inserter(tracks), finite);
+    for (const Sample& track : tracks) estimates.push_back({track.x, track.y});
+    const double t = tracks.empty() ? image.written : tracks.front().t;
+    objects.clear();
+    for (const std::vector<Sample>& truth : truths) {
+      const auto at = interpolate(truth, t, kSlack);
+      objects.push_back(at ? fusion::metrics::Point{at->x, at->y} : kNowhere);
     }
-    std::ranges::stable_sort(pairs, {}, &Pair::distance);
-    objects.assign(truths.size(), false);
-    tracks.assign(image.objects.size(), false);
-    for (const Pair& pair : pairs) {
-      if (objects[pair.object] || tracks[pair.track]) continue;
-      objects[pair.object] = tracks[pair.track] = true;
-      crowd.trails[pair.object].track.push_back(image.objects[pair.track]);
+    Tracked& now = tracked.emplace_back(Tracked{t, std::vector<bool>(truths.size())});
+    std::vector<bool> matched(tracks.size());
+    for (const fusion::metrics::ObjectPair& pair : fusion::metrics::object_pairs(objects, estimates, options_.gate_m)) {
+      now.objects[pair.truth] = matched[pair.estimate] = true;
+      if (!crowd.dense() && inside(tracks[pair.estimate].t))
+        crowd.trails[pair.truth].track.push_back(tracks[pair.estimate]);
     }
-    for (std::size_t t = 0; t < image.objects.size(); ++t)
-      if (!tracks[t] && shown(image.objects[t])) crowd.tracks.push_back(image.objects[t]);
+    for (std::size_t i = 0; i < tracks.size(); ++i)
+      if ((crowd.dense() || !matched[i]) && inside(tracks[i].t)) crowd.tracks.push_back(tracks[i]);
   }
+  std::ranges::stable_sort(tracked, {}, &Tracked::t);
+  for (std::size_t o = 0; o < crowd.trails.size(); ++o)
+    for (const Sample& s : crowd.trails[o].truth) {
+      const auto next = std::ranges::upper_bound(tracked, s.t + kSlack, {}, &Tracked::t);
+      crowd.trails[o].missed.push_back(next == tracked.begin() || !std::prev(next)->objects[o]);
+    }
   return crowd;
 }
 

@@ -165,14 +165,7 @@ Extents padded(Extents e, PositionView view) {
 }
 
 Extents extents_of(std::span<const Selection> selections, PositionView view) {
-  Extents e;
-  for (const Selection& s : selections)
-    every_sample(s, [&](const Sample& sample) {
-      const drawing::Point p = coordinates(sample, view);
-      e.x.add(p.x);
-      e.y.add(p.y);
-    });
-  return padded(e, view);
+  return extents_of(selections, view, [](const Selection& s, const auto& visit) { every_sample(s, visit); });
 }
 
 std::vector<drawing::LegendEntry> legend_of(std::span<const Selection> selections, const drawing::Names& names) {

@@ -24,6 +24,18 @@ drawing::Point coordinates(const PositionPlots::Sample& s, PositionView view);
 std::string_view x_label(PositionView view);
 std::string_view y_label(PositionView view);
 
+// Returns the extents of all samples, with that margin; `every_sample(one, visit)` visits those of one.
+template <class One, class Every>
+Extents extents_of(std::span<const One> all, PositionView view, const Every& every_sample) {
+  Extents e;
+  for (const One& one : all)
+    every_sample(one, [&](const PositionPlots::Sample& sample) {
+      const drawing::Point p = coordinates(sample, view);
+      e.x.add(p.x);
+      e.y.add(p.y);
+    });
+  return padded(e, view);
+}
 Extents extents_of(std::span<const PositionPlots::Selection> selections, PositionView view);
 
 std::vector<drawing::LegendEntry> legend_of(std::span<const PositionPlots::Selection> selections,

@@ -83,6 +83,7 @@ class PositionPlots : public recording::records::Sink {
     struct Trail {
       ObjectId object{};
       std::vector<Sample> truth, track;  // by time
+      std::vector<bool> missed;          // by sample of the truth: the newest image has no track of the object
     };
     std::vector<Trail> trails;   // by object; in a density without tracks
     std::vector<Sample> tracks;  // in a density all, else those without an object

@@ -133,7 +133,16 @@ TEST(PositionCrowd, DrawsManyObjectsAsADensity) {
 }
 
 TEST(PositionCrowd, ShowsWhereADensityHasNoTrack) {
-  EXPECT_EQ(count_class(crowd(37).over_time_svg(), "untracked"), 1u) << "y of the last object, and x of none";
+  EXPECT_GT(count_class(crowd(37).plane_svg(), "untracked"), 0u) << "the last object's way";
+  EXPECT_GT(count_class(crowd(37).over_time_svg(), "untracked"), 1u)
+      << "its y, and its x, where the others' tracks are";
+  PositionOptions window;  // it begins between two images
+  window.from = TrueTime{} + Duration::milliseconds(1'005);
+  for (const PositionPlots& plots : {crowd(37), crowd(37, window)})
+    for (const auto& trail : plots.crowd().trails)
+      EXPECT_EQ(std::ranges::count(trail.missed, true),
+                index_of(trail.object) == 36 ? static_cast<std::ptrdiff_t>(trail.truth.size()) : 0)
+          << index_of(trail.object);
   EXPECT_EQ(count_class(crowd(36).over_time_svg(), "untracked"), 0u) << "trails";
 }
 
