@@ -12,7 +12,7 @@ ulimit -s 262144   # KiB: std::regex, in tests, calls itself for every character
 export LSAN_OPTIONS=suppressions=$PWD/tools/lsan.supp:print_suppressions=0
 run() { ctest --test-dir build/asan-ubsan --output-on-failure -j"$(($(nproc) + 1))" "$@"; }
 run -LE 'realtime|slow'
-run -R '^test_dds_network$' --repeat until-pass:3
+run -R '^test_(dds|ros)_network$' --repeat until-pass:3
 [[ ${1:-} == --slow ]] || exit 0
 run -LE realtime -L slow
 run -L realtime --repeat until-pass:3

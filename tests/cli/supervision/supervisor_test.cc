@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <fstream>
+#include <optional>
 
 #include "cli/supervision/control.h"
 #include "tests/cli/supervision/launch_fixture.h"
@@ -316,24 +318,53 @@ TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
 }
 
 // On a capable terminal: colours, and the table in place while the nodes run, not only at the end.
-TEST_F(Supervising, OnATerminalTheTableIsInPlace) {
+// A child that lives until three statuses have told its health, however slow the machine is.
+class Shown : public Supervising {
+ protected:
+  SupervisorConfig lingering() const {
+    return config({{"a",
+                    Policy::kRequired,
+                    {{"/bin/sh", "-c",
+                      TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; until [ -e " + path("enough") +
+                          " ]; do sleep 0.02; done"},
+                     {}}}});
+  }
+  // `before` is called before each status.
+  Hooks counted(std::function<void()> before) {
+    Hooks hooks;
+    hooks.on_health = [this](std::size_t, const json&) { told_ = 0; };
+    hooks.status = [this, before] {
+      before();
+      if (told_ && ++*told_ == 3) std::ofstream(path("enough")) << "x";
+      return "3 of 4 s";
+    };
+    return hooks;
+  }
+
+ private:
+  std::optional<int> told_;  // statuses since the health came
+};
+
+TEST_F(Shown, OnATerminalTheTableIsInPlace) {
   const Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
   ASSERT_TRUE(terminal.open() && unlockpt(terminal.get()) == 0);
   const Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
   ASSERT_TRUE(screen.open());
   unsetenv("NO_COLOR");
   setenv("TERM", "xterm", 1);  // a test runner may have none, or a dumb one
-  const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
-  auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
+  auto given = lingering();
   given.screen = screen.get();
   given.status_every = Duration::milliseconds(100);
   const winsize size{50, 90, 0, 0};
   ASSERT_EQ(ioctl(screen.get(), TIOCSWINSZ, &size), 0);
-  Hooks hooks;
-  hooks.status = [] { return "3 of 4 s"; };
-  EXPECT_EQ(run(std::move(given), hooks).exit_code, 0);
-  std::string text(1 << 16, '\0');
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(read(terminal.get(), text.data(), text.size()), 0)));
+  std::string text;
+  const auto read_on = [&] {  // the terminal holds some tables only
+    char bytes[4096];
+    for (ssize_t got = 0; (got = read(terminal.get(), bytes, sizeof bytes)) > 0;)
+      text.append(bytes, static_cast<std::size_t>(got));
+  };
+  EXPECT_EQ(run(std::move(given), counted(read_on)).exit_code, 0);
+  read_on();
   // This terminal's line discipline is not raw. The status has a line for the launch, three of a head and one for the node.
   EXPECT_THAT(text, HasSubstr("\x1b[5A\x1b[J3 of 4 s: 1 of 1 nodes up\r\n"));
   EXPECT_THAT(text, HasSubstr(" 77 "));
@@ -341,12 +372,11 @@ TEST_F(Supervising, OnATerminalTheTableIsInPlace) {
   EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
 }
 
-TEST_F(Supervising, ElsewhereALineOfWordsTellsTheHealth) {
-  const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
-  auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
+TEST_F(Shown, ElsewhereALineOfWordsTellsTheHealth) {
+  auto given = lingering();
   given.words_every = Duration::milliseconds(100);
-  EXPECT_EQ(run(std::move(given)).exit_code, 0);
-  EXPECT_THAT(shown(), HasSubstr("launch | 1 of 1 nodes up; 0 late wake-ups, 0 slots missed, 77 drops\n"));
+  EXPECT_EQ(run(std::move(given), counted([] {})).exit_code, 0);
+  EXPECT_THAT(shown(), HasSubstr("launch | 3 of 4 s: 1 of 1 nodes up; 0 late wake-ups, 0 slots missed, 77 drops\n"));
   EXPECT_THAT(shown(), Not(HasSubstr("\x1b")));
 }
 
