@@ -1,16 +1,26 @@
 #!/usr/bin/env bash
 # Builds without presets: cmake -B FOLDER -DCMAKE_BUILD_TYPE=Release, with g++ or clang++.
-#   tools/plain_build.sh [COMPILER] [TARGET...]      default: g++, everything
+#   tools/plain_build.sh [--lean] [COMPILER] [TARGET...]      default: g++, everything
+# --lean leaves out what can be: tests, benchmarks, DDS and MPI. The program then says what it lacks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+lean=
+[[ ${1:-} == --lean ]] && lean=lean- && shift
 compiler=${1:-g++}
 [[ $# -gt 0 ]] && shift
 targets=()
 [[ $# -gt 0 ]] && targets=(--target "$@")
-folder=build/plain-$compiler
+folder=build/plain-$lean$compiler
 export CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-launcher=()
-command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" "${launcher[@]}" >/dev/null
+options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler")
+command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+[[ -z $lean ]] ||
+  options+=(-DTTF_BUILD_TESTS=OFF -DTTF_BUILD_BENCHMARKS=OFF -DTTF_WITH_DDS=OFF -DTTF_WITH_MPI=OFF)
+cmake -B "$folder" "${options[@]}" >/dev/null
 cmake --build "$folder" -j"$(nproc)" "${targets[@]}"
 "$folder/ttfusion" run scenarios/paper_scenario1.yaml --strategy tt --out "$folder/drive" >/dev/null
+[[ -n $lean ]] || exit 0
+"$folder/ttfusion" --version | grep -q "with no DDS, SocketCAN, no MPI"
+code=0
+"$folder/ttfusion" launch paper_scenario1 --virtual-time --out "$folder/launch" 2>"$folder/refused" || code=$?
+[[ $code -eq 2 ]] && grep -q "it needs DDS, which this build leaves out" "$folder/refused"

@@ -19,7 +19,6 @@
 #include "cli/launch/launch_live.h"
 #include "cli/launch/launch_plan.h"
 #include "cli/launch/launch_result.h"
-#include "cli/launch/launch_virtual.h"
 #include "cli/launch/verdict.h"
 #include "cli/output.h"
 #include "cli/supervision/folder_lock.h"
@@ -27,6 +26,9 @@
 #include "cli/supervision/signal_watch.h"
 #include "cli/supervision/supervisor.h"
 #include "core/decimal.h"
+#if TTF_WITH_DDS
+#include "cli/launch/launch_virtual.h"
+#endif
 
 namespace ttf::cli::launch {
 namespace {
@@ -147,8 +149,10 @@ int run_launch(const LaunchArguments& arguments) {
     try_folder(plan.set.folder);
     return 0;
   }
-  return plan.set.virtual_time ? run_plan<VirtualLaunch>(std::move(plan), arguments)
-                               : run_plan<LiveLaunch>(std::move(plan), arguments);
+#if TTF_WITH_DDS
+  if (plan.set.virtual_time) return run_plan<VirtualLaunch>(std::move(plan), arguments);
+#endif
+  return run_plan<LiveLaunch>(std::move(plan), arguments);
 }
 
 }  // namespace

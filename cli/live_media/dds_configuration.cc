@@ -14,6 +14,7 @@
 #include <string>
 
 #include "bus/dds/common/participant.h"
+#include "bus/dds/common/session.h"
 #include "cli/supervision/descriptor.h"
 #include "core/errors.h"
 
@@ -46,6 +47,17 @@ std::string words_of(std::string text) {
 }
 
 }  // namespace
+
+void check_session_name(const std::string& name) {
+  bus::dds::common::Session session;
+  session.name = name;
+  session.members = {NodeId{0}};
+  try {
+    bus::dds::common::validate(session);
+  } catch (const InputError& error) {
+    throw InputError({"command line", 0, "--session", name, error.findings().front().expected});
+  }
+}
 
 void check_dds_configuration() {
   const char* const uri = std::getenv("CYCLONEDDS_URI");

@@ -58,7 +58,17 @@ struct LiveMediumRow {
 // dds.cc, socketcan.cc
 extern const LiveMediumRow kDds, kSocketCan;
 
-// The first is the default.
+// The first is the default. A build may leave DDS out (TTF_WITH_DDS), and with it virtual time over several processes and
+// ROS 2's topics.
+#ifndef TTF_WITH_DDS
+#error "ttf_live_media's users have TTF_WITH_DDS from it"
+#endif
+#if TTF_WITH_DDS
+inline constexpr bool kWithDds = true;
 inline constexpr std::array kLiveMedia{&kDds, &kSocketCan};
+#else
+inline constexpr bool kWithDds = false;
+inline constexpr std::array kLiveMedia{&kSocketCan};
+#endif
 
 }  // namespace ttf::cli::live_media

@@ -22,7 +22,10 @@ int run_node(const NodeArguments& arguments) {
   options.node = node_set::node_of(options.set.cluster, arguments.name, "name", arguments.name);
   options.log = options.set.folder + "/" + supervision::file_stem(arguments.name) + ".mcap";
   options.json = arguments.json;
-  return options.set.virtual_time ? run_node_virtual(options) : run_node_live(options);
+#if TTF_WITH_DDS
+  if (options.set.virtual_time) return run_node_virtual(options);
+#endif
+  return run_node_live(options);
 }
 
 }  // namespace

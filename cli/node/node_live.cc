@@ -176,10 +176,10 @@ int run_node_live(const NodeOptions& options) {
   if (told) tell_wait(*told);
   const Start start = told ? *told : start_of(*supervisor);
   const nodes::runner::RunnerConfig config = config_of(options, start, signals.fd());
-  std::optional<node_set::LiveTopics> topics;
+  std::unique_ptr<node_set::LiveTopics> topics;
   std::vector<recording::records::Sink*> sinks{&log};
   if (set.topics) {
-    topics.emplace(set, options.node, config.clock, around);
+    topics = make_topics(set, options.node, config.clock, around);
     for (recording::records::Sink* sink : topics->sinks()) sinks.push_back(sink);
   }
   recording::records::Tee tee(std::move(sinks));

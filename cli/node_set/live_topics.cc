@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "bus/can/confinement.h"
+#include "bus/dds/ros/publisher.h"
+#include "drives/observer.h"
 
 namespace ttf::cli::node_set {
 namespace {
@@ -60,32 +63,27 @@ bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::Dr
 
 std::string us(Duration duration) { return fmt::format("{:.1f}", in_us(duration)); }
 
-}  // namespace
+class DdsTopics final : public LiveTopics {
+ public:
+  DdsTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock, const drives::Surroundings& around)
+      : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, node)) {
+    if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
+  }
 
-void check_topics(const NodeSet& set) {
-  const nodes::runner::DriveClock any({}, set.time_scale_ppm);
-  for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node)
-    bus::dds::ros::validate(options_of(set, any, static_cast<NodeId>(node)));
-}
+  std::vector<recording::records::Sink*> sinks() override {
+    std::vector<recording::records::Sink*> sinks{&publisher_};
+    if (truth_) sinks.push_back(&*truth_);
+    return sinks;
+  }
+  void health(const nodes::runner::Health& health, TrueTime at) override;
 
-void try_topics(const NodeSet& set) {
-  const nodes::runner::DriveClock any({}, set.time_scale_ppm);
-  bus::dds::ros::try_domain(options_of(set, any, NodeId{0}));
-}
+ private:
+  std::string name_;
+  bus::dds::ros::RosPublisher publisher_;
+  std::optional<drives::Observer> truth_;
+};
 
-LiveTopics::LiveTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
-                       const drives::Surroundings& around)
-    : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, node)) {
-  if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
-}
-
-std::vector<recording::records::Sink*> LiveTopics::sinks() {
-  std::vector<recording::records::Sink*> sinks{&publisher_};
-  if (truth_) sinks.push_back(&*truth_);
-  return sinks;
-}
-
-void LiveTopics::health(const nodes::runner::Health& health, TrueTime at) {
+void DdsTopics::health(const nodes::runner::Health& health, TrueTime at) {
   const std::array values{fmt::format("{}", health.timing.late_wakeups),
                           fmt::format("{}", health.timing.slots_missed),
                           fmt::format("{}", health.timing.late_frames),
@@ -109,6 +107,24 @@ void LiveTopics::health(const nodes::runner::Health& health, TrueTime at) {
   const bool good = (off_flexray || health.state == "normal active") && can == bus::can::ErrorState::kActive;
   publisher_.health(
       {at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_, words, told});
+}
+
+}  // namespace
+
+void check_topics(const NodeSet& set) {
+  const nodes::runner::DriveClock any({}, set.time_scale_ppm);
+  for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node)
+    bus::dds::ros::validate(options_of(set, any, static_cast<NodeId>(node)));
+}
+
+void try_topics(const NodeSet& set) {
+  const nodes::runner::DriveClock any({}, set.time_scale_ppm);
+  bus::dds::ros::try_domain(options_of(set, any, NodeId{0}));
+}
+
+std::unique_ptr<LiveTopics> make_topics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
+                                        const drives::Surroundings& around) {
+  return std::make_unique<DdsTopics>(set, node, clock, around);
 }
 
 }  // namespace ttf::cli::node_set

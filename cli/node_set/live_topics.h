@@ -2,12 +2,10 @@
 // tracks, the first sensor's device the truth at its measurements, every node its health.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "bus/dds/ros/publisher.h"
 #include "cli/node_set/node_set.h"
-#include "drives/observer.h"
 #include "drives/surroundings.h"
 #include "nodes/runner/drive_clock.h"
 #include "nodes/runner/runner.h"
@@ -22,18 +20,14 @@ void try_topics(const NodeSet& set);
 
 class LiveTopics {
  public:
-  // `around` must outlive the object. Throws std::runtime_error if DDS does not start.
-  LiveTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
-             const drives::Surroundings& around);
-
+  virtual ~LiveTopics() = default;
   // Returns the sinks for the node's records.
-  std::vector<recording::records::Sink*> sinks();
-  void health(const nodes::runner::Health& health, TrueTime at);
-
- private:
-  std::string name_;
-  bus::dds::ros::RosPublisher publisher_;
-  std::optional<drives::Observer> truth_;
+  virtual std::vector<recording::records::Sink*> sinks() = 0;
+  virtual void health(const nodes::runner::Health& health, TrueTime at) = 0;
 };
+
+// `around` must outlive the topics. Throws std::runtime_error if DDS does not start.
+std::unique_ptr<LiveTopics> make_topics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
+                                        const drives::Surroundings& around);
 
 }  // namespace ttf::cli::node_set

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "bus/dds/common/session.h"
 #include "cli/argument_checks.h"
 #include "cli/decimal_option.h"
 #include "cli/drive/drive_setup.h"
+#include "cli/live_media/dds_configuration.h"
 #include "cli/node_set/can_interfaces.h"
 #include "cli/shipped.h"
 #include "core/decimal.h"
@@ -57,18 +57,6 @@ reference: {{}}
                                 "default_scene.yaml");
 }
 
-// Checks the name as a session on DDS, whatever the bus.
-std::string session_option(const std::string& name) {
-  bus::dds::common::Session session;
-  session.name = name;
-  session.members = {NodeId{0}};
-  try {
-    return bus::dds::common::validate(session).name;
-  } catch (const InputError& error) {
-    throw InputError({"command line", 0, "--session", name, error.findings().front().expected});
-  }
-}
-
 // Returns the system's name of this machine.
 std::string this_host() {
   std::array<char, 256> name{};
@@ -92,6 +80,9 @@ void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus&
     throw InputError({"command line", 0, option, value, fmt::format("must {}", why)});
   };
   if (!arguments.virtual_time) return;
+  if (!live_media::kWithDds)
+    refuse("--virtual-time", "",
+           "not be given: it needs DDS, which this build leaves out; `ttfusion run` does without");
   if (arguments.duration && is_zero(*arguments.duration))
     refuse("--duration", *arguments.duration, "not be 0 with --virtual-time, which nobody needs to stop");
   if (arguments.time_scale)
@@ -154,9 +145,10 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.file = file_named(arguments.scenario, {kScenarios, kSchedules});
   set.strategy = drive::strategy_of(arguments.strategy);
   set.bus = live_media::Bus::parse(arguments.bus);
-  set.session = session_option(arguments.session);
+  live_media::check_session_name(arguments.session);
+  set.session = arguments.session;
   set.virtual_time = arguments.virtual_time;
-  set.topics = !arguments.no_topics && !arguments.virtual_time;
+  set.topics = live_media::kWithDds && !arguments.no_topics && !arguments.virtual_time;
   if (arguments.time_scale) set.time_scale_ppm = time_scale_option(*arguments.time_scale);
   refuse_other_time(arguments, set.bus);
   if (arguments.start_at)
