@@ -69,9 +69,9 @@ const LiveMediumRow kSocketCan{
     .not_in_virtual_time = "a CAN does not carry the nodes' promises to be silent",
     .needs_dds = false,
     .look_at = look_at_cans,
-    .way_out =
-        "to do without CANs: --bus dds (the default); to have CANs without root: tools/test_bed.sh "
-        "(docs/socketcan_use.md)",
+    .way_out = kWithDds ? "to do without CANs: --bus dds (the default); to have CANs without root: tools/test_bed.sh "
+                          "(docs/socketcan_use.md)"
+                        : "to have CANs without root: tools/test_bed.sh (docs/socketcan_use.md)",
     .make = make_socketcan,
 };
 

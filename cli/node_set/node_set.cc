@@ -80,9 +80,6 @@ void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus&
     throw InputError({"command line", 0, option, value, fmt::format("must {}", why)});
   };
   if (!arguments.virtual_time) return;
-  if (!live_media::kWithDds)
-    refuse("--virtual-time", "",
-           "not be given: it needs DDS, which this build leaves out; `ttfusion run` does without");
   if (arguments.duration && is_zero(*arguments.duration))
     refuse("--duration", *arguments.duration, "not be 0 with --virtual-time, which nobody needs to stop");
   if (arguments.time_scale)
@@ -144,6 +141,9 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   NodeSet set;
   set.file = file_named(arguments.scenario, {kScenarios, kSchedules});
   set.strategy = drive::strategy_of(arguments.strategy);
+  if (arguments.virtual_time && !live_media::kWithDds)  // before --bus, which has no default then
+    throw InputError({"command line", 0, "--virtual-time", "",
+                      "must not be given: it needs DDS, which this build leaves out; `ttfusion run` does without"});
   set.bus = live_media::Bus::parse(arguments.bus);
   live_media::check_session_name(arguments.session);
   set.session = arguments.session;

@@ -13,9 +13,11 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "cli/supervision/supervisor.h"
@@ -102,6 +104,19 @@ class Launching : public testing::Test {
 
   std::string folder_;
   int screen_ = -1;
+};
+
+// A launch from start to end.
+class Supervising : public Launching {
+ protected:
+  Outcome run(SupervisorConfig given, Hooks hooks = {}) {
+    Supervisor supervisor(std::move(given), std::move(hooks));
+    const Outcome outcome = supervisor.run();
+    health_ = supervisor.health().json();
+    EXPECT_TRUE(has_no_children());
+    return outcome;
+  }
+  nlohmann::ordered_json health_;
 };
 
 }  // namespace ttf::cli::supervision

@@ -1,4 +1,4 @@
-// Policies, barrier, output and exit codes. How a launch is stopped: supervisor_stop_test.cc.
+// Policies, output and exit codes. How a launch is stopped: supervisor_stop_test.cc; who is late for its barrier: barrier_test.cc.
 #include "cli/supervision/supervisor.h"
 
 #include <fcntl.h>
@@ -26,18 +26,6 @@ using testing::MatchesRegex;
 using testing::Not;
 
 constexpr Duration kSoon = Duration::milliseconds(1);
-
-class Supervising : public Launching {
- protected:
-  Outcome run(SupervisorConfig given, Hooks hooks = {}) {
-    Supervisor supervisor(std::move(given), std::move(hooks));
-    const Outcome outcome = supervisor.run();
-    health_ = supervisor.health().json();
-    EXPECT_TRUE(has_no_children());
-    return outcome;
-  }
-  nlohmann::ordered_json health_;
-};
 
 TEST_F(Supervising, ANodeSetFromStartToEnd) {
   std::vector<std::string> events;
@@ -81,51 +69,6 @@ TEST_F(Supervising, NobodyStartsBeforeAllAreReady) {
                 hooks)
                 .exit_code,
             0);
-}
-
-TEST_F(Supervising, TheBarriersTimeoutNamesWhoIsMissing) {
-  auto given = config({{"laser_pre", Policy::kRequired, child({"wait"})},
-                       {"fusion", Policy::kRequired, child({"ready", "wait"})},
-                       {"camera_pre", Policy::kRestart, child({"wait"})},
-                       {"feature", Policy::kOptional, child({"wait"})}});
-  given.ready_timeout = Duration::milliseconds(1500);
-  Hooks hooks;
-  hooks.on_all_ready = [] {
-    ADD_FAILURE() << "not all are ready";
-    return json::object();
-  };
-  const auto outcome = run(std::move(given), hooks);
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.why, "nodes are not ready within 1.5 s: laser_pre, camera_pre");
-  EXPECT_THAT(shown(), HasSubstr("launch     | stopping: nodes are not ready within 1.5 s: laser_pre, camera_pre\n"));
-}
-
-TEST_F(Supervising, OptionalOnesHoldUpNobodyBeyondTheBarrier) {
-  auto given = config(
-      {{"fusion", Policy::kRequired, child({"ready", "start"})}, {"feature", Policy::kOptional, child({"wait"})}});
-  given.ready_timeout = Duration::milliseconds(200);
-  given.optional_grace = kSoon;
-  EXPECT_EQ(run(std::move(given)).exit_code, 0);
-  EXPECT_THAT(shown(),
-              HasSubstr("optional nodes are not ready within 0.2 s: feature; the others start\nfusion  | start {}\n"));
-  EXPECT_THAT(shown(), HasSubstr("stopping: only optional nodes are left\nlaunch  | feature: signal 2 (Interrupt)\n"));
-}
-
-TEST_F(Supervising, ALateOptionalOneIsToldAfterwards) {
-  Hooks hooks;
-  hooks.on_all_ready = [&] {
-    std::ofstream(path("go")) << "x";
-    return json{{"first", true}};
-  };
-  hooks.on_late_ready = [](std::size_t node) { return json{{"late", node}}; };
-  const std::string wait_for_it =
-      "until [ -e " + path("go") + " ]; do sleep 0.02; done; exec " TTF_LAUNCH_CHILD " ready start";
-  auto given = config({{"feature", Policy::kOptional, {{"/bin/sh", "-c", wait_for_it}, {}}},
-                       {"fusion", Policy::kRequired, child({"ready", "start"})}});
-  given.ready_timeout = Duration::milliseconds(300);
-  EXPECT_EQ(run(std::move(given), hooks).exit_code, 0);
-  EXPECT_THAT(shown(), HasSubstr("fusion  | start {\"first\":true}\n"));
-  EXPECT_THAT(shown(), HasSubstr("feature | start {\"late\":0}\n"));
 }
 
 TEST_F(Supervising, ARequiredOnesFailureStopsAllAndIsTheExitCode) {
