@@ -61,6 +61,7 @@ const LiveMediumRow kDds{
     .look_at = look_at_loopback,
     .way_out = "",
     .make = make_dds,
+    .listen = nullptr,
 };
 
 }  // namespace ttf::cli::live_media

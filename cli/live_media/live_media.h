@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/ports/listener.h"
 #include "bus/ports/live_medium.h"
 #include "cli/supervision/preflight.h"
 #include "core/ids.h"
@@ -35,6 +36,14 @@ struct MediumSetting {
   std::chrono::milliseconds patience;  // the longest wait for the other nodes, if the medium must find them first
 };
 
+// The setting of a listener, with the interfaces of a MediumSetting.
+struct ListenerSetting {
+  const schedules::model::Cluster& cluster;
+  const std::vector<std::string>& channel_interfaces;
+  const std::vector<std::string>& can_interfaces;
+  const bus::ports::HeardIdentifiers& identifiers;
+};
+
 struct LiveMediumRow {
   std::string_view name;         // in --bus, before its interfaces: "socketcan"
   std::string_view form;         // the whole value: "socketcan:IF[,IF]"
@@ -51,6 +60,9 @@ struct LiveMediumRow {
   // Warns of missing resources. Throws InputError if the setting names a missing interface,
   // std::runtime_error if the medium does not start.
   std::unique_ptr<bus::ports::LiveMedium> (*make)(const MediumSetting& setting) = nullptr;
+
+  // Makes a listener for nodes that are not the program's own; null where none of them can be heard. Throws as `make`.
+  std::unique_ptr<bus::ports::Listener> (*listen)(const ListenerSetting& setting) = nullptr;
 
   bool has_interfaces() const { return most_interfaces > 0; }
 };

@@ -1,7 +1,10 @@
 // The live medium SocketCAN.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "bus/socketcan/interface.h"
+#include "bus/socketcan/listener.h"
 #include "bus/socketcan/medium.h"
 #include "cli/live_media/live_media.h"
 #include "cli/output.h"
@@ -57,6 +60,15 @@ std::unique_ptr<bus::ports::LiveMedium> make_socketcan(const MediumSetting& sett
   return medium;
 }
 
+std::unique_ptr<bus::ports::Listener> listen_to_cans(const ListenerSetting& setting) {
+  std::array<std::string, 2> channels;
+  for (std::size_t c = 0; c < setting.channel_interfaces.size(); ++c) channels[c] = setting.channel_interfaces[c];
+  std::vector<bus::socketcan::SocketCanListener::Can> cans;
+  for (std::size_t b = 0; b < setting.cluster.can_buses.size(); ++b)
+    cans.push_back({setting.can_interfaces[b], setting.cluster.can_buses[b].flexible_data_rate});
+  return std::make_unique<bus::socketcan::SocketCanListener>(channels, cans, setting.identifiers);
+}
+
 }  // namespace
 
 const LiveMediumRow kSocketCan{
@@ -73,6 +85,7 @@ const LiveMediumRow kSocketCan{
                           "(docs/socketcan_use.md)"
                         : "to have CANs without root: tools/test_bed.sh (docs/socketcan_use.md)",
     .make = make_socketcan,
+    .listen = listen_to_cans,
 };
 
 }  // namespace ttf::cli::live_media
