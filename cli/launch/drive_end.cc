@@ -13,6 +13,7 @@ namespace {
 
 // Returns why a node was not in operation, or no value if it was.
 std::optional<std::string> why_absent(const NodeAtEnd& node) {
+  if (node.external) return node.state.empty() ? std::nullopt : std::optional(node.state);
   if (!node.ending) return "never started";
   if (!node.ending->success()) return node.ending->text();
   if (!node.on_flexray || node.state == bus::poc::to_text(bus::poc::PocKind::kNormalActive)) return std::nullopt;
@@ -26,7 +27,7 @@ DriveEnd drive_end(const std::vector<NodeAtEnd>& nodes) {
   bool anybody = false;
   for (const NodeAtEnd& node : nodes) {
     auto why = why_absent(node);
-    anybody = anybody || (node.on_flexray && !why);
+    anybody = anybody || (node.on_flexray && !node.external && !why);
     if (why) end.absent.push_back({node.name, std::move(*why)});
   }
   end.nobody = !anybody;
@@ -70,11 +71,12 @@ std::vector<std::string> states_at_end(const schedules::model::Cluster& cluster,
   return states;
 }
 
-std::vector<NodeAtEnd> EndWatch::nodes(const schedules::model::Cluster& cluster,
-                                       const std::vector<std::string>& states) const {
+std::vector<NodeAtEnd> EndWatch::nodes(const schedules::model::Cluster& cluster, const std::vector<std::string>& states,
+                                       const std::vector<NodeId>& external) const {
   std::vector<NodeAtEnd> nodes;
   for (std::size_t n = 0; n < endings_.size(); ++n)
-    nodes.push_back({cluster.nodes[n].name, cluster.nodes[n].flexray.has_value(), endings_[n], states[n]});
+    nodes.push_back({cluster.nodes[n].name, cluster.nodes[n].flexray.has_value(), endings_[n], states[n], false});
+  for (const NodeId node : external) nodes[index_of(node)].external = true;
   return nodes;
 }
 

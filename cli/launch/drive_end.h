@@ -18,6 +18,7 @@ struct NodeAtEnd {
   bool on_flexray = false;
   std::optional<supervision::Ending> ending;  // its last process's; no value without a process
   std::string state;                          // its controller's last known state; empty off FlexRay
+  bool external = false;                      // a real node: without a process, and in operation if the state is empty
 };
 
 struct DriveEnd {
@@ -26,7 +27,7 @@ struct DriveEnd {
   };
   // Nodes whose process failed, and nodes on FlexRay that were not normal active; in the given order.
   std::vector<Absent> absent;
-  bool nobody = false;  // true if no node on FlexRay was in operation
+  bool nobody = false;  // true if no node of the launch on FlexRay was in operation
 
   // Returns "a, b were not in operation at the end: integration listen", or "" if all were.
   std::string sentence() const;
@@ -46,8 +47,9 @@ class EndWatch {
 
   supervision::Hooks around(supervision::Hooks hooks);  // calls `hooks` as well; the watch must outlive it
   bool begun() const { return begun_; }                 // whether the start barrier was passed
-  // Returns the nodes with the states of their controllers.
-  std::vector<NodeAtEnd> nodes(const schedules::model::Cluster& cluster, const std::vector<std::string>& states) const;
+  // Returns the nodes with the states of their controllers. `external`: indices of real nodes.
+  std::vector<NodeAtEnd> nodes(const schedules::model::Cluster& cluster, const std::vector<std::string>& states,
+                               const std::vector<NodeId>& external = {}) const;
 
  private:
   std::vector<std::optional<supervision::Ending>> endings_;

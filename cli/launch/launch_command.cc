@@ -34,6 +34,7 @@ namespace ttf::cli::launch {
 namespace {
 
 constexpr const char* kSummary = "summary.json";
+constexpr const char* kExternal = "external_nodes";                 // the same
 constexpr const char* kNotInOperation = "not_in_operation_at_end";  // a key of the summary and of the manifest
 
 // Returns the arguments of this process, as given.
@@ -46,11 +47,13 @@ std::vector<std::string> command_line() {
 
 // Prints and writes the drive's results, from the logs of the nodes that reached its end.
 void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result, const std::optional<DriveEnd>& end,
-                 const std::optional<Verdict>& verdict, const LaunchArguments& arguments) {
+                 const std::optional<Verdict>& verdict, const std::vector<external::Account>& accounts,
+                 const LaunchArguments& arguments) {
   const std::vector<drive::StrategyResult> results{result};
   if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
   nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
   if (end) json[kNotInOperation] = end->json();
+  if (!accounts.empty()) json[kExternal] = json_of(accounts);
   if (verdict) json["verdict"] = verdict->json();
   write_file(fmt::format("{}/{}", set.folder, kSummary), json.dump(2) + '\n');
   if (arguments.json) {
@@ -61,6 +64,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
              comparison_table(results), real_time_text(result));
   if (!set.scenario.faults.empty())
     fmt::print("\n{}", drive::faults_text(name_of(set.strategy), result.faults, result.fault_free, set.cluster));
+  if (!accounts.empty()) fmt::print("\n{}", table_text(accounts));
   if (verdict) fmt::print("verdict: {}\n", verdict->sentence);
 }
 
@@ -106,7 +110,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   remove_earlier(earlier, plan, folder);
   // Blocks the signals before the exchange begins a thread, which would otherwise take them.
   std::optional<supervision::SignalWatch> held_back(std::in_place);
-  Launch drive(plan.set);
+  Launch drive(plan);
   EndWatch watch(plan.nodes.size());
   supervision::SupervisorConfig config;
   config.nodes = std::move(plan.nodes);
@@ -123,13 +127,16 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   const std::optional<drive::StrategyResult> result = drive.result(folder.logs());
   const drive::StrategyResult* const told = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
-  if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told)));
+  if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told), plan.externals));
+  const std::vector<external::Account> accounts = drive.accounts();
   std::optional<Verdict> verdict;
   if (result && result->real_time)
     verdict = verdict_of({&plan.set.cluster, &*result->real_time, result->service, health.restarts(),
-                          end ? end->sentence() : std::string()});
-  if (result) tell_result(plan.set, *result, end, verdict, arguments);
+                          end ? end->sentence() : std::string(), wrongs_text(accounts)});
+  if (!accounts.empty()) folder.set(kExternal, json_of(accounts));
+  if (result) tell_result(plan.set, *result, end, verdict, accounts, arguments);
   std::fflush(stdout);  // both streams may share one file
+  if (!end && !accounts.empty()) folder.write();
   const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
   say_written(plan.set.folder);
   return code;
@@ -141,7 +148,9 @@ int run_launch(const LaunchArguments& arguments) {
   const bool ready = supervision::all_good(plan.preflight);
   if (arguments.dry_run)
     show_plan(plan, arguments.json);
-  else if (!ready)
+  else if (ready)
+    show_duties(plan);
+  else
     show_preflight(plan);
   if (!ready) return 1;
   if (arguments.dry_run) {
@@ -168,6 +177,8 @@ void add_launch(CLI::App& app, Action& action) {
       ->add_option("--policy", arguments->policies,
                    "NODE=required (default), NODE=restart or NODE=optional; once for each node")
       ->allow_extra_args(false);
+  command->add_option("--external", arguments->external,
+                      "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/attach_a_node.md)");
   command->add_flag("--dry-run", arguments->dry_run, "Show the plan and whether its needs are met, but start nothing");
   command
       ->add_option("--out", arguments->set.out, "Folder for logs, output and manifest (default: out/<scenario>/launch)")

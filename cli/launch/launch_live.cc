@@ -39,11 +39,23 @@ void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLog
 
 }  // namespace
 
+LiveLaunch::LiveLaunch(const LaunchPlan& plan)
+    : set_(plan.set), processes_(plan.set.cluster.nodes.size() - plan.externals.size()) {
+  if (!plan.externals.empty()) hearing_.emplace(plan.set, plan.externals);
+}
+
 supervision::Hooks LiveLaunch::hooks() {
   supervision::Hooks hooks;
+  if (hearing_) {
+    hooks.listen = [this] { hearing_->take_in(); };
+    hooks.external = [this](std::size_t node) {
+      return hearing_->health(static_cast<NodeId>(node), bus::ports::host_now());
+    };
+  }
   hooks.on_all_ready = [this] {
     const bus::ports::MachineTime soonest = bus::ports::host_now() + kUntilStart;
     origin_ = bus::ports::MachineTime{(soonest.ns + kRound_ns - 1) / kRound_ns * kRound_ns};
+    if (hearing_) hearing_->begin(*origin_);
     return nlohmann::json{{"origin_ns", origin_->ns}, {"rejoin", false}};
   };
   hooks.on_late_ready = [this](std::size_t) {
@@ -90,13 +102,22 @@ std::vector<std::string> LiveLaunch::states_at_end(const supervision::HealthTabl
                                                    const drive::StrategyResult*) const {
   std::vector<std::string> states;
   for (std::size_t node = 0; node < set_.cluster.nodes.size(); ++node) states.push_back(health.of(node).state);
+  for (const external::Account& account : accounts())
+    states[index_of(*set_.cluster.find_node(account.node))] =
+        account.counts.first && !account.silent ? "" : state_text(account);
   return states;
+}
+
+std::vector<external::Account> LiveLaunch::accounts() const {
+  return hearing_ ? hearing_->accounts(bus::ports::host_now()) : std::vector<external::Account>{};
 }
 
 std::vector<std::string> LiveLaunch::warnings() const {
   std::vector<std::string> warnings;
   for (const auto& [sentence, nodes] : not_granted_)
-    warnings.push_back(fmt::format("{} of {} nodes: {}", nodes.size(), set_.cluster.nodes.size(), sentence));
+    warnings.push_back(fmt::format("{} of {} nodes: {}", nodes.size(), processes_, sentence));
+  if (hearing_)
+    for (std::string& sentence : hearing_->warnings()) warnings.push_back(std::move(sentence));
   return warnings;
 }
 

@@ -10,6 +10,9 @@
 
 #include "bus/ports/live_medium.h"
 #include "cli/drive/run_outputs.h"
+#include "cli/launch/external/account.h"
+#include "cli/launch/external/hearing.h"
+#include "cli/launch/launch_plan.h"
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/supervisor.h"
 
@@ -17,7 +20,8 @@ namespace ttf::cli::launch {
 
 class LiveLaunch {
  public:
-  explicit LiveLaunch(const node_set::NodeSet& set) : set_(set) {}
+  // `plan` must outlive the object.
+  explicit LiveLaunch(const LaunchPlan& plan);
 
   // Gives all processes one instant, some hundred milliseconds ahead. A later process joins a running drive.
   supervision::Hooks hooks();
@@ -26,15 +30,21 @@ class LiveLaunch {
   std::optional<drive::StrategyResult> result(const std::vector<std::string>& logs) const;
   // Returns how long the drive went on: less than its duration if it was stopped.
   Duration driven() const;
-  // Returns the last reported states of the nodes' controllers; empty off FlexRay.
+  // Returns the last reported states of the nodes' controllers, empty off FlexRay. An external node's is the one that was
+  // heard, empty if it was sending.
   std::vector<std::string> states_at_end(const supervision::HealthTable& health, const drive::StrategyResult*) const;
-  // Returns the privileges that the kernel refused, each sentence once with the number of processes.
+  // Returns the accounts of external nodes.
+  std::vector<external::Account> accounts() const;
+  // Returns the privileges that the kernel refused, each sentence once with the number of processes, and the losses of the
+  // launch's own listening.
   std::vector<std::string> warnings() const;
 
  private:
   Duration so_far(bus::ports::MachineTime now) const;
 
   const node_set::NodeSet& set_;
+  std::optional<external::Hearing> hearing_;  // if there are external nodes
+  const std::size_t processes_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence
   std::optional<bus::ports::MachineTime> origin_, last_done_;
   std::optional<bus::ports::MachineTime> ended_;  // the first of the nodes that ended together at last

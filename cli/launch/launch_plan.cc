@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "cli/drive/drive_setup.h"
+#include "cli/launch/external/duties_text.h"
 #include "cli/live_media/bus.h"
 #include "cli/live_media/dds_configuration.h"
 #include "cli/node_set/can_interfaces.h"
@@ -45,10 +48,45 @@ void set_policies(const std::vector<std::string>& texts, const schedules::model:
   }
 }
 
+InputError external_refused(const std::string& text, std::string expected) {
+  return InputError({"command line", 0, "--external", text, std::move(expected)});
+}
+
+// Parses --external NODE[,NODE].
+std::vector<NodeId> external_nodes(const std::string& text, const node_set::NodeSet& set) {
+  if (set.virtual_time)
+    throw external_refused(text, "must not be given with --virtual-time: a real node keeps real time");
+  if (set.bus.medium->listen == nullptr)
+    throw external_refused(text, fmt::format("must be given with --bus {}: a launch cannot hear a real node on {}",
+                                             live_media::forms_with_interfaces(), set.bus.medium->name));
+  std::vector<NodeId> nodes;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const NodeId node = node_set::node_of(set.cluster, text.substr(from, comma - from), "--external", text);
+    if (std::ranges::find(nodes, node) != nodes.end()) throw external_refused(text, "must name each node once");
+    nodes.push_back(node);
+    from = comma + 1;
+  }
+  if (nodes.size() == set.cluster.nodes.size())
+    throw external_refused(text, "must leave at least one node to the launch");
+  return nodes;
+}
+
+void refuse_restart_of_external(const LaunchPlan& plan) {
+  for (const supervision::NodeSpec& node : plan.nodes)
+    if (node.external && node.policy == supervision::Policy::kRestart)
+      throw InputError({"command line", 0, "--policy", node.name + "=restart",
+                        "must be NODE=required or NODE=optional for a node of --external: the launch cannot start it"});
+}
+
 // Returns a session unique to this launch, among all launches on this machine or in this folder.
 std::string new_session() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return fmt::format("launch-{}-{}", getpid(), std::chrono::duration_cast<std::chrono::microseconds>(now).count());
+}
+
+external::DutyPlaces places_of(const LaunchPlan& plan) {
+  return {plan.set.cluster, plan.set.bus, plan.set.can_interfaces};
 }
 
 void refuse_restart_in_virtual_time(const LaunchPlan& plan) {
@@ -74,8 +112,16 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
     spec.command.arguments.insert(spec.command.arguments.end(), options.begin(), options.end());
     plan.nodes.push_back(std::move(spec));
   }
+  if (arguments.external) plan.externals = external_nodes(*arguments.external, plan.set);
+  for (const NodeId node : plan.externals) {
+    supervision::NodeSpec& spec = plan.nodes[index_of(node)];
+    spec.external = true;
+    spec.command = {};
+    plan.duties.push_back(external::duties_of(plan.set.cluster, node, plan.set.time_scale_ppm));
+  }
   set_policies(arguments.policies, plan.set.cluster, plan.nodes);
   refuse_restart_in_virtual_time(plan);
+  refuse_restart_of_external(plan);
   if (plan.set.needs_dds()) live_media::check_dds_configuration();
   plan.preflight = live_media::look_at(plan.set.bus, node_set::private_cans(plan.set.cluster, plan.set.can_interfaces));
   plan.preflight.insert(plan.preflight.begin(), {plan.set.cluster.file, true, "is consistent", {}});
@@ -101,18 +147,29 @@ void show_preflight(const LaunchPlan& plan) {
   if (!way_out.empty() && !supervision::all_good(plan.preflight)) fmt::print(stderr, "{}\n", way_out);
 }
 
+void show_duties(const LaunchPlan& plan) {
+  for (const external::Duties& duties : plan.duties)
+    fmt::print(stderr, "\n{}\n", external::text_of(duties, places_of(plan)));
+}
+
 void show_plan(const LaunchPlan& plan, bool as_json) {
   if (!as_json) {
     show_preflight(plan);
+    show_duties(plan);
     for (const supervision::NodeSpec& node : plan.nodes)
-      fmt::print("{}\n", supervision::shell_text(node.command.arguments));
+      if (!node.external) fmt::print("{}\n", supervision::shell_text(node.command.arguments));
     return;
   }
   nlohmann::ordered_json json = facts_of(plan.set);
   json["preflight"] = supervision::json_of(plan.preflight);
   for (const supervision::NodeSpec& node : plan.nodes)
-    json["nodes"].push_back(
-        {{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
+    if (!node.external)
+      json["nodes"].push_back(
+          {{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
+    else
+      json["nodes"].push_back({{"name", node.name}, {"policy", name_of(node.policy)}, {"external", true}});
+  for (std::size_t i = 0; i < plan.externals.size(); ++i)
+    json["nodes"][index_of(plan.externals[i])]["must_send"] = external::json_of(plan.duties[i], places_of(plan));
   fmt::print("{}\n", json.dump(2));
 }
 

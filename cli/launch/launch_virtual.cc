@@ -9,7 +9,7 @@
 
 namespace ttf::cli::launch {
 
-VirtualLaunch::VirtualLaunch(const node_set::NodeSet& set) : set_(set), exchange_(session_of(set, true)) {}
+VirtualLaunch::VirtualLaunch(const LaunchPlan& plan) : set_(plan.set), exchange_(session_of(plan.set, true)) {}
 
 supervision::Hooks VirtualLaunch::hooks() {
   supervision::Hooks hooks;

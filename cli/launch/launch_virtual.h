@@ -7,6 +7,8 @@
 
 #include "bus/dds/exchange/exchange_supervisor.h"
 #include "cli/drive/run_outputs.h"
+#include "cli/launch/external/account.h"
+#include "cli/launch/launch_plan.h"
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/supervisor.h"
 
@@ -14,7 +16,8 @@ namespace ttf::cli::launch {
 
 class VirtualLaunch {
  public:
-  explicit VirtualLaunch(const node_set::NodeSet& set);
+  // `plan` must outlive the object.
+  explicit VirtualLaunch(const LaunchPlan& plan);
 
   // Announces each ended process as gone, so that the others continue without it; adds up the nodes' outcomes.
   supervision::Hooks hooks();
@@ -24,6 +27,7 @@ class VirtualLaunch {
   Duration driven() const { return set_.scenario.duration; }
   // Returns the states of the nodes' controllers from the records alone; empty off FlexRay, and without records.
   std::vector<std::string> states_at_end(const supervision::HealthTable&, const drive::StrategyResult* result) const;
+  std::vector<external::Account> accounts() const { return {}; }  // real nodes keep real time
   std::vector<std::string> warnings() const { return {}; }
 
  private:

@@ -33,6 +33,7 @@ std::string counted_text(const DriveFacts& facts) {
   add(early, "early frame");
   add(lost, "lost frame");
   add(facts.restarts, "restart");
+  if (!facts.external.empty()) parts.push_back(facts.external);
   return joined(parts);
 }
 

@@ -25,7 +25,8 @@ struct DriveFacts {
   const evaluation::lateness::RealTimeFindings* real_time = nullptr;
   evaluation::accuracy::ServiceFindings service;
   std::uint64_t restarts = 0;
-  std::string absent;  // DriveEnd::sentence()
+  std::string absent;         // DriveEnd::sentence()
+  std::string external = {};  // external::wrongs_text()
 };
 
 struct Verdict {

@@ -122,6 +122,16 @@ void HealthTable::end_process(std::size_t node, std::string how, bool well) {
   rows_[node].health.can_state.clear();
 }
 
+void HealthTable::set_external(std::size_t node, const ExternalHealth& health) {
+  rows_[node].process = health.words;
+  rows_[node].sending = health.sending;
+  rows_[node].health.missed_slots = health.missing;
+}
+
+bool HealthTable::Row::up() const {
+  return sending ? *sending : process == kRunning && (health.state.empty() || health.state == kActive);
+}
+
 std::uint64_t HealthTable::Row::restarts() const { return processes > 1 ? processes - 1 : 0; }
 
 std::uint64_t HealthTable::restarts() const {
@@ -146,8 +156,7 @@ std::string HealthTable::text() const {
 std::string HealthTable::up() const {
   std::vector<std::string> others;
   for (const Row& row : rows_)
-    if (row.process != kRunning || !(row.health.state.empty() || row.health.state == kActive))
-      others.push_back(printable(row.name) + ": " + state_words(row.process, row.health));
+    if (!row.up()) others.push_back(printable(row.name) + ": " + state_words(row.process, row.health));
   std::string text = fmt::format("{} of {} nodes up", rows_.size() - others.size(), rows_.size());
   if (others.empty()) return text;
   const std::size_t more = others.size() > kNamed ? others.size() - kNamed : 0;

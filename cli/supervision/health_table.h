@@ -26,6 +26,14 @@ struct NodeHealth {
   std::string can_state;  // the worst of its controllers on private CANs: "bus off"; empty before their first report
 };
 
+// The state of an external node (cli/supervision/supervisor.h), as the launch hears it.
+struct ExternalHealth {
+  bool heard = false;    // at least once
+  bool sending = false;  // now
+  std::string words = "waiting";
+  std::optional<std::uint64_t> missing;  // frames
+};
+
 class HealthTable {
  public:
   explicit HealthTable(const std::vector<std::string>& nodes);
@@ -42,11 +50,13 @@ class HealthTable {
   // A failed process has no state.
   void end_process(std::size_t node, std::string how, bool well);
 
+  void set_external(std::size_t node, const ExternalHealth& health);
+
   const NodeHealth& of(std::size_t node) const { return rows_[node].health; }
   std::uint64_t restarts() const;  // the sum
   std::string text() const;
   // Returns "6 of 7 nodes up (gateway: integration listen)". An up node's process runs. Its controller, if it has one, is
-  // normal active.
+  // normal active. An external node is up while it sends.
   std::string up() const;
   // Returns the table in one line: up(), then sums.
   std::string summary() const;
@@ -57,10 +67,12 @@ class HealthTable {
     std::string name;
     std::string process = "starting";
     std::uint64_t processes = 0;  // so far
+    std::optional<bool> sending;  // an external node's
     NodeHealth health;
     nlohmann::json said = nlohmann::json::object();
 
     std::uint64_t restarts() const;
+    bool up() const;
   };
   std::vector<Row> rows_;
 };

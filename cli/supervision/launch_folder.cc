@@ -73,7 +73,7 @@ LaunchFolder::LaunchFolder(std::string folder, nlohmann::ordered_json facts, Wal
 }
 
 std::size_t LaunchFolder::add_node(const Entry& entry) {
-  nodes_.push_back({entry, opened(folder_ + "/" + file_stem(entry.name) + ".txt"), {}});
+  nodes_.push_back({entry, entry.external ? Descriptor() : opened(folder_ + "/" + file_stem(entry.name) + ".txt"), {}});
   return nodes_.size() - 1;
 }
 
@@ -148,6 +148,13 @@ nlohmann::ordered_json LaunchFolder::json() const {
   json["why"] = why_;
   json["nodes"] = nlohmann::ordered_json::array();
   for (const Node& node : nodes_) {
+    if (node.entry.external) {
+      json["nodes"].push_back({{"name", node.entry.name},
+                               {"policy", node.entry.policy},
+                               {"external", true},
+                               {"processes", nlohmann::ordered_json::array()}});
+      continue;
+    }
     const std::string stem = file_stem(node.entry.name);
     nlohmann::ordered_json one{{"name", node.entry.name},
                                {"policy", node.entry.policy},

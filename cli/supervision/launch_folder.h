@@ -53,8 +53,10 @@ class LaunchFolder {
     std::string name;
     std::string policy;
     std::vector<std::string> command;
+    bool external = false;  // a device: it has no processes, no output and no log
   };
-  // Adds a node, in the order of the launch. Throws std::runtime_error if its text file cannot be written.
+  // Adds a node, in the order of the launch. Throws std::runtime_error if its text file cannot be written; an external node
+  // has none.
   std::size_t add_node(const Entry& entry);
 
   const std::string& folder() const { return folder_; }

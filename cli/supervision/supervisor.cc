@@ -42,7 +42,7 @@ Supervisor::Supervisor(SupervisorConfig config, Hooks hooks)
     name_width_ = std::max(name_width_, shown_width(nodes_.back()->speaker.name));
     if (config_.folder != nullptr)
       config_.folder->add_node({nodes_.back()->spec.name, std::string(name_of(nodes_.back()->spec.policy)),
-                                nodes_.back()->spec.command.arguments});
+                                nodes_.back()->spec.command.arguments, nodes_.back()->spec.external});
   }
 }
 
@@ -61,8 +61,11 @@ Outcome Supervisor::run() {
   barrier_at_ = now() + config_.ready_timeout;
   status_every_ = terminal_ ? config_.status_every : config_.words_every;
   if (status_every_ > Duration{}) status_at_ = now() + status_every_;
+  if (any_external()) listen_at_ = now() + config_.listen_every;
   for (const auto& node : nodes_)
-    if (stop_order_.begun())
+    if (node->spec.external)
+      health_.set_external(node->index, {});
+    else if (stop_order_.begun())
       health_.set_process(node->index, "not started");
     else
       start(*node);
@@ -78,6 +81,8 @@ Outcome Supervisor::run() {
       }
     keep_time();
   }
+  if (any_external()) listen();
+  end_unheard();
   screen_.status("");
   show_health();
   const Outcome outcome = failure_ ? *failure_ : interruption_ ? *interruption_ : Outcome{};
@@ -155,6 +160,11 @@ void Supervisor::keep_time() {
     }
   watch_barrier();
   only_optional_left();
+  if (listen_at_ && now() >= *listen_at_) {
+    listen();
+    listen_at_ = now() + config_.listen_every;
+  }
+  watch_unheard();
   if (const auto signal = stop_order_.due(now())) signal_all(*signal);
   if (status_at_ && now() >= *status_at_) {
     show_status();
@@ -172,6 +182,8 @@ std::optional<Duration> Supervisor::next_instant() const {
   take(optional_at_);
   take(stop_order_.next_instant());
   take(status_at_);
+  take(listen_at_);
+  take(unheard_at_);
   return first;
 }
 

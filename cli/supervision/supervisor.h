@@ -10,6 +10,10 @@
 //             SIGINT hurries
 //   end       when no process is left: the health table, the manifest, the exit code
 //
+// An external node is a device that takes a node's place: no process of the launch. The hooks listen to it and
+// tell its state. It takes no part in the barrier, as it may have nothing to answer before the others have begun. A required one
+// that was not heard within heard_timeout, or by the end, fails the launch.
+//
 // A node fails by a code other than 0, by a signal, or by ending before it was ready. During a stop, neither
 // the stop's signals nor their codes (130, 143) count. After the last other node has ended well, optional
 // nodes have optional_grace to end, before they are stopped.
@@ -45,15 +49,19 @@ namespace ttf::cli::supervision {
 struct NodeSpec {
   std::string name;
   Policy policy = Policy::kRequired;
-  ChildCommand command;
+  ChildCommand command;   // not of an external node
+  bool external = false;  // its policy is not kRestart
 };
 
 struct SupervisorConfig {
   std::vector<NodeSpec> nodes;
   Duration ready_timeout = Duration::milliseconds(30'000);
+  Duration heard_timeout = Duration::milliseconds(30'000);  // from the start on, for required external nodes
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
+  // How often external nodes are listened to, if there are any.
+  Duration listen_every = Duration::milliseconds(100);
   // How often the nodes' health is shown: in place on a terminal, else in words. 0: never.
   Duration status_every = Duration::milliseconds(1'000);
   Duration words_every = Duration::milliseconds(5'000);
@@ -74,6 +82,10 @@ struct Hooks {
   std::function<void(std::size_t node, const ttf::cli::supervision::Ending& ending, bool comes_back)> on_gone;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_health;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_done;
+  // Takes in all that external nodes have sent.
+  std::function<void()> listen;
+  // Returns how an external node is. Without it: as never heard.
+  std::function<ExternalHealth(std::size_t node)> external;
   // Returns the launch's progress in a few words. Without it: "".
   std::function<std::string()> status;
 };
@@ -124,6 +136,11 @@ class Supervisor {
   void watch_barrier();
   void pass_barrier();
   void only_optional_left();
+  bool any_external() const;
+  void listen();
+  std::vector<std::string> unheard() const;
+  void watch_unheard();
+  void end_unheard();
   void stop(std::string_view why);
   void signal_all(int signal);
   void fail(std::string_view why, int exit_code);
@@ -147,7 +164,7 @@ class Supervisor {
   bool started_ = false;  // the barrier has been passed
   nlohmann::json start_facts_;
   StopOrder stop_order_;
-  std::optional<Duration> barrier_at_, optional_at_, status_at_;
+  std::optional<Duration> barrier_at_, optional_at_, status_at_, listen_at_, unheard_at_;
   std::optional<Outcome> failure_, interruption_;
   bool folder_fails_ = false;
 };

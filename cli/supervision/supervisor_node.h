@@ -25,6 +25,7 @@ struct Supervisor::Node {
   bool ready = false;
   bool failed = false;  // and is not restarted
   std::optional<Duration> restart_at;
+  ExternalHealth external;  // an external node's
 };
 
 }  // namespace ttf::cli::supervision

@@ -145,6 +145,44 @@ std::vector<std::string> Supervisor::missing(bool optional_too) const {
   return names;
 }
 
+bool Supervisor::any_external() const {
+  return std::ranges::any_of(nodes_, [](const auto& node) { return node->spec.external; });
+}
+
+void Supervisor::listen() {
+  if (hooks_.listen) guarded(hooks_.listen);
+  for (const auto& node : nodes_) {
+    if (!node->spec.external || !hooks_.external) continue;
+    ExternalHealth health;
+    guarded([&] { health = hooks_.external(node->index); });
+    if (health.sending != node->external.sending) say(fmt::format("{}: {}", node->spec.name, health.words));
+    health_.set_external(node->index, health);
+    node->external = std::move(health);
+  }
+}
+
+std::vector<std::string> Supervisor::unheard() const {
+  std::vector<std::string> names;
+  for (const auto& node : nodes_)
+    if (node->spec.external && !node->external.heard && node->spec.policy != Policy::kOptional)
+      names.push_back(node->spec.name);
+  return names;
+}
+
+void Supervisor::watch_unheard() {
+  if (!unheard_at_ || now() < *unheard_at_) return;
+  unheard_at_.reset();
+  if (const std::vector<std::string> names = unheard(); !names.empty())
+    fail(fmt::format("nothing was heard within {} of {}", seconds_text(config_.heard_timeout), joined(names)), 1);
+}
+
+// A drive may be over before the timeout.
+void Supervisor::end_unheard() {
+  if (!started_ || stop_order_.begun()) return;
+  if (const std::vector<std::string> names = unheard(); !names.empty())
+    failure_ = Outcome{1, fmt::format("nothing was heard of {}", joined(names))};
+}
+
 void Supervisor::watch_barrier() {
   if (!barrier_at_ || !anybody_left()) return;
   const std::vector<std::string> all = missing(true);
@@ -165,6 +203,7 @@ void Supervisor::watch_barrier() {
 void Supervisor::pass_barrier() {
   started_ = true;
   barrier_at_.reset();
+  if (any_external()) unheard_at_ = now() + config_.heard_timeout;
   start_facts_ = nlohmann::json::object();
   guarded([&] {
     if (hooks_.on_all_ready) start_facts_ = hooks_.on_all_ready();
@@ -181,8 +220,8 @@ void Supervisor::pass_barrier() {
 void Supervisor::only_optional_left() {
   const bool others = std::ranges::any_of(
       nodes_, [](const auto& node) { return node->spec.policy != Policy::kOptional && node->expected(); });
-  const bool any_other =
-      std::ranges::any_of(nodes_, [](const auto& node) { return node->spec.policy != Policy::kOptional; });
+  const bool any_other = std::ranges::any_of(
+      nodes_, [](const auto& node) { return node->spec.policy != Policy::kOptional && !node->spec.external; });
   if (others || !any_other || stop_order_.begun()) return;
   if (!optional_at_) optional_at_ = now() + config_.optional_grace;
   if (now() < *optional_at_) return;
@@ -202,6 +241,7 @@ void Supervisor::stop(std::string_view why) {
   if (!signal) return;
   barrier_at_.reset();
   optional_at_.reset();
+  unheard_at_.reset();
   for (const auto& node : nodes_)
     if (node->restart_at) {
       node->restart_at.reset();

@@ -135,6 +135,35 @@ sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_pe
   "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
 expect 2 'camera_per: must be a node' launch "$work/typo.yaml" --dry-run
 
+# Real nodes in place of a launch's own.
+expect 2 '--external = feature: must not be given with --virtual-time: a real node keeps real time' launch "$drive" \
+  --virtual-time --external feature
+expect 2 '--external = feature: must be given with --bus socketcan:IF\[,IF\]: .* on dds' launch "$drive" --external feature
+on_can="launch $drive --bus socketcan:vcan_absent --dry-run --external"
+for nodes in fusoin '' feature, ,feature; do
+  expect 2 "--external( = $nodes)?: must name a node of .*paper_synchronised.yaml: laser" $on_can "$nodes"
+done
+expect 2 '--external = laser,fusion,laser: must name each node once' $on_can laser,fusion,laser
+expect 2 '--external = .*: must leave at least one node to the launch' $on_can \
+  laser,camera,laser_pre,camera_pre,gateway,fusion,feature
+expect 2 '--policy = camera_pre=restart: must be NODE=required or NODE=optional for a node of --external' $on_can \
+  camera_pre --policy camera_pre=restart
+expect 1 '900 us into cycles 1 \+ 8n' $on_can camera_pre --policy camera_pre=optional
+# shellcheck disable=SC2086
+"$program" $on_can camera_pre,laser >"$work/commands" 2>"$work/duties"
+grep -qE 'node (camera_pre|laser) ' "$work/commands" && fail "commands for real nodes"
+[[ $(wc -l <"$work/commands") -eq 5 ]] || fail "not five commands: $(cat "$work/commands")"
+[[ $(grep -c 'is a real node' "$work/duties") -eq 2 ]] || fail "$(cat "$work/duties")"
+awk 'length($0) > 100' "$work/duties" | grep . && fail "wider than 100 columns"
+# shellcheck disable=SC2086
+"$program" $on_can camera_pre --json 2>"$work/duties" | python3 -c '
+import json, sys
+node = json.load(sys.stdin)["nodes"][3]
+assert node["name"] == "camera_pre" and node["external"] and "command" not in node
+slot, = node["must_send"]["slots"]
+assert slot["header"] == "38 02 39 F6 C0" and slot["due_us"] == 91, slot' || fail "the plan as JSON"
+grep -qF '0x38, 0x02, 0x39, 0xF6, 0xC0' "$source/examples/real_node.c" || fail "examples/real_node.c has another header"
+
 # A drive that cannot run reports why, and starts nothing.
 for dry in '' --dry-run; do
   # shellcheck disable=SC2086

@@ -56,6 +56,45 @@ TEST_F(Supervising, ANodeSetFromStartToEnd) {
   EXPECT_EQ(health_[0]["process"], "exit 0");
 }
 
+// A device in place of a node: the others do not wait for it, and the hooks tell of it.
+TEST_F(Supervising, AnExternalNodeIsListenedTo) {
+  Hooks hooks;
+  int heard = 0;
+  hooks.listen = [&] { ++heard; };
+  hooks.external = [&](std::size_t node) {
+    EXPECT_EQ(node, 1u);
+    return ExternalHealth{heard > 0, heard > 0, "sending, 3 in window", 2};
+  };
+  NodeSpec device{"device", Policy::kRequired, {}, true};
+  EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start"})}, device}), hooks).exit_code, 0);
+  EXPECT_GE(heard, 1);
+  EXPECT_THAT(shown(), HasSubstr("launch | device: sending, 3 in window\n"));
+  EXPECT_EQ(health_[1]["process"], "sending, 3 in window");
+  EXPECT_EQ(health_[1]["missed_slots"], 2);
+  EXPECT_EQ(health_[1]["restarts"], 0);
+}
+
+TEST_F(Supervising, AnExternalNodeThatIsNeverHeardFailsTheLaunch) {
+  for (const Policy policy : {Policy::kRequired, Policy::kOptional}) {
+    const auto outcome =
+        run(config({{"fusion", Policy::kRequired, child({"ready", "start"})}, {"device", policy, {}, true}}));
+    EXPECT_EQ(outcome.exit_code, policy == Policy::kRequired ? 1 : 0);
+    EXPECT_EQ(outcome.why, policy == Policy::kRequired ? "nothing was heard of device" : "");
+    EXPECT_EQ(health_[1]["process"], "waiting");
+  }
+}
+
+// The timeout begins with the start.
+TEST_F(Supervising, AnExternalNodeIsNotAwaitedForEver) {
+  auto given = config({{"fusion", Policy::kRequired, child({"ready", "start", "wait"})},
+                       {"device", Policy::kRequired, {}, true},
+                       {"other", Policy::kOptional, {}, true}});
+  given.heard_timeout = kSoon;
+  const auto outcome = run(std::move(given));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.why, "nothing was heard within 0.001 s of device");
+}
+
 // A ready process waits for the last one.
 TEST_F(Supervising, NobodyStartsBeforeAllAreReady) {
   Hooks hooks;

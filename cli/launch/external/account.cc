@@ -1,0 +1,97 @@
+#include "cli/launch/external/account.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/counted.h"
+#include "report/drawing/tables.h"
+
+namespace ttf::cli::launch::external {
+namespace {
+
+using Part = std::pair<std::uint64_t, const char*>;
+
+// Returns the counts that are not zero: "3 late, 1 malformed".
+std::string parts_text(const std::vector<Part>& parts) {
+  std::vector<std::string> texts;
+  for (const auto& [count, what] : parts)
+    if (count > 0) texts.push_back(fmt::format("{} {}", count, what));
+  return joined(texts);
+}
+
+std::vector<Part> wrongs_of(const Counts& counts) {
+  return {{counts.early, "early"},
+          {counts.late, "late"},
+          {counts.all_malformed(), "malformed"},
+          {counts.missing, "missing"}};
+}
+
+// Returns "2 wrong frame CRC, 1 repeated"; empty without any.
+std::string kinds_text(const Counts& counts) {
+  std::vector<std::string> texts;
+  for (std::size_t kind = 0; kind < kMalformedKinds; ++kind)
+    if (counts.malformed[kind] > 0)
+      texts.push_back(fmt::format("{} {}", counts.malformed[kind], text_of(static_cast<Malformed>(kind))));
+  return joined(texts);
+}
+
+}  // namespace
+
+std::string state_text(const Account& account) {
+  if (!account.counts.first) return "waiting";
+  return account.silent ? fmt::format("silent for {:.1f} s", account.silent->seconds()) : "sending";
+}
+
+std::string status_text(const Account& account) {
+  std::vector<Part> parts = wrongs_of(account.counts);
+  parts.insert(parts.begin(), {account.counts.in_window, "in window"});
+  const std::string counted = parts_text(parts);
+  return counted.empty() ? state_text(account) : state_text(account) + ", " + counted;
+}
+
+std::string table_text(const std::vector<Account>& accounts) {
+  if (accounts.empty()) return "";
+  report::drawing::Table table({"real node", "frames in\nwindow", "\nearly", "\nlate", "\nmalformed", "\nmissing",
+                                "first after\n[s]", "at the\nend"});
+  std::string kinds;
+  for (const Account& account : accounts) {
+    const Counts& counts = account.counts;
+    table.add({account.node, fmt::to_string(counts.in_window), fmt::to_string(counts.early),
+               fmt::to_string(counts.late), fmt::to_string(counts.all_malformed()), fmt::to_string(counts.missing),
+               account.first ? fmt::format("{:.3f}", account.first->seconds()) : "-", state_text(account)});
+    if (const std::string these = kinds_text(counts); !these.empty())
+      kinds += fmt::format("malformed frames of {}: {}\n", account.node, these);
+  }
+  return table.text() + kinds;
+}
+
+std::string wrongs_text(const std::vector<Account>& accounts) {
+  std::vector<std::string> texts;
+  for (const Account& account : accounts)
+    if (const std::string wrongs = parts_text(wrongs_of(account.counts)); !wrongs.empty())
+      texts.push_back(fmt::format("{} of {}", wrongs, account.node));
+  return joined(texts);
+}
+
+nlohmann::ordered_json json_of(const std::vector<Account>& accounts) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Account& account : accounts) {
+    const Counts& counts = account.counts;
+    nlohmann::ordered_json malformed{{"all", counts.all_malformed()}};
+    for (std::size_t kind = 0; kind < kMalformedKinds; ++kind)
+      malformed[std::string(text_of(static_cast<Malformed>(kind)))] = counts.malformed[kind];
+    list.push_back({{"node", account.node},
+                    {"in_window", counts.in_window},
+                    {"early", counts.early},
+                    {"late", counts.late},
+                    {"malformed", std::move(malformed)},
+                    {"missing", counts.missing},
+                    {"first_after_s", account.first ? nlohmann::ordered_json(account.first->seconds())
+                                                    : nlohmann::ordered_json(nullptr)},
+                    {"state", state_text(account)}});
+  }
+  return list;
+}
+
+}  // namespace ttf::cli::launch::external

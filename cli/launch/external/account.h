@@ -1,0 +1,32 @@
+// The account of a real node at the end of a drive: in a table, in words and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/launch/external/judge.h"
+#include "core/time.h"
+
+namespace ttf::cli::launch::external {
+
+struct Account {
+  std::string node;
+  Counts counts;
+  std::optional<Duration> first;   // the first frame, from the begin of the drive
+  std::optional<Duration> silent;  // for how long, if for too long
+};
+
+// Returns "waiting", "sending", "silent for 1.2 s".
+std::string state_text(const Account& account);
+// Returns the state and all that was counted, without zeros: "sending, 812 in window, 3 late".
+std::string status_text(const Account& account);
+
+// Returns one table, and below it a line for each node with malformed frames. Empty without accounts.
+std::string table_text(const std::vector<Account>& accounts);
+// Returns what was not as it should be, for the verdict: "camera_pre sent 3 frames early"; empty if nothing.
+std::string wrongs_text(const std::vector<Account>& accounts);
+nlohmann::ordered_json json_of(const std::vector<Account>& accounts);
+
+}  // namespace ttf::cli::launch::external

@@ -1,0 +1,291 @@
+#include "cli/launch/external/judge.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "bus/wire/flexray_frame.h"
+#include "schedules/analysis/can_load.h"
+#include "schedules/check/real_time_rules.h"
+#include "schedules/model/sensor_lines.h"
+#include "timebase/floor_div.h"
+
+namespace ttf::cli::launch::external {
+namespace {
+
+using bus::ports::Heard;
+using schedules::check::stretched;
+using schedules::model::Channel;
+using schedules::model::FrameSlot;
+
+constexpr Duration kLeastSilence = Duration::milliseconds(500);
+constexpr std::int64_t kPeriodsOfSilence = 3;
+
+// Before the cluster's first cycle.
+constexpr Duration kLongBefore = Duration::milliseconds(-3'600'000);
+
+}  // namespace
+
+std::string_view text_of(Malformed kind) {
+  switch (kind) {
+    case Malformed::kForm: return "wrong form";
+    case Malformed::kFrameCrc: return "wrong frame CRC";
+    case Malformed::kContent: return "not of its slot";
+    case Malformed::kList: return "impossible list";
+    case Malformed::kTorn: return "incomplete list";
+    case Malformed::kRepeated: return "repeated";
+  }
+  return "";
+}
+
+std::uint64_t Counts::all_malformed() const {
+  return std::accumulate(malformed.begin(), malformed.end(), std::uint64_t{0});
+}
+
+Judge::Judge(const schedules::model::Cluster& cluster, std::vector<NodeId> nodes, std::int64_t time_scale_ppm)
+    : cluster_(cluster), time_scale_ppm_(time_scale_ppm), window_(*cluster.arrival_window),
+      grid_(cluster, time_scale_ppm), lists_(cluster.pdus.size()),
+      others_sync_(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots) + 1) {
+  for (const NodeId id : nodes) {
+    nodes_.push_back({id, {}, kLeastSilence});
+    add_slots(nodes_.size() - 1);
+    add_cans(nodes_.size() - 1);
+  }
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
+    const auto& flexray = cluster.nodes[n].flexray;
+    if (std::ranges::find(nodes, static_cast<NodeId>(n)) == nodes.end() && flexray && flexray->pKeySlotUsedForSync)
+      others_sync_[static_cast<std::size_t>(flexray->pKeySlotId)] = true;
+  }
+}
+
+void Judge::add_slots(std::size_t node) {
+  for (const FrameSlot& frame : cluster_.frames) {
+    if (frame.sender != nodes_[node].id || is_dynamic(cluster_.flexray, frame)) continue;
+    for (const Channel channel : schedules::model::kBothChannels)
+      if (includes(frame.channels, channel)) turns_.push_back({node, &frame, channel, std::nullopt});
+    if (frame.pdu != kNoPdu && !lists_[index_of(frame.pdu)])
+      lists_[index_of(frame.pdu)] = std::make_unique<bus::cni::IncomingList>(cluster_.pdu(frame.pdu));
+    const Duration silence = kPeriodsOfSilence * frame.repetition * stretched(cluster_.cycle(), time_scale_ppm_);
+    nodes_[node].longest_silence = std::max(nodes_[node].longest_silence, silence);
+  }
+}
+
+void Judge::add_cans(std::size_t node) {
+  const NodeId id = nodes_[node].id;
+  for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
+    const schedules::model::CanBus& bus = cluster_.can_buses[b];
+    for (const schedules::model::CanMessage& message : bus.messages) {
+      if (message.sender != id) continue;
+      CanFrames frames{.node = node, .can_bus = b, .identifier = message.identifier, .message = &message};
+      frames.flexible_data_rate = bus.flexible_data_rate;
+      const schedules::model::PduLayout& layout = cluster_.pdu(message.pdu);
+      frames.length = static_cast<std::size_t>(
+          *schedules::analysis::can_data_length(bus.flexible_data_rate, layout.fragment_bytes));
+      frames.list = std::make_unique<bus::cni::IncomingList>(layout);
+      cans_.push_back(std::move(frames));
+      if (!cluster_.node(id).flexray) {
+        const Duration silence = kPeriodsOfSilence * stretched(message.shortest_period, time_scale_ppm_);
+        nodes_[node].longest_silence = std::max(nodes_[node].longest_silence, silence);
+      }
+    }
+  }
+  for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
+    const schedules::model::Sensor& sensor = cluster_.sensors[s];
+    const auto can = schedules::model::can_of_lines(cluster_, static_cast<SensorId>(s));
+    if (!can) continue;
+    CanFrames frames{.node = node, .can_bus = *can};
+    if (sensor.host == id && (sensor.scheduled || sensor.follows())) {
+      frames.identifier = schedules::model::trigger_identifier(static_cast<SensorId>(s));
+      if (sensor.scheduled) frames.at = sensor.at;
+      cans_.push_back(std::move(frames));
+    } else if (sensor.device == id) {
+      frames.identifier = schedules::model::strobe_identifier(static_cast<SensorId>(s));
+      frames.length = schedules::model::kStrobeBytes;
+      cans_.push_back(std::move(frames));
+    }
+  }
+}
+
+bus::ports::HeardIdentifiers Judge::identifiers() const {
+  bus::ports::HeardIdentifiers all;
+  for (std::size_t slot = 0; slot < others_sync_.size(); ++slot)
+    if (others_sync_[slot]) all.slots.push_back(static_cast<int>(slot));
+  for (const Turn& turn : turns_) all.slots.push_back(turn.frame->slot);
+  std::ranges::sort(all.slots);
+  all.slots.erase(std::unique(all.slots.begin(), all.slots.end()), all.slots.end());
+  all.can.resize(cluster_.can_buses.size());
+  for (const CanFrames& frames : cans_) all.can[frames.can_bus].push_back(frames.identifier);
+  return all;
+}
+
+void Judge::hear(const Heard& heard) {
+  switch (heard.form) {
+    case Heard::Form::kFrame: return hear_frame(heard);
+    case Heard::Form::kFollowUp:
+      if (is_sync_of_others(heard.slot))
+        grid_.follow_up(static_cast<Channel>(heard.line), heard.slot, heard.cycle_counter, heard.late);
+      return;
+    case Heard::Form::kCan: return hear_can(heard);
+    case Heard::Form::kMalformed: return hear_malformed(heard);
+  }
+}
+
+bool Judge::is_sync_of_others(int slot) const {
+  return slot >= 1 && static_cast<std::size_t>(slot) < others_sync_.size() &&
+         others_sync_[static_cast<std::size_t>(slot)];
+}
+
+Judge::Node& Judge::heard_of(std::size_t number, MachineTime at) {
+  Node& node = nodes_[number];
+  if (!node.counts.first) node.counts.first = at;
+  node.counts.last = at;
+  return node;
+}
+
+void Judge::count(Node& node, Malformed kind) { ++node.counts.malformed[static_cast<std::size_t>(kind)]; }
+
+void Judge::hear_malformed(const Heard& heard) {
+  if (heard.line <= bus::ports::line_of(Channel::kB)) {
+    if (const Turn* turn = turn_of(heard.slot, static_cast<Channel>(heard.line), std::nullopt))
+      count(heard_of(turn->node, heard.at), Malformed::kForm);
+  } else if (const CanFrames* frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier)) {
+    count(heard_of(frames->node, heard.at), Malformed::kForm);
+  }
+}
+
+void Judge::hear_frame(const Heard& heard) {
+  const auto channel = static_cast<Channel>(heard.line);
+  const bus::wire::DecodedFrame frame = bus::wire::decode_frame(channel, heard.bytes);
+  if (is_sync_of_others(heard.slot)) {
+    if (frame.error == bus::wire::FrameError::kNone && frame.header.sync)
+      grid_.sync_frame(channel, heard.slot, frame.header.cycle, heard.at);
+    return;
+  }
+  const Turn* const any = turn_of(heard.slot, channel, std::nullopt);
+  if (any == nullptr) return;
+  Node& node = heard_of(any->node, heard.at);
+  if (frame.error != bus::wire::FrameError::kNone)
+    return count(node, has_header(frame) ? Malformed::kFrameCrc : Malformed::kForm);
+  Turn* const turn = turn_of(heard.slot, channel, frame.header.cycle);
+  if (turn == nullptr || !is_of(*turn->frame, frame.header)) return count(node, Malformed::kContent);
+  if (!grid_.known()) return void(++node.counts.early);
+  const std::int64_t cycle = grid_.nearest(heard.at, frame.header.cycle), here = grid_.cycle_at(heard.at);
+  if (cycle < here - 1 || cycle > here + 1) return count(node, Malformed::kContent);
+  if (turn->last == cycle) return count(node, Malformed::kRepeated);
+  if (turn->last) node.counts.missing += missed(turn->frame->base_cycle, turn->frame->repetition, *turn->last, cycle);
+  turn->last = std::max(turn->last.value_or(cycle), cycle);
+  if (const auto fault = fault_of(*turn->frame, frame)) return count(node, *fault);
+  const Duration due = grid_.in_cycle(grid_.action_point(heard.slot));
+  judge_instant(node, cycle < 0 ? kLongBefore : heard.at - (grid_.start_of(cycle) + due));
+}
+
+bool Judge::is_of(const FrameSlot& slot, const bus::wire::FrameHeader& header) const {
+  const schedules::model::NodeParameters& parameters = *cluster_.node(slot.sender).flexray;
+  const bool sync = parameters.pKeySlotUsedForSync && slot.slot == parameters.pKeySlotId;
+  return header.payload_words == cluster_.flexray.gPayloadLengthStatic && header.sync == sync &&
+         header.startup == (sync && parameters.pKeySlotUsedForStartup) && in_cycle(slot, header.cycle);
+}
+
+std::optional<Malformed> Judge::fault_of(const FrameSlot& slot, const bus::wire::DecodedFrame& frame) {
+  if (slot.pdu == kNoPdu || frame.header.null_frame) return std::nullopt;
+  const auto before = static_cast<std::size_t>(preamble_bytes(cluster_.flexray, slot));
+  const auto bytes = static_cast<std::size_t>(cluster_.pdu(slot.pdu).fragment_bytes);
+  bus::cni::IncomingList& list = *lists_[index_of(slot.pdu)];
+  return fault_of(list.arrive(frame.payload.subspan(before, bytes), slot.fragment));
+}
+
+std::optional<Malformed> Judge::fault_of(bus::cni::ArrivalEffect effect) {
+  switch (effect) {
+    case bus::cni::ArrivalEffect::kMalformed: return Malformed::kList;
+    case bus::cni::ArrivalEffect::kTorn: return Malformed::kTorn;
+    case bus::cni::ArrivalEffect::kIncomplete:
+    case bus::cni::ArrivalEffect::kCompleted:
+    case bus::cni::ArrivalEffect::kDuplicate:
+    case bus::cni::ArrivalEffect::kStale: break;
+  }
+  return std::nullopt;
+}
+
+void Judge::hear_can(const Heard& heard) {
+  CanFrames* const frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier);
+  if (frames == nullptr) return;
+  Node& node = heard_of(frames->node, heard.at);
+  if (heard.can.flexible_data_rate != frames->flexible_data_rate || heard.can.data.size() != frames->length)
+    return count(node, Malformed::kForm);
+  if (frames->list) return judge_list(heard, *frames, node);
+  if (!frames->at) return void(++node.counts.in_window);  // a strobe, or the trigger of a sensor that follows
+  if (!grid_.known()) return void(++node.counts.early);
+  judge_trigger(heard, *frames, node);
+}
+
+void Judge::judge_list(const Heard& heard, CanFrames& frames, Node& node) {
+  const schedules::model::PduLayout& layout = cluster_.pdu(frames.message->pdu);
+  const auto effect = frames.list->arrive(heard.can.data.first(static_cast<std::size_t>(layout.fragment_bytes)));
+  if (const auto fault = fault_of(effect); fault == Malformed::kList) return count(node, *fault);
+  const std::uint32_t sequence = frames.list->arrived();
+  const bool begins = frames.sequence != sequence;
+  const Duration shortest = stretched(frames.message->shortest_period, time_scale_ppm_);
+  // The sender's own lateness may lie between two lists.
+  const bool early = begins && frames.sequence && heard.at - frames.began + window_.late < shortest;
+  if (begins) {
+    frames.sequence = sequence;
+    frames.began = heard.at;
+  }
+  if (effect == bus::cni::ArrivalEffect::kTorn) return count(node, Malformed::kTorn);
+  ++(early ? node.counts.early : node.counts.in_window);
+}
+
+// A trigger tells no cycle: it is that of the nearest instant.
+void Judge::judge_trigger(const Heard& heard, CanFrames& frames, Node& node) {
+  const Duration offset = grid_.in_cycle(frames.at->offset);
+  const std::int64_t here = grid_.cycle_at(heard.at), repetition = frames.at->repetition;
+  const std::int64_t since = ((here - frames.at->base_cycle) % repetition + repetition) % repetition;
+  const auto behind = [&](std::int64_t cycle) { return heard.at - (grid_.start_of(cycle) + offset); };
+  const std::int64_t before = here - since, next = before + repetition;
+  const std::int64_t cycle = -behind(next) < behind(before) ? next : before;
+  if (frames.last == cycle) return count(node, Malformed::kRepeated);
+  if (frames.last) node.counts.missing += missed(frames.at->base_cycle, frames.at->repetition, *frames.last, cycle);
+  frames.last = cycle;
+  judge_instant(node, cycle < 0 ? kLongBefore : behind(cycle));
+}
+
+void Judge::judge_instant(Node& node, Duration behind) const {
+  ++(behind < -window_.early ? node.counts.early : behind > window_.late ? node.counts.late : node.counts.in_window);
+}
+
+// Returns how many of these cycles lie between two cycles, without both.
+std::uint64_t Judge::missed(int base_cycle, int repetition, std::int64_t last, std::int64_t next) {
+  const auto passed = [&](std::int64_t cycle) {  // before that one
+    return timebase::floor_div(cycle - base_cycle + repetition - 1, repetition);
+  };
+  return next <= last + 1 ? 0 : static_cast<std::uint64_t>(passed(next) - passed(last + 1));
+}
+
+Judge::Turn* Judge::turn_of(int slot, Channel channel, std::optional<std::uint8_t> cycle_counter) {
+  for (Turn& turn : turns_)
+    if (turn.frame->slot == slot && turn.channel == channel &&
+        (!cycle_counter || in_cycle(*turn.frame, *cycle_counter)))
+      return &turn;
+  return nullptr;
+}
+
+Judge::CanFrames* Judge::frames_of(std::size_t can_bus, std::uint32_t identifier) {
+  for (CanFrames& frames : cans_)
+    if (frames.can_bus == can_bus && frames.identifier == identifier) return &frames;
+  return nullptr;
+}
+
+Counts Judge::counts(std::size_t number) const {
+  Counts counts = nodes_[number].counts;
+  const auto until = grid_.last_heard_cycle();
+  if (!until) return counts;
+  for (const Turn& turn : turns_)
+    if (turn.node == number && turn.last)
+      counts.missing += missed(turn.frame->base_cycle, turn.frame->repetition, *turn.last, *until);
+  for (const CanFrames& frames : cans_)
+    if (frames.node == number && frames.at && frames.last)
+      counts.missing += missed(frames.at->base_cycle, frames.at->repetition, *frames.last, *until);
+  return counts;
+}
+
+}  // namespace ttf::cli::launch::external
