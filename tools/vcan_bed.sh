@@ -100,7 +100,7 @@ compare_exchanges() {
 }
 
 # The longest line begins first.
-at_once 'script node_set_strangers $ttfusion $peer' sockets_tests "${drives[@]:0:2}" 'script node_set_down $ttfusion' \
+at_once 'script node_set_strangers $ttfusion $peer' sockets_tests "${drives[@]:0:2}" 'script node_set_external $ttfusion' 'script node_set_down $ttfusion' \
   "${drives[@]:2}" "${exchanges[@]}" 'script strangers $peer' the_bed_itself
 compare_drives
 compare_exchanges

@@ -154,7 +154,7 @@ expect 1 '900 us into cycles 1 \+ 8n' $on_can camera_pre --policy camera_pre=opt
 grep -qE 'node (camera_pre|laser) ' "$work/commands" && fail "commands for real nodes"
 [[ $(wc -l <"$work/commands") -eq 5 ]] || fail "not five commands: $(cat "$work/commands")"
 [[ $(grep -c 'is a real node' "$work/duties") -eq 2 ]] || fail "$(cat "$work/duties")"
-awk 'length($0) > 100' "$work/duties" | grep . && fail "wider than 100 columns"
+sed '1,/is a real node/d' "$work/duties" | awk 'length($0) > 100' | grep . && fail "wider than 100 columns"
 # shellcheck disable=SC2086
 "$program" $on_can camera_pre --json 2>"$work/duties" | python3 -c '
 import json, sys

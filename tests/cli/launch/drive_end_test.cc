@@ -40,6 +40,16 @@ TEST(DriveEnd, SaysWhatEachWas) {
             "never started (d); no state reported (e)");
 }
 
+// A real node has no process, and is in operation while it is heard.
+TEST(DriveEnd, JudgesRealNodesByWhatIsHeard) {
+  const DriveEnd end = drive_end({{"fusion", true, kWell, kActive, false},
+                                  {"heard", true, std::nullopt, "", true},
+                                  {"absent", true, std::nullopt, "waiting", true}});
+  EXPECT_EQ(end.sentence(), "absent was not in operation at the end: waiting");
+  EXPECT_FALSE(end.nobody);
+  EXPECT_TRUE(drive_end({{"fusion", true, kWell, kLost, false}, {"heard", true, std::nullopt, "", true}}).nobody);
+}
+
 // Sensors' devices alone are no cluster.
 TEST(DriveEnd, NobodyIsNobodyOnFlexRay) {
   const DriveEnd same =

@@ -51,6 +51,16 @@ TEST_F(Verdicts, WhatWasCountedMayNotMatter) {
   EXPECT_EQ(verdict.json()["matters"], false);
 }
 
+TEST_F(Verdicts, RealNodesAreCountedAsOthersAre) {
+  facts.service.uses = 37;
+  facts.restarts = 1;
+  facts.external = "3 late, 1 malformed of camera_pre";
+  EXPECT_EQ(
+      verdict_of(facts).sentence,
+      "1 restart, 3 late, 1 malformed of camera_pre: this does not matter, each of 37 used images was as fresh as the "
+      "schedule promises");
+}
+
 TEST_F(Verdicts, WhatReachesTheServiceMatters) {
   facts.service = {1462,
                    3,
