@@ -15,6 +15,7 @@
 #include "core/hash.h"
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
+#include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 
@@ -132,19 +133,22 @@ std::string named_folder(const drives::Scenario& scenario) {
 std::string folder_of(const drives::Scenario& scenario) { return "out/" + named_folder(scenario); }
 
 DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
-                       std::optional<TrueTime> until)
+                       fusion::strategies::StrategyKind strategy, std::optional<TrueTime> until)
     : scenario_(scenario), cluster_(cluster), plan_(faults::resolve(scenario.faults, cluster)),
       measures_(drives::evaluation_start(scenario), evaluation::accuracy::kGate_m, until, scenario.cut_off),
+      stages_(schedules::analysis::measurement_ages(cluster), strategy == fusion::strategies::StrategyKind::kBuff,
+              drives::evaluation_start(scenario)),
       startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {}
 
 std::vector<recording::records::Sink*> DriveJudge::sinks() {
-  std::vector<recording::records::Sink*> sinks{&measures_, &startup_};
+  std::vector<recording::records::Sink*> sinks{&measures_, &stages_, &startup_};
   if (!scenario_.faults.empty()) sinks.push_back(&faults_);
   return sinks;
 }
 
 void DriveJudge::finish(StrategyResult& result) {
   result.summary = measures_.finish();
+  result.stages = stages_.finish();
   result.startup = startup_.nodes();
   faults_.finish(sim::crank::kFirstCycle + scenario_.duration);
   result.faults = faults_.findings();

@@ -10,6 +10,7 @@
 #include "cli/drive/run_outputs.h"
 #include "drives/scenario.h"
 #include "evaluation/accuracy/drive_measures.h"
+#include "evaluation/ages/stage_account.h"
 #include "evaluation/cluster/startup_account.h"
 #include "evaluation/faults/fault_account.h"
 #include "recording/log/manifest.h"
@@ -65,9 +66,9 @@ class DriveJudge {
  public:
   // `until`: the end of the recording that the drive plays, if it plays one.
   DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
-             std::optional<TrueTime> until = std::nullopt);
+             fusion::strategies::StrategyKind strategy, std::optional<TrueTime> until = std::nullopt);
   std::vector<recording::records::Sink*> sinks();
-  // Fills in summary, startup and faults. Called once, at the end of the drive.
+  // Fills in summary, stages, startup and faults. Called once, at the end of the drive.
   void finish(StrategyResult& result);
 
  private:
@@ -75,6 +76,7 @@ class DriveJudge {
   const schedules::model::Cluster& cluster_;
   const faults::FaultPlan plan_;
   evaluation::accuracy::DriveMeasures measures_;
+  evaluation::ages::StageAccount stages_;
   evaluation::cluster::StartupAccount startup_;
   evaluation::faults::FaultAccount faults_;
 };

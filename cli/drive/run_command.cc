@@ -49,7 +49,7 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
     result.recording = drives::recording_use(scenario, result.cluster, *recording.rows);
     until = result.recording->end;
   }
-  DriveJudge judge(scenario, result.cluster, until);
+  DriveJudge judge(scenario, result.cluster, strategy, until);
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   TrackWatch tracks;
   if (recording.rows) sinks.push_back(&tracks);

@@ -174,6 +174,33 @@ nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistic
   return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
 }
 
+nlohmann::ordered_json statistics_json(const evaluation::ages::DurationStatistics& had) {
+  if (had.count == 0) return nullptr;
+  return {{"least_ms", in_ms(had.least)},
+          {"mean_ms", in_ms(had.mean())},
+          {"p99_ms", in_ms(had.p99())},
+          {"most_ms", in_ms(had.most)}};
+}
+
+nlohmann::ordered_json bounds_json(std::optional<Duration> best, std::optional<Duration> worst) {
+  nlohmann::ordered_json bounds{nullptr, nullptr};
+  if (best) bounds[0] = in_ms(*best);
+  if (worst) bounds[1] = in_ms(*worst);
+  return bounds;
+}
+
+nlohmann::ordered_json stages_json(const evaluation::ages::SensorStages& sensor) {
+  nlohmann::ordered_json json{{"measured", sensor.measured}, {sensor.to_use ? "used" : "fused", sensor.seen()}};
+  for (const evaluation::ages::StageFinding& stage : sensor.stages)
+    json["stages"].push_back({{"stage", stage.name},
+                              {"bounds_ms", bounds_json(stage.best, stage.worst)},
+                              {"had", statistics_json(stage.had)},
+                              {"age_bounds_ms", bounds_json(stage.age_best, stage.age_worst)},
+                              {"age", statistics_json(stage.age)},
+                              {"beyond", stage.beyond}});
+  return json;
+}
+
 nlohmann::ordered_json box_json(const evaluation::accuracy::BoxErrors& box) {
   return {{"face_m", box.face_m},
           {"gap_m", box.gap_m},
@@ -301,6 +328,8 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
     one["age_when_used"] = ages(s.age_used);
     for (const auto& [sensor, statistics] : s.age_used_by_sensor)
       one["age_when_used_by_sensor"][result.cluster.sensor(sensor).name] = ages(statistics);
+    for (const evaluation::ages::SensorStages& sensor : result.stages)
+      one["age_by_stage"][result.cluster.sensor(sensor.sensor).name] = stages_json(sensor);
     one["observations"] = {{"received", s.received},
                            {"out_of_sequence", s.out_of_sequence},
                            {"fused", s.fused},

@@ -12,6 +12,7 @@
 #include "drives/scenario.h"
 #include "evaluation/accuracy/drive_measures.h"
 #include "evaluation/accuracy/service_account.h"
+#include "evaluation/ages/stage_account.h"
 #include "evaluation/cluster/startup_account.h"
 #include "evaluation/faults/fault_account.h"
 #include "evaluation/lateness/lateness_account.h"
@@ -25,6 +26,7 @@ struct StrategyResult {
   schedules::model::Cluster cluster;
   drives::DriveOutcome outcome;
   evaluation::accuracy::DriveSummary summary;
+  std::vector<evaluation::ages::SensorStages> stages;     // latency by stage, for each sensor
   std::vector<evaluation::cluster::NodeStartup> startup;  // nodes that started up or changed their state
   evaluation::faults::FaultFindings faults;
   std::vector<NodeId> fault_free;                                   // until the end; nodes on FlexRay only

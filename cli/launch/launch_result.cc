@@ -42,7 +42,7 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   result.log_path = fmt::format("{}/{}", set.folder, merged_log(name_of(set.strategy)));
   recording::merge::write_merged(merged, result.log_path);
   result.content_hash = recording::log::ContentHash::text(merged.content_hash().value());
-  drive::DriveJudge judge(set.scenario, set.cluster);
+  drive::DriveJudge judge(set.scenario, set.cluster, set.strategy);
   evaluation::lateness::LatenessAccount lateness(set.cluster, evaluation::lateness::real_time_drive(merged));
   evaluation::accuracy::ServiceAccount service(drives::evaluation_start(set.scenario),
                                                promised_ages(set.cluster, set.strategy, set.time_scale_ppm));

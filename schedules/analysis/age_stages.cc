@@ -56,15 +56,19 @@ class Builder {
       const model::PortBinding* out = written(*task, sensor);
       if (out == nullptr) break;
       execution(path, node, *task);
+      pass(path, Waypoint::Kind::kWritten, node, out->pdu);
       transfer(path, *out);
       path.available = path.stages.size();
       task = reader(*out, node);
       if (task == nullptr) return {};
+      pass(path, Waypoint::Kind::kReceived, node, out->pdu);
       activation(path, node, *task, *out);
+      pass(path, Waypoint::Kind::kRead, node, out->pdu);
       path.on_arrival = activates(*out, *task);
     }
     if (task == nullptr || path.stages.empty()) return {};
     path.fused = path.stages.size();
+    pass(path, Waypoint::Kind::kFused, node);
     publish(path, node, *task);
     return path;
   }
@@ -76,6 +80,10 @@ class Builder {
     stage.best = {std::max<std::int64_t>(0, best.ns - clocks_.drift_ns(best.ns) - model::kGranularity_ns)};
     stage.worst = {worst.ns + clocks_.drift_ns(worst.ns) + model::kGranularity_ns};
     path.stages.push_back(std::move(stage));
+  }
+
+  static void pass(Path& path, Waypoint::Kind kind, NodeId node, PduId pdu = kNoPdu) {
+    path.waypoints.push_back({kind, node, pdu, path.stages.size(), {}, {}, {}});
   }
 
   const model::Task* measuring_task(NodeId node, SensorId sensor) const {
@@ -255,13 +263,17 @@ class Builder {
       if (!follows && fusing.activation.kind == model::ActivationKind::kMessage) path.stages.back().best = {};
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
       queue(path, id, *publisher, {});
+      pass(path, Waypoint::Kind::kImage, id);
     }
     execution(path, id, *publisher);
+    pass(path, Waypoint::Kind::kWritten, id, image->pdu);
     transfer(path, *image);
     NodeId at = id;
     const model::Task* user = reader(*image, at);
     if (user == nullptr) return;
+    pass(path, Waypoint::Kind::kReceived, at, image->pdu);
     activation(path, at, *user, *image);
+    pass(path, Waypoint::Kind::kUsed, at);
     path.used = path.stages.size();
     if (user->activation.kind == model::ActivationKind::kTime) path.use = user->activation.at;
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "schedules/analysis/ages.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/slot_groups.h"
 #include "schedules/model/cluster.h"
@@ -34,6 +35,7 @@ struct Path {
   std::size_t used = 0;               // until the image's reader starts; 0: no reader
   bool on_arrival = false;            // the fusing task is activated by this list
   model::CycleInstant use{0, 0, {}};  // the reader's; repetition 0 if time does not activate it
+  std::vector<Waypoint> waypoints;    // without bounds
 };
 
 // Returns the path of a sensor's lists; without stages if they reach no fusing task. The cluster must have

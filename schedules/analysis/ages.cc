@@ -31,6 +31,11 @@ class Ages {
     bounds(path, id, path.available, ages.fusion_best, ages.fusion_worst, &ages.to_fusion);
     bounds(path, id, path.fused, ages.fused_best, ages.fused_worst, nullptr);
     ages.reaches_use = path.used != 0;
+    for (Waypoint point : path.waypoints) {
+      if (!ages.reaches_use && point.stages > path.fused) break;
+      bounds(path, id, point.stages, point.best, point.worst, nullptr);
+      ages.waypoints.push_back(point);
+    }
     if (!ages.reaches_use) return ages;
     bounds(path, id, path.used, ages.use_best, ages.use_worst, &ages.to_use);
     ages.newest_worst = ages.use_worst + until_next_newest(path, id);
@@ -182,6 +187,12 @@ class Ages {
   ClockBounds clocks_;
 };
 
+// Returns the stages until a list may be held.
+std::size_t fused_stages(const AgePath& path) {
+  const auto fused = std::ranges::find(path.waypoints, Waypoint::Kind::kFused, &Waypoint::kind);
+  return fused != path.waypoints.end() ? fused->stages : 0;
+}
+
 }  // namespace
 
 std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
@@ -192,7 +203,14 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   std::vector<Ages::Release> releases;
   for (const AgePath& path : paths) ages.releases(path.sensor, releases);
   const Duration held = ages.held_for_arrivals(paths);
-  for (AgePath& path : paths) ages.buffer(path, releases, held);
+  for (AgePath& path : paths) {
+    ages.buffer(path, releases, held);
+    for (Waypoint& point : path.waypoints) {
+      if (point.kind == Waypoint::Kind::kFused) point.buffered_worst = path.buffered_fused_worst;
+      if (point.kind == Waypoint::Kind::kUsed) point.buffered_worst = path.buffered_use_worst;
+      if (point.stages < fused_stages(path)) point.buffered_worst = point.worst;
+    }
+  }
   return paths;
 }
 

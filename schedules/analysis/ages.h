@@ -28,6 +28,8 @@
 // The bounds are safe: simulated ages lie between them.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,25 @@ struct Contribution {
   Duration worst{};
 };
 
+// An instant on a measurement's way that a drive's records show, behind so many of the stages.
+struct Waypoint {
+  enum class Kind : std::uint8_t {
+    kWritten,   // a task's output is visible: a list, or the image
+    kReceived,  // it is complete at its reader
+    kRead,      // the reading task starts
+    kFused,     // the fusing task takes the list in: at its start or, if it is held for order, at a later one
+    kImage,     // the task that writes the image starts
+    kUsed,      // the image's reader starts
+  };
+  Kind kind{};
+  NodeId node{};
+  PduId pdu = kNoPdu;      // for the first three kinds
+  std::size_t stages = 0;  // counted in AgePath::to_use, or in to_fusion without a use
+  // Bounds of the age there. With BUFF there are such only where the list is fused and used; 0 elsewhere.
+  Duration best{}, worst{};
+  Duration buffered_worst{};
+};
+
 struct AgePath {
   SensorId sensor{};
   std::vector<Contribution> to_fusion;  // measurement -> complete in the fusion node's CNI; sums are the two below
@@ -59,6 +80,7 @@ struct AgePath {
   // lists activate the fusing task, until the next list comes.
   Duration buffered_fused_worst{}, buffered_use_worst{};
   Duration buffered_newest_worst{};  // at any use, as newest_worst
+  std::vector<Waypoint> waypoints;   // in order; the last is the use, or the fusion without one
   bool reaches_use = false;          // otherwise everything about use is zero
 };
 
