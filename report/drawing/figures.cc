@@ -20,7 +20,10 @@ std::string with_interval(double mean, double half_width, bool sign) {
   if (!std::isfinite(half_width)) return plus + brief(mean);
   if (half_width <= 0.0) return plus + brief(mean) + " ± 0";
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half_width))), 0, 12);
-  return fmt::format("{}{:.{}f} ± {:.{}f}", plus, mean, decimals, half_width, decimals);
+  const std::string text = fmt::format("{:.{}f}", mean, decimals);
+  if (text.find_first_of("123456789") == text.npos)  // 0 has no sign
+    return fmt::format("{:.{}f} ± {:.{}f}", 0.0, decimals, half_width, decimals);
+  return fmt::format("{}{} ± {:.{}f}", plus, text, half_width, decimals);
 }
 
 std::string_view verdict(double mean, double half_width) {

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <map>
 #include <set>
+#include <vector>
 
 namespace ttf::report::plots {
 namespace {
@@ -14,7 +17,7 @@ namespace {
 using Sample = PositionPlots::Sample;
 using Selection = PositionPlots::Selection;
 
-constexpr double kMarker = 7;
+constexpr double kMarker = 7, kLeastMarker = 2.5;
 constexpr std::string_view kReference = drawing::kPurple, kFusion = drawing::kBlack, kTruth = "#777777",
                            kUnused = "#a0a0a0";
 template <class Visit> void every_sample(const Selection& s, const Visit& visit) {
@@ -100,6 +103,17 @@ void draw_instants(drawing::Svg& svg, const drawing::PlotFrame& frame, const Sel
   }
 }
 
+// Returns the size of the markers of a row of points. In a small picture they shrink rather than cover each other.
+double marker_size(const std::vector<drawing::Point>& row) {
+  if (row.size() < 2) return kMarker;
+  std::vector<double> apart;
+  for (std::size_t i = 1; i < row.size(); ++i)
+    apart.push_back(std::hypot(row[i].x - row[i - 1].x, row[i].y - row[i - 1].y));
+  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+  std::ranges::nth_element(apart, middle);
+  return std::clamp(0.85 * *middle, kLeastMarker, kMarker);
+}
+
 void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selection& s, const drawing::Names& names,
                PositionView view) {
   const auto at = [&](const Sample& sample) {
@@ -122,6 +136,11 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
   const auto hover = [](const std::string& what, const Sample& v) {
     return fmt::format("{}: t {:.4f} s, x {:.2f} m, y {:.2f} m", what, v.t, v.x, v.y);
   };
+  const auto size_of = [&](const std::vector<Sample>& row) {
+    std::vector<drawing::Point> points;
+    for (const Sample& v : row) points.push_back(at(v));
+    return marker_size(points);
+  };
   for (const Sample& v : s.reference)
     svg.marker(drawing::Marker::kCircle, at(v), kMarker, {.stroke = kReference, .width = 1.3}, hover("dgps", v),
                "dgps");
@@ -129,16 +148,17 @@ void draw_data(drawing::Svg& svg, const drawing::PlotFrame& frame, const Selecti
     const SensorId id{static_cast<std::uint8_t>(i)};
     const std::string colour = sensor_colour(names, id), name = names.sensor(id);
     const drawing::Marker marker = sensor_marker(names, id);
+    const double size = size_of(s.observations[i]);
     for (const Sample& v : s.observations[i])
-      svg.marker(marker, at(v), kMarker, {.stroke = colour, .width = 1.3},
+      svg.marker(marker, at(v), size, {.stroke = colour, .width = 1.3},
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
   for (const Sample& v : s.unused)
     svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0}, hover("unused image", v),
                "unused");
+  const double size = size_of(s.fusion);
   for (const Sample& v : s.fusion)
-    svg.marker(drawing::Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v),
-               "fusion");
+    svg.marker(drawing::Marker::kSquare, at(v), size, {.stroke = kFusion, .width = 1.3}, hover("fusion", v), "fusion");
   svg.close_group();
 }
 
