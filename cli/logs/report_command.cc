@@ -14,6 +14,7 @@
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/experiment/drives.h"
+#include "cli/logs/told_stages.h"
 #include "cli/logs/viewed_sensors.h"
 #include "cli/output.h"
 #include "cli/time_window.h"
@@ -40,10 +41,14 @@ struct ReportOptions {
 constexpr std::size_t kMostDrives = 10;                   // an experiment's with timing diagrams
 constexpr Duration kDrawn = Duration::milliseconds(960);  // all of them together, at most 160 ms each
 
-void place_sensors(std::vector<report::drive::Drive>& drives) {
+// Adds what the descriptions attached to the logs tell: the sensors' places, and the bounds of ages.
+void describe(std::vector<report::drive::Drive>& drives) {
   std::vector<std::string> warnings;
-  for (report::drive::Drive& drive : drives)
-    if (drive.log) drive.sensors = viewed_sensors(*drive.log, warnings);
+  for (report::drive::Drive& drive : drives) {
+    if (!drive.log) continue;
+    drive.sensors = viewed_sensors(*drive.log, warnings);
+    drive.stages = told_stages(*drive.log, warnings);
+  }
   print_warnings(warnings);
 }
 
@@ -51,7 +56,7 @@ std::string experiment_html(const ReportOptions& options, report::drive::Diagram
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);
   report::experiment::ExperimentDrives drives;
   if (!options.no_drives) drives = experiment::drives_of(folder, options.file, options.point);
-  place_sensors(drives.drives);
+  describe(drives.drives);
   if (!drives.why_none.empty()) print_warnings(drives.why_none);
   window.most = kMostDrives;
   const auto shown = static_cast<std::int64_t>(std::clamp(drives.drives.size(), std::size_t{1}, kMostDrives));
@@ -99,7 +104,7 @@ std::string html(const ReportOptions& options) {
     std::vector<report::drive::ResultsFolder> folders;
     for (const std::string& path : options.folders) {
       folders.push_back(report::drive::read_results_folder(path));
-      place_sensors(folders.back().drives);
+      describe(folders.back().drives);
       for (const report::drive::Drive& drive : folders.back().drives)
         if (drive.log) print_warnings(drive.log->warnings());
     }
@@ -147,8 +152,8 @@ void add_report(CLI::App& app, Action& action) {
       ->required()
       ->check(named());
   add_time_window(*command, options->window,
-                  "Start of the timing diagrams, in true time (default: the begin of the judged part)",
-                  "End of the timing diagrams (default: 160 ms later; 2 s later at most)");
+                  "Start of the timing diagrams' first window, in true time (default: the begin of the judged part)",
+                  "End of the timing diagrams' first window (default: 160 ms later; 2 s later at most)");
   auto* file = command->add_option("--file", options->file,
                                    "An experiment's file, if it has moved: a run of each paradigm is driven again");
   auto* point =

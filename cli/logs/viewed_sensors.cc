@@ -1,16 +1,11 @@
 #include "cli/logs/viewed_sensors.h"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <optional>
 
-#include "core/errors.h"
-#include "core/file_kind.h"
-#include "drives/scenario.h"
+#include "cli/logs/attached.h"
 #include "drives/step_catalog.h"
 #include "report/drawing/names.h"
-#include "schedules/file/loader.h"
 
 namespace ttf::cli::logs {
 namespace {
@@ -18,28 +13,6 @@ namespace {
 using recording::scene::Place;
 using recording::scene::ViewedField;
 using recording::scene::ViewedSensor;
-
-// The drive's descriptions, as its log has them.
-struct Attached {
-  std::optional<drives::Scenario> scenario;
-  std::optional<schedules::model::Cluster> cluster;
-};
-
-Attached attached_to(const recording::merge::MergedLogs& drive, std::vector<std::string>& warnings) {
-  Attached found;
-  for (const recording::log::Attachment& one : drive.attachments()) {
-    if (one.media_type != "application/yaml") continue;
-    try {
-      const std::optional<FileKind> kind = kind_of(StrictYaml::parse(one.bytes, one.name));
-      if (kind == FileKind::kScenario) found.scenario = drives::parse_scenario(one.bytes, one.name);
-      if (kind == FileKind::kCluster) found.cluster = schedules::file::parse_cluster(one.bytes, one.name);
-    } catch (const InputError& error) {
-      // An older version's scenario, or a damaged one.
-      warnings.push_back(fmt::format("the sensors' places are left out: {}", error.findings().front().sentence()));
-    }
-  }
-  return found;
-}
 
 // A sensor that the world emulates, as it is. The knowledge of the fusion may differ.
 template <class Model> void place_emulated(const Model& model, ViewedSensor& sensor) {
@@ -75,7 +48,7 @@ void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor)
 std::vector<ViewedSensor> viewed_sensors(const recording::merge::MergedLogs& drive,
                                          std::vector<std::string>& warnings) {
   const report::drawing::Names names = report::drawing::names_of(drive.manifest());
-  const Attached attached = attached_to(drive, warnings);
+  const Attached attached = attached_to(drive, "the sensors' places are left out", warnings);
   std::vector<ViewedSensor> sensors(names.sensors.size());
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     const auto id = static_cast<SensorId>(s);

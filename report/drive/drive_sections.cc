@@ -13,6 +13,8 @@
 #include "report/drive/scenario_words.h"
 #include "report/scene/packed.h"
 #include "report/timing/diagram.h"
+#include "report/timing/windows/packed.h"
+#include "report/timing/windows/painted.h"
 
 namespace ttf::report::drive {
 namespace {
@@ -82,35 +84,45 @@ void errors_section(page::Page& page, const std::vector<ToldDrive>& drives) {
 
 void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window) {
   std::vector<page::PageDiagram> diagrams;
-  std::vector<std::string> windows;
-  std::size_t logs = 0;
-  double longest_s = 0.0;
+  std::vector<std::string> shown, left_out;
+  const auto logs = static_cast<std::size_t>(
+      std::ranges::count_if(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; }));
+  const std::size_t drawn = std::min(logs, window.most);
   for (const ToldDrive& told : drives) {
-    if (!told.drive->log || ++logs > window.most) continue;
+    if (!told.drive->log || diagrams.size() >= drawn) continue;
     const recording::log::LogManifest& manifest = told.drive->log->manifest();
+    const drawing::Names names = drawing::names_of(manifest);
     TrueTime from = window.from.value_or(scenario_in(*told.drive->log).judged_from);
     // The given end lies before the judged part: the window ends there.
     if (!window.from && window.to && *window.to <= from) from = std::max(TrueTime{}, *window.to - window.length);
     const TrueTime to = std::min(window.to.value_or(from + window.length), from + kLongestDiagram);
-    timing::TimingDiagram diagram(drawing::names_of(manifest), {manifest.cycle_ns}, from, to);
-    told.drive->log->read(diagram);
-    diagrams.push_back({told.drive->label, diagram.svg(timing::TimingUse::kPage)});
-    windows.push_back(
-        fmt::format("{:g} ms are drawn, from {:g} s on", in_ms(to - from), static_cast<double>(from.ns) * 1e-9));
-    longest_s = std::max(longest_s, told.series.end_s);
+    timing::TimingDiagram diagram(names, {manifest.cycle_ns}, from, to);
+    timing::windows::WindowPacker packer(window.packed_bytes / drawn);
+    timing::windows::PaintedWindows windows(
+        names, {manifest.cycle_ns}, from, std::max(to - from, window.length),
+        [&](TrueTime begin, TrueTime end, const std::string& svg) { return packer.add(begin, end, svg); });
+    recording::records::Tee both({&diagram, &windows});
+    told.drive->log->read(both);
+    windows.finish();
+    if (const std::optional<TrueTime> end = packer.full_at(); end && in_ms(*end) < 1e3 * told.series.end_s)
+      left_out.push_back(fmt::format("{} from {:.3f} s on", told.drive->label, in_ms(*end) * 1e-3));
+    diagrams.push_back({told.drive->label, diagram.svg(timing::TimingUse::kPage), packer.finish()});
+    shown.push_back(fmt::format("{:g} ms from {:g} s on", in_ms(to - from), in_ms(from) * 1e-3));
   }
   if (diagrams.empty()) return;
-  std::string caption = fmt::format("Of {:.3f} s only {}", longest_s, windows.front());
-  if (std::ranges::count(windows, windows.front()) != std::ssize(windows)) {
-    caption = "A part of each drive is drawn";
-    for (std::size_t d = 0; d < diagrams.size(); ++d) diagrams[d].label += ", of which " + windows[d];
-  }
-  caption += " (--from and --to choose others). ";
+  std::string caption = "A window of each drive";
+  if (std::ranges::count(shown, shown.front()) == std::ssize(shown))
+    caption += fmt::format(" is drawn, first {}", shown.front());
+  else
+    for (std::size_t d = 0; d < diagrams.size(); ++d) diagrams[d].label += ", first " + shown[d];
+  caption += "; the slider, P and N choose others, and so does an instant chosen elsewhere. ";
+  if (!left_out.empty()) caption += fmt::format("Too long for a page, and left out: {}. ", joined(left_out));
   page.section("Timing: slots, tasks and every measurement's way");
-  if (logs > window.most) caption += fmt::format("The first {} of {} drives are drawn. ", window.most, logs);
-  page.diagrams(diagrams, caption +
-                              "Arrows follow each measurement; point at a slot, a task or an arrow to see its source, "
-                              "its times and ages.");
+  if (logs > drawn) caption += fmt::format("The first {} of {} drives are drawn. ", drawn, logs);
+  page.diagrams(std::move(diagrams),
+                caption +
+                    "Arrows follow each measurement; point at a slot, a task or an arrow to see its source, its "
+                    "times and ages.");
 }
 
 void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives, std::size_t most) {

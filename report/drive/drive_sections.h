@@ -12,12 +12,14 @@
 
 namespace ttf::report::drive {
 
-// The part of each drive that is drawn as a timing diagram; 160 ms take half a megabyte.
+// The part of each drive that its timing diagram shows first; 160 ms take half a megabyte. The whole drive is packed,
+// in windows of that length.
 struct DiagramWindow {
   // By default, it begins with the judged part of the drive; 2 s at most.
   std::optional<TrueTime> from, to;
   Duration length = Duration::milliseconds(160);  // if an end is missing
   std::size_t most = 6;                           // drives
+  std::size_t packed_bytes = 5'000'000;           // all drives together
 };
 
 inline constexpr std::size_t kMostScenes = 6;  // drives

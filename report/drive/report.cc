@@ -13,6 +13,7 @@
 #include "recording/exports/lateness_sums.h"
 #include "recording/records/tee.h"
 #include "report/drive/scenario_words.h"
+#include "report/drive/stages.h"
 #include "report/drive/tables.h"
 #include "report/page/page.h"
 #include "report/plots/lateness_picture.h"
@@ -171,6 +172,7 @@ std::string drive_report_html(std::vector<ResultsFolder> folders, const DiagramW
   answered(page, folders, drives);
   scene_section(page, drives);
   errors_section(page, drives);
+  stages_section(page, drives);
   timing_section(page, drives, window);
   time_base_section(page, drives, window.most);
   troubles_section(page, drives);

@@ -12,6 +12,7 @@
 #include "core/time.h"
 #include "recording/merge/merge.h"
 #include "recording/scene/viewed.h"
+#include "report/drive/stages.h"
 
 namespace ttf::report::drive {
 
@@ -29,6 +30,7 @@ struct Drive {
   std::shared_ptr<const recording::merge::MergedLogs> log;  // null if no log was kept
   std::optional<Duration> duration{};                       // by the folder's summary
   std::vector<recording::scene::ViewedSensor> sensors{};    // by SensorId; empty: only the log's names are known
+  std::vector<ToldStages> stages{};                         // latency by stage; empty if no bounds are known
 };
 
 struct ResultsFolder {

@@ -194,20 +194,14 @@ std::uint64_t count_at(const Drive& drive, const char* pointer) {
   return drive.summary.at(at).get<std::uint64_t>();
 }
 
-// `ordinary` adds remarks that a sound drive deserves, too.
-void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& more) {
+// Adds the troubles of a drive.
+void troubles_of(const ToldDrive& told, std::vector<std::string>& more) {
   const Drive& drive = *told.drive;
-  const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
-  if (const auto mean = at("/age_when_used/mean_ms"), worst = at("/age_when_used/worst_ms"); ordinary && mean && worst)
-    more.push_back(fmt::format("{}: a measurement is {:.1f} ms old on average when it is used, {:.1f} ms at worst.",
-                               drive.label, *mean, *worst));
-  if (const auto nees = at("/nees/mean"), low = at("/nees/band_95/0"), high = at("/nees/band_95/1");
-      ordinary && nees && low && high && (*nees < *low || *nees > *high))
-    more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.",
-                               drive.label, *nees < *low ? "better" : "worse", *nees, *low, *high));
+  std::vector<std::string> troubles;
   for (const auto& [pointer, what] : kTroubles)
-    if (const std::uint64_t count = count_at(drive, pointer); count > 0)
-      more.push_back(fmt::format("{}: {}.", drive.label, counted(count, what)));
+    if (const std::uint64_t count = count_at(drive, pointer); count > 0) troubles.push_back(counted(count, what));
+  if (!troubles.empty()) more.push_back(fmt::format("{}: {}.", drive.label, joined(troubles, " and ")));
+  if (std::string beyond = beyond_words(drive.label, drive.stages); !beyond.empty()) more.push_back(std::move(beyond));
   if (const auto& faults = told.series.faults; !faults.empty()) {
     std::uint64_t acts = 0;
     for (const auto& [index, fault] : faults) acts += fault.acts;
@@ -215,6 +209,27 @@ void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& m
                                faults.size() == 1 ? "one fault was" : fmt::format("{} faults were", faults.size()),
                                counted(acts, "time")));
   }
+}
+
+// Returns a sentence that a sound drive deserves, too; empty if its summary has nothing of the kind.
+std::string remark_on(const Drive& drive) {
+  const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
+  std::string text;
+  if (const auto mean = at("/age_when_used/mean_ms"), worst = at("/age_when_used/worst_ms"); mean && worst)
+    text = fmt::format("a measurement is {:.1f} ms old on average when it is used, {:.1f} ms at worst", *mean, *worst);
+  if (const auto nees = at("/nees/mean"), low = at("/nees/band_95/0"), high = at("/nees/band_95/1");
+      nees && low && high && (*nees < *low || *nees > *high))
+    text += fmt::format("{}its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}",
+                        text.empty() ? "" : "; ", *nees < *low ? "better" : "worse", *nees, *low, *high);
+  return text.empty() ? "" : fmt::format("{}: {}.", drive.label, text);
+}
+
+// Returns whether a summary tells that nothing went wrong.
+bool is_sound(const ToldDrive& told) {
+  return std::ranges::all_of(kTroubles, [&](const auto& trouble) {
+    const auto count = measure_at(*told.drive, trouble.first);
+    return count && *count == 0.0;
+  });
 }
 
 }  // namespace
@@ -298,11 +313,17 @@ DrivesAnswer answer_of(const std::vector<ToldDrive>& drives) {
       single = single || of_one.size() > 1;
     }
   }
+  const std::size_t before = answer.more.size();
+  for (const ToldDrive& told : drives) troubles_of(told, answer.more);
+  if (answer.more.size() == before && std::ranges::all_of(drives, is_sound))
+    answer.more.push_back("Nothing went wrong: no list or object was missed, no deadline, and no slot had a problem.");
   if (single)
     answer.more.push_back(
         "One drive is one draw of the noise, so its differences are not certain: an interval takes "
         "several runs with other seeds in one report, or an experiment.");
-  for (const ToldDrive& told : drives) remark_on(told, drives.size() <= kMostRemarked, answer.more);
+  for (const ToldDrive& told : drives)
+    if (std::string remark = remark_on(*told.drive); drives.size() <= kMostRemarked && !remark.empty())
+      answer.more.push_back(std::move(remark));
   return answer;
 }
 

@@ -9,6 +9,8 @@
 
 #include "core/counted.h"
 #include "experiments/results/multiplicity.h"
+#include "experiments/results/percent.h"
+#include "experiments/results/ratio.h"
 #include "report/drawing/figures.h"
 #include "report/experiment/interactions.h"
 #include "report/experiment/plots.h"
@@ -19,18 +21,32 @@ namespace {
 
 constexpr std::size_t kMostFailures = 50;
 
-// Returns the first measure's paired difference of two paradigms at a point, from the drives themselves.
-experiments::results::Interval paired(const std::vector<experiments::results::Row>& rows, std::size_t column,
-                                      std::size_t paradigm, std::size_t against, double confidence) {
+// Returns the values of two paradigms at a point, replication by replication.
+std::vector<std::pair<double, double>> both_values(const std::vector<experiments::results::Row>& rows,
+                                                   std::size_t column, std::size_t paradigm, std::size_t against) {
   std::map<std::uint32_t, std::pair<std::optional<double>, std::optional<double>>> by_replication;
   for (const experiments::results::Row& row : rows) {
-    if (row.status != experiments::results::kDone) continue;
+    if (row.status != experiments::results::kDone || !std::isfinite(row.values[column])) continue;
     if (row.key.paradigm == paradigm) by_replication[row.key.replication].first = row.values[column];
     if (row.key.paradigm == against) by_replication[row.key.replication].second = row.values[column];
   }
-  experiments::results::Moments moments;
+  std::vector<std::pair<double, double>> values;
   for (const auto& [replication, both] : by_replication)
-    if (both.first && both.second) moments.add(*both.first - *both.second);
+    if (both.first && both.second) values.emplace_back(*both.first, *both.second);
+  return values;
+}
+
+// The measure's place in the rows; there are drives.
+std::size_t column_of(const ExperimentFolder& folder, std::size_t m) {
+  const auto& columns = folder.store->head().measures;
+  return static_cast<std::size_t>(std::ranges::find(columns, folder.measures[m].name) - columns.begin());
+}
+
+// Returns the first measure's paired difference of two paradigms at a point, from the drives themselves.
+experiments::results::Interval paired(const std::vector<experiments::results::Row>& rows, std::size_t column,
+                                      std::size_t paradigm, std::size_t against, double confidence) {
+  experiments::results::Moments moments;
+  for (const auto& [one, other] : both_values(rows, column, paradigm, against)) moments.add(one - other);
   return interval_of(moments, confidence);
 }
 
@@ -42,8 +58,7 @@ struct Pairs {
 // Empty without drives.
 Pairs all_pairs(const ExperimentFolder& folder) {
   if (!folder.store) return {};
-  const auto& columns = folder.store->head().measures;
-  const auto column = static_cast<std::size_t>(std::ranges::find(columns, folder.measures[0].name) - columns.begin());
+  const std::size_t column = column_of(folder, 0);
   Pairs pairs;
   for (const ExperimentPoint& point : folder.points) {
     const std::vector<experiments::results::Row> rows = folder.store->of_point(point.point);
@@ -109,6 +124,16 @@ bool is_baseline(const ExperimentFolder& folder, const std::string& paradigm) {
 // Returns whether there are differences: one paradigm alone is compared along an axis only.
 bool compares(const ExperimentFolder& folder) { return folder.paradigms.size() > 1 || !folder.compared_axis.empty(); }
 
+// Whether a table has the differences in per cent, too: that of the measure in question, if the drives are there.
+bool has_percent(const ExperimentFolder& folder, std::size_t m) {
+  return m == 0 && folder.store && folder.compared_axis.empty();
+}
+std::string percent_cell(const std::vector<std::pair<double, double>>& values, double confidence) {
+  const experiments::results::Ratio ratio = experiments::results::ratio_of(values, confidence);
+  const auto percent = [](double factor) { return 100.0 * (factor - 1.0); };
+  return experiments::results::percent_words(percent(ratio.value), percent(ratio.low), percent(ratio.high), true);
+}
+
 page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
   std::vector<experiments::results::Interval> differences;
   for (const ExperimentPoint& point : folder.points)
@@ -123,11 +148,18 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
       axes_of(folder),
       {}};
   for (const std::string& paradigm : folder.paradigms)
-    if (!is_baseline(folder, paradigm))
+    if (!is_baseline(folder, paradigm)) {
       table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline_name()));
+      if (has_percent(folder, m)) table.header.emplace_back("in per cent");
+    }
   auto stays = family.stays.begin();
+  std::vector<experiments::results::Row> rows;
+  const std::size_t column = has_percent(folder, m) ? column_of(folder, m) : 0;
+  const auto baseline =
+      static_cast<std::size_t>(std::ranges::find(folder.paradigms, folder.baseline) - folder.paradigms.begin());
   for (const ExperimentPoint& point : folder.points) {
     std::vector<std::string> row = settings_of(point);
+    if (has_percent(folder, m)) rows = folder.store->of_point(point.point);
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p, ++stays) {
       if (is_baseline(folder, folder.paradigms[p])) continue;
       const auto& difference = point.estimates[p][m].difference;
@@ -135,6 +167,8 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
                         ? fmt::format("{} {}{}", drawing::with_interval(difference->mean, difference->half_width, true),
                                       drawing::verdict(difference->mean, difference->half_width), *stays ? "*" : "")
                         : "-");
+      if (has_percent(folder, m))
+        row.push_back(percent_cell(both_values(rows, column, p, baseline), folder.confidence));
     }
     table.rows.push_back(std::move(row));
   }
@@ -288,6 +322,7 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
   const std::vector<drive::ToldDrive> all = drive::told_of(shown);
   scene_section(page, all);
   errors_section(page, all);
+  stages_section(page, all);
   timing_section(page, all, window);
   time_base_section(page, all, window.most);
   troubles_section(page, all);

@@ -6,9 +6,10 @@
 namespace ttf::report::page {
 
 extern const std::string_view kStyle;
-extern const std::string_view kElementsScript, kInstantScript;      // before the others of ours
-extern const std::string_view kPlotsScript;                         // plots, with uPlot
-extern const std::string_view kTimingDrawingScript, kTimingScript;  // for timing diagrams, in this order
+extern const std::string_view kElementsScript, kInstantScript;  // before the others of ours
+extern const std::string_view kPlotsScript;                     // plots, with uPlot
+extern const std::string_view kTimingDrawingScript, kTimingWindowsScript,
+    kTimingScript;  // for timing diagrams, in order
 extern const std::string_view kSceneDataScript, kSceneDrawingScript, kSceneControlsScript, kSceneScript;  // for scenes
 extern const std::string_view kUplot, kUplotStyle, kUplotLicence;
 

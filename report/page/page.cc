@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostRoomyColumns = 7;  // tables with more are set closer
+
 // Cells to align right: "12.5", "-", "0.11 ± 0.02", "+3 less", "36 / 0 / 0".
 bool is_figure(std::string_view cell) {
   return cell.empty() || cell == "-" ||
@@ -104,7 +106,7 @@ void Page::points(const std::vector<std::string>& sentences) {
 void Page::facts(const std::vector<std::pair<std::string, std::string>>& facts) {
   body_ += "<dl class=\"facts\">\n";
   for (const auto& [name, value] : facts)
-    body_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", drawing::escape(name), drawing::escape(value));
+    body_ += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", drawing::escape(name), drawing::escape(value));
   body_ += "</dl>\n";
 }
 
@@ -113,9 +115,17 @@ void Page::table(const PageTable& table) {
   for (const auto& row : table.rows)
     for (std::size_t c = 1; c < row.size() && c < figures.size(); ++c) figures[c] = figures[c] && is_figure(row[c]);
   body_ += "<div class=\"table\" tabindex=\"0\" role=\"group\"";
-  body_ += fmt::format(" aria-label=\"{}\"><table>", drawing::escape(table.caption));
+  body_ += fmt::format(" aria-label=\"{}\"><table{}>", drawing::escape(table.caption),
+                       table.header.size() > kMostRoomyColumns ? " class=\"many\"" : "");
   if (!table.caption.empty()) body_ += fmt::format("<caption>{}</caption>", drawing::escape(table.caption));
-  body_ += "<thead><tr>";
+  body_ += "<thead>";
+  if (!table.groups.empty()) body_ += "<tr class=\"groups\">";
+  for (const auto& [heading, columns] : table.groups)
+    body_ += heading.empty()
+                 ? fmt::format("<td colspan=\"{}\"></td>", columns)
+                 : fmt::format("<th scope=\"colgroup\" colspan=\"{}\">{}</th>", columns, drawing::escape(heading));
+  if (!table.groups.empty()) body_ += "</tr>\n";
+  body_ += "<tr>";
   for (std::size_t c = 0; c < table.header.size(); ++c)
     body_ += fmt::format("<th scope=\"col\"{}>{}</th>", c > 0 && figures[c] ? " class=\"n\"" : "",
                          drawing::escape(table.header[c]));
@@ -160,12 +170,19 @@ void Page::picture(std::string_view svg, std::string_view caption) {
       drawing::escape(caption), inlined(svg, fmt::format("p{}-", pictures_++)));
 }
 
-void Page::diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption) {
+void Page::diagrams(std::vector<PageDiagram> diagrams, std::string_view caption) {
   if (diagrams.empty()) return;
   body_ += fmt::format("<figure class=\"timing\"><figcaption>{}</figcaption>\n", drawing::escape(caption));
-  for (const PageDiagram& diagram : diagrams)
-    body_ += fmt::format("<div class=\"diagram\" data-label=\"{}\"><div class=\"paper\">{}</div></div>\n",
-                         drawing::escape(diagram.label), inlined(diagram.svg, fmt::format("d{}-", diagrams_++)));
+  for (PageDiagram& diagram : diagrams) {
+    const std::string ids = fmt::format("d{}-", diagrams_++);
+    std::string windows;
+    if (!diagram.windows.is_null()) {
+      windows = fmt::format(" data-windows=\"{}\" data-ids=\"{}\"", timings_.size(), ids);
+      timings_.push_back(std::move(diagram.windows));
+    }
+    body_ += fmt::format("<div class=\"diagram\" data-label=\"{}\"{}><div class=\"paper\">{}</div></div>\n",
+                         drawing::escape(diagram.label), windows, inlined(diagram.svg, ids));
+  }
   body_ += "</figure>\n";
 }
 
@@ -213,9 +230,11 @@ std::string Page::html() const {
   out += fmt::format("<details><summary>Plots: uPlot, MIT licence</summary><pre>{}</pre></details></footer>\n",
                      drawing::escape(kUplotLicence));
   out += "<script type=\"application/json\" id=\"plots\">" + script_data(plots_) + "</script>\n";
+  if (!timings_.empty())
+    out += "<script type=\"application/json\" id=\"timings\">" + script_data(timings_) + "</script>\n";
   const auto add = [&out](std::string_view script) { out.append("<script>").append(script).append("</script>\n"); };
-  for (const std::string_view script :
-       {kUplot, kElementsScript, kInstantScript, kPlotsScript, kTimingDrawingScript, kTimingScript})
+  for (const std::string_view script : {kUplot, kElementsScript, kInstantScript, kPlotsScript, kTimingDrawingScript,
+                                        kTimingWindowsScript, kTimingScript})
     add(script);
   if (scenes_.empty()) return out + "</body></html>\n";
   out += "<script type=\"application/json\" id=\"scenes\">" + script_data(scenes_) + "</script>\n";

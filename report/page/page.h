@@ -4,6 +4,7 @@
 // The page escapes all text, because names come from files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,8 +16,9 @@ namespace ttf::report::page {
 
 struct PageTable {
   std::string caption;
-  std::vector<std::string> header;             // the first column names the rows
-  std::vector<std::vector<std::string>> rows;  // missing cells at the end are empty
+  std::vector<std::string> header;                               // the first column names the rows
+  std::vector<std::vector<std::string>> rows;                    // missing cells at the end are empty
+  std::vector<std::pair<std::string, std::size_t>> groups = {};  // a heading above so many columns of the header, or ""
 };
 
 // One curve. `low` and `high`, if present, are its interval; values that are not finite are gaps.
@@ -43,7 +45,8 @@ struct Plot {
 };
 
 struct PageDiagram {
-  std::string label, svg;  // TimingDiagram::svg(TimingUse::kPage)
+  std::string label, svg;               // TimingDiagram::svg(TimingUse::kPage)
+  nlohmann::ordered_json windows = {};  // as report/timing/windows/packed.h packs them; null: `svg` alone
 };
 
 class Page {
@@ -60,7 +63,7 @@ class Page {
   void plot(const Plot& plot);
   // Adds an SVG document of ours unchanged.
   void picture(std::string_view svg, std::string_view caption);
-  void diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption);
+  void diagrams(std::vector<PageDiagram> diagrams, std::string_view caption);
   // Adds scenes side by side, each as report/scene/packed.h packs it, with one clock for all.
   void scenes(std::vector<nlohmann::ordered_json> scenes, std::string_view caption);
   void command(std::string_view words);                                // to copy into a shell
@@ -78,6 +81,7 @@ class Page {
   std::vector<Entry> contents_;
   nlohmann::ordered_json plots_ = nlohmann::ordered_json::array();
   nlohmann::ordered_json scenes_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json timings_ = nlohmann::ordered_json::array();
   int pictures_ = 0, diagrams_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// Moves and zooms the timing diagrams that timing_drawing.js draws, and describes a slot, a task or an arrow.
+// Moves and zooms the timing diagrams that timing_drawing.js draws, turns to other windows of the drive, and tells of
+// slots, tasks and arrows.
 "use strict";
 (() => {
   const { make, buttons } = Elements;
@@ -9,23 +10,77 @@
   document.body.append(tip);
 
   class Diagram extends TimingDrawing {
-    constructor(box) {
+    // `windows` are those of the whole drive, if the page has them.
+    constructor(box, windows) {
       super(box);
-      if (!this.plot) return;
+      this.windows = windows;
+      if (!this.plot && !windows) return;
+      this.near = true;
+      this.controls();
+      if (this.plot) this.taken();
+      if (windows) this.window = windows.at(this.first ?? windows.from);
+      if (!this.plot) this.turn(this.window);
+      Instant.on((at, by) => this.mark(at, by));
+      new ResizeObserver(() => this.fit()).observe(this.paper);
+      // A diagram out of sight follows the page's instant when it is seen again.
+      if (windows)
+        new IntersectionObserver(([entry]) => {
+          this.near = entry.isIntersecting;
+          if (this.near) this.mark(Instant.at);
+        }, { rootMargin: "200px" }).observe(this.paper);
+    }
+
+    // Reads what the script needs of a new picture.
+    taken() {
       this.things = this.items.filter((item) => item.title).sort((p, q) => p.a - q.a || p.y - q.y);
       this.by_element = new Map(this.things.map((item) => [item.element, item]));
-      this.controls();
       this.line = document.createElementNS("http://www.w3.org/2000/svg", "path");
       this.line.setAttribute("class", "instant");
       this.svg.append(this.line);
-      Instant.on((at, by) => this.mark(at, by));
-      new ResizeObserver(() => this.fit()).observe(this.paper);
+    }
+
+    // Shows another window of the drive, and of it the times that `view` gives; by default all.
+    async turn(window, view = () => [this.first, this.last]) {
+      this.wanted = window;
+      const svg = await this.windows.svg(window), ids = this.box.dataset.ids;
+      if (this.wanted !== window) return;   // the reader has gone on
+      this.wanted = undefined;
+      this.choose(undefined);
+      this.svg.outerHTML = svg.replaceAll(" id=\"", ` id="${ids}`).replaceAll("url(#", `url(#${ids}`);
+      this.window = window;
+      this.box.dataset.window = window;
+      this.take();
+      this.taken();
+      this.show(...view());
+      this.fit();
+    }
+    // Turns to a neighbour, at the end that adjoins, and keeps the time that is seen. Returns whether there is one.
+    beside(by) {
+      const window = (this.wanted ?? this.window) + by;
+      if (!this.windows || window < 0 || window >= this.windows.count) return false;
+      const span = this.to - this.from;
+      this.turn(window, () => (by > 0 ? [this.first, this.first + span] : [this.last - span, this.last]));
+      return true;
+    }
+    // Turns to the window of an instant [ms], and moves to it.
+    follow(t) {
+      const window = this.windows.at(t), span = this.to - this.from;
+      const view = () => [t - span / 2, t + span / 2];
+      if (!this.windows.has(window, t)) return;
+      if (window !== (this.wanted ?? this.window)) this.turn(window, view);
+      else if (this.wanted === undefined && (t < this.from || t > this.to)) this.show(...view());
+    }
+    // At the end of a window, a step leads into the next one.
+    move(part) {
+      const ends = part > 0 ? this.to >= this.last - 1e-6 : this.from <= this.first + 1e-6;
+      if (!ends || !this.beside(Math.sign(part))) super.move(part);
     }
 
     controls() {
       this.range = make("span", { className: "range" });
       const bar = make("div", { className: "bar" });
       const button = buttons(bar);
+      if (this.windows) this.over_the_drive(bar, button);
       bar.append(this.range, make("span", { className: "grow" }));
       button("◀", "Earlier", () => this.move(-0.25));
       button("▶", "Later", () => this.move(0.25));
@@ -39,6 +94,7 @@
           "Click to choose the instant, drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
           "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, " +
           "<kbd>,</kbd> <kbd>.</kbd> from thing to thing" +
+          (this.windows ? ", <kbd>P</kbd> <kbd>N</kbd> previous and next window" : "") +
           "<span class=\"scrolls\">, <kbd>Shift</kbd> with <kbd>←</kbd> <kbd>→</kbd> to the parts beside it</span>.";
       this.paper.before(bar);
       this.paper.after(this.told, this.keys);
@@ -47,7 +103,8 @@
       this.paper.setAttribute(
           "aria-label",
           `Timing diagram, ${this.box.dataset.label}. Plus and minus zoom, arrow keys move, ` +
-              "0 shows all, comma and full stop go from thing to thing.");
+              "0 shows all, comma and full stop go from thing to thing" +
+              (this.windows ? ", P and N to the previous and next window." : "."));
       this.paper.addEventListener("keydown", (event) => this.key(event));
       this.paper.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
       this.paper.addEventListener("dblclick", () => this.show(this.first, this.last));
@@ -56,16 +113,40 @@
       this.paper.addEventListener("pointerleave", () => this.leave());
     }
 
+    // The slider goes over the whole drive, and chooses the page's instant.
+    over_the_drive(bar, button) {
+      const { from, to } = this.windows;
+      this.slider = make("input", { type: "range", min: from / 1e3, max: to / 1e3, step: "any" });
+      this.slider.setAttribute("aria-label", `Instant of the timing diagram, ${this.box.dataset.label}`);
+      this.slider.addEventListener("input", () => {
+        const at = Number(this.slider.value);
+        Instant.set(at, this);
+        this.follow(at * 1e3);
+      });
+      this.place_in_drive = make("output", { className: "range" });
+      button("|◀", "Previous window", () => this.beside(-1));
+      bar.append(this.slider, this.place_in_drive);
+      button("▶|", "Next window", () => this.beside(1));
+    }
+
     drawn() {
       this.mark(Instant.at, this);
+      if (this.windows) {
+        const at = Instant.at * 1e3, shown = at >= this.first && at <= this.last ? at : this.from;
+        this.slider.value = shown / 1e3;
+        const [now, end] = [shown, this.windows.to].map((t) => (t / 1e3).toFixed(3));
+        this.place_in_drive.textContent = `${now} s of ${end} s`;
+      }
       this.range.textContent =
           `${this.box.dataset.label}: ${ms(this.from)} to ${ms(this.to)} ms, ${lasting(this.to - this.from)}`;
     }
 
     // Shows the page's instant. A part of the diagram follows it.
     mark(at, by) {
+      if (!this.plot) return;
       const t = at === undefined ? NaN : at * 1e3, span = this.to - this.from;
       const drawn = t >= this.first && t <= this.last;
+      if (by !== this && !drawn && this.windows && this.near && !Number.isNaN(t)) this.follow(t);
       if (drawn && by !== this && (t < this.from || t > this.to)) this.show(t - span / 2, t + span / 2);
       if (drawn && t >= this.from && t <= this.to) {
         this.line.removeAttribute("display");
@@ -115,7 +196,8 @@
         "+": () => this.zoom(0.5), "=": () => this.zoom(0.5), "-": () => this.zoom(2), "_": () => this.zoom(2),
         "0": () => this.show(this.first, this.last), "Home": () => this.show(this.first, this.last),
         "ArrowLeft": () => this.move(-0.1), "ArrowRight": () => this.move(0.1),
-        ",": () => this.step(-1), ".": () => this.step(1), "Escape": () => this.choose(undefined),
+        ",": () => this.step(-1), ".": () => this.step(1),
+        "p": () => this.beside(-1), "n": () => this.beside(1), "Escape": () => this.choose(undefined),
       }[event.key];
       if (!act) return;
       event.preventDefault();
@@ -175,6 +257,11 @@
     }
   }
 
+  const data = JSON.parse(document.getElementById("timings")?.textContent ?? "[]");
+  const windows_of = (box) => {
+    const one = data[box.dataset.windows];
+    return one && TimingWindows.possible ? new TimingWindows(one) : undefined;
+  };
   for (const figure of document.querySelectorAll("figure.timing")) {
     const boxes = [...figure.querySelectorAll(".diagram")];
     const one_of = (chosen) => boxes.forEach((box, i) => { box.hidden = i !== chosen; });
@@ -185,7 +272,7 @@
       select.addEventListener("change", () => one_of(Number(select.value)));
       boxes[0].before(make("div", { className: "bar" }, select));
     }
-    for (const box of boxes) new Diagram(box);
+    for (const box of boxes) new Diagram(box, windows_of(box));
     if (boxes.length > 1) one_of(0);
   }
 })();

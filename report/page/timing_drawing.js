@@ -8,11 +8,15 @@ const TimingDrawing = (() => {
   const number = (element, name) => Number(element.getAttribute(name));
 
   return class {
-    // Takes an element div.diagram. The diagram has no plot if its picture says why it is empty.
+    // Takes an element div.diagram.
     constructor(box) {
       this.box = box;
       this.paper = box.querySelector(".paper");
-      this.svg = box.querySelector("svg");
+      this.take();
+    }
+    // Reads the box's picture, and shows all of it. Without a plot, the picture says why it is empty.
+    take() {
+      this.svg = this.box.querySelector("svg");
       this.plot = this.svg.querySelector("rect.plot");
       if (!this.plot) return;
       this.svg.querySelector("title")?.remove();
@@ -90,7 +94,7 @@ const TimingDrawing = (() => {
 
     fit() {
       const room = this.paper.clientWidth;
-      if (room < 50) return;
+      if (room < 50 || !this.plot) return;
       const wide = Math.max(room, this.least);   // a drawing wider than its room scrolls
       this.paper.classList.toggle("wider", wide > room);
       this.svg.setAttribute("width", wide);

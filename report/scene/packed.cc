@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "recording/scene/geometry.h"
+#include "report/drawing/base64.h"
 
 namespace ttf::report::scene {
 namespace {
@@ -31,7 +32,7 @@ template <class Number> class Column {
           std::clamp(whole, static_cast<double>(Limits::min()), static_cast<double>(Limits::max()))));
     }
   }
-  std::string text() const { return base64(bytes_); }
+  std::string text() const { return drawing::base64(bytes_); }
 
  private:
   void put(Number number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof number); }
@@ -176,19 +177,6 @@ double unit_of(const Scene& scene) {
 }
 
 }  // namespace
-
-std::string base64(std::string_view bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return out;
-}
 
 Json packed(const Scene& scene, const drawing::Names& names, const std::string& label, int colour) {
   const double unit = unit_of(scene);

@@ -31,7 +31,4 @@ template <class Part> constexpr std::size_t packed_bytes(std::size_t parts) {
 // `colour` is the drive's number on the page.
 nlohmann::ordered_json packed(const Scene& scene, const drawing::Names& names, const std::string& label, int colour);
 
-// Returns bytes in base64 (RFC 4648, with padding).
-std::string base64(std::string_view bytes);
-
 }  // namespace ttf::report::scene

@@ -11,11 +11,6 @@
 #include "report/timing/painter.h"
 
 namespace ttf::report::timing {
-namespace {
-
-constexpr Duration kMargin = Duration::milliseconds(300);  // the longest way that is followed into the window
-
-}  // namespace
 
 TimingDiagram::TimingDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to)
     : names_(std::move(names)), cycle_(cycle <= drawing::kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
@@ -77,6 +72,16 @@ void TimingDiagram::on(const recording::records::ChannelFrame& r) {
 void TimingDiagram::on(const recording::records::TimingProblem& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
     data_.problems.push_back({r.stamp.true_time, r.stamp.node, r.what, r.late, r.cycle, r.slot, r.channel, r.count});
+}
+
+bool TimingDiagram::shows_anything() const {
+  const auto within = [&](TrueTime start, TrueTime end) { return start < to_ && end >= from_; };
+  const auto any = [&](const auto& all) {
+    return std::ranges::any_of(all, [&](const auto& one) { return within(one.start, one.end); });
+  };
+  return std::ranges::any_of(data_.measurements, [&](const auto& one) { return within(one.at, one.at); }) ||
+         any(data_.can_frames) || any(data_.slot_frames) ||
+         std::ranges::any_of(data_.executions, [&](const auto& one) { return within(one.activated, one.end); });
 }
 
 std::string TimingDiagram::svg(TimingUse use, const drawing::Sheet& sheet) const {

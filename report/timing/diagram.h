@@ -25,6 +25,8 @@ enum class TimingUse : std::uint8_t { kPicture, kPage };
 
 class TimingDiagram : public recording::records::Sink {
  public:
+  static constexpr Duration kMargin = Duration::milliseconds(300);  // the longest way that is followed into the window
+
   // `cycle` is the length of the communication cycle, 0 for no grid. Records outside the window are skipped,
   // except in a margin for ways that lead into it: memory does not grow with the log.
   TimingDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to);
@@ -46,6 +48,11 @@ class TimingDiagram : public recording::records::Sink {
   // Returns the picture; a window without records gives a picture that says so. Throws InputError if paper is too narrow.
   std::string svg(const drawing::Sheet& sheet = {}) const { return svg(TimingUse::kPicture, sheet); }
   std::string svg(TimingUse use, const drawing::Sheet& sheet = {}) const;
+
+  TrueTime from() const { return from_; }
+  TrueTime to() const { return to_; }
+  // Returns whether a measurement, a frame or a task is in the window itself.
+  bool shows_anything() const;
 
  private:
   bool near(TrueTime start, TrueTime end) const;

@@ -23,6 +23,7 @@ namespace {
 // Everything needed to draw one picture; lives for one call of svg().
 class TimingPainter : TimingCanvas {
   static constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
+  static constexpr double kPageWidth = 940, kLeastPlotInPage = 480;  // it fits into a window of 1,000 px
   static constexpr double kTop = 62, kTopInPage = 28;
 
  public:
@@ -35,8 +36,9 @@ class TimingPainter : TimingCanvas {
     for (const Lane& lane : lanes_)
       for (const std::string& line : label_lines(lane)) plot.x = std::max(plot.x, drawing::text_width(line, 11) + 24);
     // A page's script widens it to the available space.
-    plot.width =
-        sheet.plot_width(tags.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot), plot.x + 24);
+    plot.width = sheet.plot_width(tags.on() ? std::max(kLeastPlotInPage, kPageWidth - plot.x - 24)
+                                            : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot),
+                                  plot.x + 24);
     title_ = fmt::format("{}: {} ms to {} ms", names.drive.empty() ? "Timing diagram" : names.drive,
                          drawing::number(in_ms(from)), drawing::number(in_ms(to)));
     title_lines_ = drawing::broken(title_, sheet.text(14), sheet.line(plot.x + plot.width - 24), true);

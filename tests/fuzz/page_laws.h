@@ -28,9 +28,10 @@ inline std::string_view between(std::string_view text, std::string_view begin, s
 // It is complete; no name contains markup or ends a script; its plots are data.
 inline void check_page(std::string_view html) {
   TTF_CHECK(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"), "no whole page");
-  // The plots and six scripts; with scenes, these and four more.
+  // The plots and seven scripts; with scenes, these and four more; with timing diagrams, their windows.
   const bool has_scenes = html.find("<script type=\"application/json\" id=\"scenes\">") != html.npos;
-  const std::size_t scripts = has_scenes ? 12 : 7;
+  const bool has_timings = html.find("<script type=\"application/json\" id=\"timings\">") != html.npos;
+  const std::size_t scripts = (has_scenes ? 13 : 8) + (has_timings ? 1 : 0);
   TTF_CHECK(count_of(html, "</script") == scripts, "{} scripts end, not {}", count_of(html, "</script"), scripts);
   TTF_CHECK(count_of(html, "<main") == 1 && count_of(html, "</main>") == 1, "a name begins or ends the main part");
   const std::string_view main = between(html, "<main id=\"main\">", "</main>");

@@ -4,7 +4,9 @@
 import { chromium } from "playwright-core";
 import { mkdirSync } from "node:fs";
 import { pathToFileURL } from "node:url";
+import { WIDTHS, fits } from "./layout_check.mjs";
 import { coloured, many_play, scene_plays } from "./scene_check.mjs";
+import { turns } from "./timing_check.mjs";
 
 const [executablePath, pictures, ...named] = process.argv.slice(2);
 mkdirSync(pictures, { recursive: true });
@@ -139,6 +141,9 @@ async function plot_zooms(name, page) {
 async function diagram_zooms(name, page) {
   const diagram = page.locator(".diagram").first(), paper = diagram.locator(".paper");
   await paper.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(400);   // it turns to the instant
+  await diagram.getByRole("button", { name: "Show all" }).click();
+  await page.waitForTimeout(100);
   const all = await range(diagram);
   await paper.focus();
   await page.keyboard.press("+");
@@ -252,6 +257,14 @@ async function looks(name, file) {
     await page.context().close();
   }
   check(`${name}: dark is as light: ${grounds}`, grounds[0] !== grounds[1]);
+  const wide = await opened(`${name}, wide`, file);
+  for (const width of WIDTHS) {
+    await wide.setViewportSize({ width, height: 900 });
+    await wide.waitForTimeout(400);
+    await fits(name, wide, width, check);
+    await wide.screenshot({ path: `${pictures}/${name}_${width}.png` });
+  }
+  await wide.context().close();
   const narrow = await opened(`${name}, narrow`, file, { viewport: { width: 420, height: 900 } });
   const overflow = await narrow.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   check(`${name}: on a narrow screen it is ${overflow} px too wide`, overflow <= 0);
@@ -299,6 +312,7 @@ for (const one of named) {
   check(`${name}: ${scenes} drives are seen from above`, scenes === { run: 3, compared: 6, experiment: 2 }[name]);
   await plot_zooms(name, page);
   await diagram_zooms(name, page);
+  await turns(name, page, check);
   if (name === "experiment") await side_by_side(name, page);
   await reached(name, page);
   await page.context().close();

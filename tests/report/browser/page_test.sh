@@ -16,7 +16,7 @@ command -v node >/dev/null || skip "node is not installed"
 command -v npm >/dev/null || skip "npm is not installed"
 
 mkdir -p "$work"
-cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$here/page_check.mjs" "$here/scene_check.mjs" "$work/"
+cp "$here/package.json" "$here/package-lock.json" "$here/.npmrc" "$here"/{layout,page,scene,timing}_check.mjs "$work/"
 if ! cmp -s "$work/package-lock.json" "$work/fetched.json"; then
   (cd "$work" && timeout 120 npm ci --no-progress >npm.log 2>&1) || {
     rm -rf "$work/node_modules"

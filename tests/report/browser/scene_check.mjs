@@ -132,6 +132,7 @@ export async function scene_plays(name, page, check, pictures) {
   check(`${name}: the plot's line stands there`, Math.abs(line.x - (box.x + box.width * 0.6)) < 3);
   const diagram = page.locator(".diagram").first(), paper = diagram.locator(".paper");
   await paper.scrollIntoViewIfNeeded();
+  await page.waitForTimeout(400);   // it turns to the instant
   const place = await diagram.locator("rect.plot").boundingBox(), [early, late] = await range(diagram);
   await page.mouse.click(place.x + place.width / 2, place.y + 4);
   const middle = await instant(figure);

@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "report/drawing/axes.h"
+#include "report/drawing/base64.h"
 #include "report/drawing/names.h"
 #include "report/drawing/render.h"
 #include "report/drawing/tables.h"
@@ -35,6 +36,14 @@ std::string bytes_of(const std::string& path) {
 }  // namespace
 
 namespace {
+
+TEST(Base64, IsThatOfTheStandard) {  // RFC 4648, section 10
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
 
 TEST(Svg, NumbersAreShortAndNeverMinusZero) {
   EXPECT_EQ(number(1.0), "1");

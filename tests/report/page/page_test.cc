@@ -33,17 +33,17 @@ TEST(Page, NothingOfANameIsMarkup) {
              false,
              false,
              {{kHostile, kHostile, {{kHostile, 0, {1, 2}, {3, 4}, {}, {}}}}}});
-  page.diagrams({{kHostile, "<svg></svg>"}}, kHostile);
+  page.diagrams({{kHostile, "<svg></svg>", {{"windows", kHostile}}}}, kHostile);
   page.command(kHostile);
   page.preformatted(kHostile, kHostile);
-  EXPECT_EQ(count(page.html(), "<script>"), 6u);  // uPlot and ours
+  EXPECT_EQ(count(page.html(), "<script>"), 7u);  // uPlot and ours
   nlohmann::ordered_json scene;
   scene["label"] = kHostile;
   page.scenes({scene}, kHostile);
   const std::string html = page.html();
   EXPECT_EQ(count(html, "<img"), 0u);
-  EXPECT_EQ(count(html, "<script>"), 10u);   // uPlot and ours
-  EXPECT_EQ(count(html, "</script>"), 12u);  // and the data of plots and scenes
+  EXPECT_EQ(count(html, "<script>"), 11u);   // uPlot and ours
+  EXPECT_EQ(count(html, "</script>"), 14u);  // and the data of plots, scenes and timing diagrams
   EXPECT_EQ(count(html, "<!--"), 0u);
   EXPECT_GT(count(html, "&lt;/script&gt;"), 10u);
 }
@@ -121,6 +121,8 @@ TEST(Figures, HaveTheDigitsTheirIntervalHas) {
   EXPECT_EQ(drawing::with_interval(72.04, 3.21), "72.0 ± 3.2");
   EXPECT_EQ(drawing::with_interval(1234.0, 56.0, true), "+1234 ± 56");
   EXPECT_EQ(drawing::with_interval(-0.5, 0.0, true), "-0.500 ± 0");
+  EXPECT_EQ(drawing::with_interval(-0.0012, 0.23, true), "0.00 ± 0.23");
+  EXPECT_EQ(drawing::with_interval(0.0012, 0.23, true), "0.00 ± 0.23");
   EXPECT_EQ(drawing::with_interval(0.115, std::nan("")), "0.115");
   EXPECT_EQ(drawing::with_interval(std::nan(""), 1.0), "-");
   EXPECT_EQ(drawing::verdict(-1.0, 0.5), "less");

@@ -188,14 +188,6 @@ TEST(Scene, PackedNumbersComeBack) {
   EXPECT_THAT(json["lists"], SizeIs(2));
 }
 
-TEST(Scene, Base64IsThatOfTheStandard) {  // RFC 4648, section 10
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
-}
-
 TEST(Scene, AStillShowsEachPartOnce) {
   Records log;
   log.truth(1000, 30.0);
