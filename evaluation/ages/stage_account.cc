@@ -14,6 +14,12 @@ using schedules::analysis::Waypoint;
 // No measurement is followed longer, and no image.
 constexpr Duration kLongestWay = Duration::milliseconds(1500);
 constexpr std::size_t kImagesRemembered = 64;
+// A damaged log may hold any time. Within 36 years of the drive's start, differences fit their type.
+constexpr bool possible(TrueTime at) {
+  constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60;
+  return at.ns >= -kFarthest_ns && at.ns <= kFarthest_ns;
+}
+
 constexpr std::string_view kHeld = "held for order";
 
 // Leaves out waypoints that no stage leads to, such as the start of a task that a list activates at once. The fusion
@@ -81,6 +87,7 @@ StageAccount::Sensor* StageAccount::sensor_of(SensorId id) {
 
 // The first of several equal instants counts.
 void StageAccount::pass(Sensor& sensor, Way& way, Kind kind, NodeId node, PduId pdu, TrueTime at) {
+  if (!possible(at)) return;
   for (std::size_t p = 0; p < sensor.path.waypoints.size(); ++p) {
     const Waypoint& point = sensor.path.waypoints[p];
     if (point.kind == kind && point.node == node && point.pdu == pdu && !way.at[p]) {
@@ -92,7 +99,7 @@ void StageAccount::pass(Sensor& sensor, Way& way, Kind kind, NodeId node, PduId 
 
 void StageAccount::on(const recording::records::Measured& r) {
   Sensor* sensor = sensor_of(r.id.sensor);
-  if (sensor == nullptr) return;
+  if (sensor == nullptr || !possible(r.stamp.true_time)) return;
   std::erase_if(sensor->ways, [&](const auto& way) { return way.second.measured + kLongestWay < r.stamp.true_time; });
   Way& way = sensor->ways[r.id.sequence];  // a sensor that restarts counts anew
   way = {r.stamp.true_time, {}, false};
