@@ -46,6 +46,23 @@ for scene in scenes:
     assert all(len(s["edge"]) > 30 for s in scene["sensors"])
     assert len(base64.b64decode(scene["images"]["at"])) == 8 * 75
 END
+# The timing diagrams go over the whole drive, as a reader of the page unpacks them.
+python3 - <<'END' || fail "the timing diagrams of the page do not go over the whole drive"
+import base64, json, re, zlib
+page = open("run.html", encoding="utf-8").read()
+timings = json.loads(re.search(r'<script type="application/json" id="timings">(.*?)</script>', page, re.S)[1])
+assert len(timings) == 3
+for one in timings:
+    windows = one["windows"]
+    assert windows[0][0] == 0 and windows[-1][1] >= 3000 and [1500, 1660] in windows
+    assert all(a[1] == b[0] for a, b in zip(windows, windows[1:]))
+    chunks = [json.loads(zlib.decompress(base64.b64decode(chunk))) for chunk in one["chunks"]]
+    assert [len(chunk["order"]) for chunk in chunks] == [min(6, len(windows) - at) for at in range(0, len(windows), 6)]
+    assert all(len(order) > 100 for chunk in chunks for order in chunk["order"])
+END
+# Ages were within the bounds of the schedule, stage by stage.
+has run.html 'every age was within the bounds'
+[[ $(grep -c 'stage by stage</summary>' run.html) == 2 ]] || fail "not both sensors have their stages"
 # The page loads no other files.
 lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
 # The same folder makes the same page.
@@ -98,14 +115,14 @@ has some.html 'no deadline was missed in the logs.'
 # ---- faults, and another window
 expect 0 '' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-pictures --out faulty
 expect 0 'wrote' report faulty --from 0.5 --to 0.52 -o faulty.html
-has faulty.html 'only 20 ms are drawn, from 0.5 s on'
+has faulty.html 'is drawn, first 20 ms from 0.5 s on'
 has faulty.html 'byzantine_clock'
 
 # An end before the drive is judged (1.5 s): the window is before it.
 expect 0 'wrote' report seed1 --to 1 -o before.html
-has before.html 'only 160 ms are drawn, from 0.84 s on'
+has before.html 'is drawn, first 160 ms from 0.84 s on'
 expect 0 'wrote' report seed1 --to 0.1 -o first.html
-has first.html 'only 100 ms are drawn, from 0 s on'
+has first.html 'is drawn, first 100 ms from 0 s on'
 
 # ---- an experiment
 small_sweep 4 "700 ms" "400 ms" | sed 's/^question: .*/question: Is it <so>?/' >small.yaml
@@ -121,7 +138,7 @@ mkdir scratch
 export TMPDIR=$PWD/scratch
 expect 0 '^small: 2 runs of point 0, replication 0, again' report small -o small.html
 has small.html 'The runs of point 0 (noise 1), replication 0, driven again'
-has small.html '160 ms are drawn, from 0.4 s on'
+has small.html 'is drawn, first 160 ms from 0.4 s on'
 for words in '"note":""' 'data-label="adva"' 'data-label="tt"' 'Ages of measurements' '"heading":"Precision"' \
   'No fault was injected, no slot had a problem'; do
   has small.html "$words"
@@ -145,7 +162,7 @@ for key in [("Age over time", "newest of the sensors"), ("Error over time", "pos
 END
 expect 0 'wrote' report small --point 1 --from 0.5 --to 0.52 -o point.html
 has point.html 'The runs of point 1 (noise 40), replication 0'
-has point.html 'only 20 ms are drawn, from 0.5 s on'
+has point.html 'is drawn, first 20 ms from 0.5 s on'
 expect 0 'wrote' report small --no-drives -o none.html
 lacks none.html 'One drive of each paradigm|class="diagram"|id="scenes"'
 
@@ -189,9 +206,9 @@ expect 0 'wrote one' experiment small.yaml --replay 0/adva/0 --out one
 expect 0 'wrote' report one -o one.html
 # Drives with different starts of judgement: each timing diagram gives its window.
 expect 0 'wrote' report seed1 one -o windows.html
-has windows.html 'A part of each drive is drawn'
-has windows.html 'data-label="one adva, of which 160 ms are drawn, from 0.4 s on"'
-has windows.html 'data-label="seed1 tt, of which 160 ms are drawn, from 1.5 s on"'
+has windows.html 'A window of each drive; the slider'
+has windows.html 'data-label="one adva, first 160 ms from 0.4 s on"'
+has windows.html 'data-label="seed1 tt, first 160 ms from 1.5 s on"'
 
 # ---- a log that was cut off is read up to there, with a warning
 mkdir torn
