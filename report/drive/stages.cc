@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/counted.h"
-#include "report/drawing/figures.h"
+#include "report/drawing/tables.h"
 #include "report/drive/tables.h"
 
 namespace ttf::report::drive {
