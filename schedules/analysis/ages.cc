@@ -187,12 +187,6 @@ class Ages {
   ClockBounds clocks_;
 };
 
-// Returns the stages until a list may be held.
-std::size_t fused_stages(const AgePath& path) {
-  const auto fused = std::ranges::find(path.waypoints, Waypoint::Kind::kFused, &Waypoint::kind);
-  return fused != path.waypoints.end() ? fused->stages : 0;
-}
-
 }  // namespace
 
 std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
@@ -205,10 +199,12 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   const Duration held = ages.held_for_arrivals(paths);
   for (AgePath& path : paths) {
     ages.buffer(path, releases, held);
+    bool held = false;
     for (Waypoint& point : path.waypoints) {
+      held = held || point.kind == Waypoint::Kind::kFused;
+      if (!held) point.buffered_worst = point.worst;
       if (point.kind == Waypoint::Kind::kFused) point.buffered_worst = path.buffered_fused_worst;
       if (point.kind == Waypoint::Kind::kUsed) point.buffered_worst = path.buffered_use_worst;
-      if (point.stages < fused_stages(path)) point.buffered_worst = point.worst;
     }
   }
   return paths;

@@ -61,7 +61,7 @@ struct Waypoint {
   NodeId node{};
   PduId pdu = kNoPdu;      // for the first three kinds
   std::size_t stages = 0;  // counted in AgePath::to_use, or in to_fusion without a use
-  // Bounds of the age there. With BUFF there are such only where the list is fused and used; 0 elsewhere.
+  // Bounds of the age there. Between fusion and use there are none with BUFF: 0.
   Duration best{}, worst{};
   Duration buffered_worst{};
 };
