@@ -90,7 +90,6 @@ ArrivalEffect IncomingList::store(std::span<const std::byte> payload, int fragme
   if (collecting_present_ < collecting_fragments_) return torn_ ? ArrivalEffect::kTorn : ArrivalEffect::kIncomplete;
   std::swap(collecting_bytes_, complete_bytes_);
   complete_ = true;
-  read_ = false;
   complete_sequence_ = collecting_sequence_;
   complete_fragments_ = collecting_fragments_;
   collecting_ = false;
@@ -146,12 +145,6 @@ std::optional<ListView> IncomingList::latest() const {
                   complete_fragments_,
                   {complete_bytes_.data(),
                    static_cast<std::size_t>(complete_fragments_) * static_cast<std::size_t>(layout_->fragment_bytes)}};
-}
-
-bool IncomingList::mark_read() {
-  const bool first = complete_ && !read_;
-  read_ = complete_;
-  return first;
 }
 
 }  // namespace ttf::bus::cni

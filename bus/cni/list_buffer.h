@@ -74,8 +74,6 @@ class IncomingList {
   }
   // Returns the newest complete list, no value before the first. It stays until a newer one is complete.
   std::optional<ListView> latest() const;
-  // Marks the latest list as read; returns false if it was read before.
-  bool mark_read();
   // Returns the list of the newest well-formed fragment, whatever its effect.
   std::uint32_t arrived() const { return arrived_sequence_; }
   // Returns the incomplete list that the newest fragment displaced, even if that fragment is a whole list.
@@ -102,7 +100,7 @@ class IncomingList {
   std::uint32_t collecting_sequence_ = 0, complete_sequence_ = 0, arrived_sequence_ = 0;
   int collecting_count_ = 0, collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
   std::optional<std::uint32_t> torn_;
-  bool collecting_ = false, complete_ = false, read_ = false;
+  bool collecting_ = false, complete_ = false;
   std::uint32_t stale_raw_ = 0;  // the newest consecutive stale list's
   int stale_lists_ = 0;
 };

@@ -53,7 +53,7 @@ std::span<Input> Wiring::read(std::size_t task, const recording::records::Stamp&
     Input& input = ports.inputs[i];
     Source& source = ports.sources[i];
     input.list = source.list.latest();
-    input.fresh = source.list.mark_read();
+    input.fresh = source.unread.has_value();
     input.discarded = false;
     source.unread.reset();
     if (input.fresh) records_.hop(at, recording::records::Hop::kRead, input.pdu, input.list->sequence, source.medium);

@@ -89,8 +89,9 @@ class Host {
       const auto& binding = task.described->reads[i];
       bus::cni::IncomingList& list = binding.medium.is_can() ? cans_[binding.medium.can_index()]->incoming(binding.pdu)
                                                              : slots_[index_of(binding.pdu)];
-      task.inputs[i].list = list.latest();
-      task.inputs[i].fresh = list.mark_read();
+      const auto latest = list.latest();
+      task.inputs[i].fresh = latest && (!task.inputs[i].list || task.inputs[i].list->sequence != latest->sequence);
+      task.inputs[i].list = latest;
       const SensorId sensor = cluster_.pdu(binding.pdu).sensor;
       if (strobed && task.inputs[i].list && sensor != kNoSensor)
         strobes_[index_of(sensor)].strobe(task.inputs[i].list->sequence, measured);

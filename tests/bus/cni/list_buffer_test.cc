@@ -27,7 +27,6 @@ TEST(IncomingList, IsEmptyUntilTheFirstListIsComplete) {
   const auto layout = list_layout();
   IncomingList incoming(layout);
   EXPECT_FALSE(incoming.latest());
-  EXPECT_FALSE(incoming.mark_read());
   MadeList list(layout, 0, 10, 100);
   for (int f = 0; f < 3; ++f) {
     EXPECT_EQ(incoming.arrive(list.fragment(f)), kIncomplete);
@@ -90,10 +89,8 @@ TEST(IncomingList, ARepeatedListIsNotCollectedAgain) {
   IncomingList incoming(layout);
   MadeList list(layout, 2, 9, 1);
   for (int f = 0; f < 3; ++f) incoming.arrive(list.fragment(f));
-  EXPECT_TRUE(incoming.mark_read());
   for (int repetition = 0; repetition < 5; ++repetition)
     for (int f = 0; f < 3; ++f) EXPECT_EQ(incoming.arrive(list.fragment(f)), kDuplicate);
-  EXPECT_FALSE(incoming.mark_read());  // read once, it stays read
   // And the next list does not find a half-collected repetition in its way.
   incoming.arrive(list.fragment(0));
   MadeList next(layout, 3, 9, 2);
@@ -288,17 +285,6 @@ TEST(IncomingList, L3_StragglersAreNoRestart) {
   EXPECT_EQ(between.arrive(MadeList(layout, 51, 1, 51).fragment(0)), kCompleted);
   expect_stale(between, {44, 45});
   EXPECT_EQ(between.latest()->sequence, 51u);
-}
-
-TEST(IncomingList, ReadOnce) {
-  const auto layout = list_layout();
-  IncomingList incoming(layout);
-  MadeList one(layout, 1, 1, 1), two(layout, 2, 1, 2);
-  incoming.arrive(one.fragment(0));
-  EXPECT_TRUE(incoming.mark_read());
-  EXPECT_FALSE(incoming.mark_read());
-  incoming.arrive(two.fragment(0));
-  EXPECT_TRUE(incoming.mark_read());
 }
 
 // The layout's `high` is code 1000; senders write no higher code. Only existing elements count.

@@ -111,6 +111,15 @@ TEST(Wiring, ATaskIsGivenWhatItReadsAndItsUnusableInputsAreTold) {
   EXPECT_EQ(wired.records.counts().discarded_lists, 1u);
 }
 
+TEST(Wiring, AListIsFreshOnceForEachOfItsReaders) {
+  Wired wired;
+  wired.comes(kFirst, bus::kList, 1);
+  EXPECT_TRUE(wired.wiring->read(0, {})[0].fresh);
+  EXPECT_FALSE(wired.wiring->read(0, {})[0].fresh);
+  EXPECT_TRUE(wired.wiring->read(1, {})[1].fresh) << "task 0 has read it, and task 1 has not";
+  EXPECT_FALSE(wired.wiring->read(1, {})[1].fresh);
+}
+
 TEST(Wiring, AnOutputLeavesOverItsMediumOnce) {
   Wired wired;
   wired.wiring->outputs(0)[0].begin(9, 3, GlobalTime{});
