@@ -117,7 +117,8 @@ void check_described(const schedules::model::Cluster& cluster) {
 }
 
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                fusion::strategies::StrategyKind strategy, bool recording_given) {
+                fusion::strategies::StrategyKind strategy, bool recording_given,
+                const nodes::foreign::StepFolder* steps) {
   check_described(cluster);
   check_recording(scenario, cluster, recording_given);
   check_late(scenario, cluster, strategy);
@@ -127,6 +128,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
   (void)tracker_of(scenario, cluster);
+  nodes::foreign::check_steps(cluster, steps);
 }
 
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out) {
@@ -149,7 +151,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   recording::records::Tee tee({&sink, &observer});
 
   const NodeSetConfig nodes{&scenario,          &cluster,     config.strategy, config.seed,
-                            config.replication, around.scene, config.recorded};
+                            config.replication, around.scene, config.recorded, config.steps};
   sim::crank::SimulationConfig simulation_config;
   simulation_config.cluster = &cluster;
   simulation_config.seed = config.seed;

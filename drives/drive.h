@@ -9,6 +9,7 @@
 
 #include "drives/scenario.h"
 #include "fusion/strategies/strategy.h"
+#include "nodes/foreign/libraries.h"
 #include "nodes/sensing/scene.h"
 #include "recording/records/records.h"
 #include "recording/rows/laser_radar_file.h"
@@ -33,6 +34,8 @@ struct DriveConfig {
   bool compares_clocks = true;
   // Whether the private CANs go bit by bit; the records are the same otherwise.
   bool cans_bit_by_bit = false;
+  // Where the cluster's libraries may be loaded from; null: nowhere.
+  const nodes::foreign::StepFolder* steps = nullptr;
 };
 
 // Results that only the whole drive has; for one node among others, that node's counts and no precision.
@@ -59,9 +62,10 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
 // InputError; run_drive() calls it too.
 void check_described(const schedules::model::Cluster& cluster);
 // Checks the scenario's demands on the cluster's nodes and the recording before anything starts: faults,
-// start-up, late lists. Throws InputError.
+// start-up, late lists, steps of libraries. Throws InputError.
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                fusion::strategies::StrategyKind strategy, bool recording_given);
+                fusion::strategies::StrategyKind strategy, bool recording_given,
+                const nodes::foreign::StepFolder* steps = nullptr);
 
 // Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError
 // if scenario, cluster and code do not match.

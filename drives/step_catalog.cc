@@ -6,6 +6,7 @@
 #include "drives/drive.h"
 #include "drives/known_fields.h"
 #include "drives/played_recording.h"
+#include "nodes/foreign/foreign_step.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/host/signals.h"
 #include "nodes/sensing/emulators.h"
@@ -94,6 +95,8 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       steps.push_back(std::make_shared<nodes::fusion::ImageOutput>(cluster, task, fusion_host()));
     } else if (task.step == "feature_service") {
       steps.push_back(std::make_shared<nodes::service::FeatureService>(cluster, task, scenario.feature));
+    } else if (schedules::model::names_library(task.step)) {
+      steps.push_back(std::make_shared<nodes::foreign::ForeignStep>(cluster, node, task, config.steps));
     } else {
       TTF_CHECK(false, "step {} of {} is not in the catalog; names are checked before", task.step, node.name);
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drives/scenario.h"
+#include "nodes/foreign/libraries.h"
 #include "nodes/host/step.h"
 #include "nodes/sensing/scene.h"
 #include "recording/rows/laser_radar_file.h"
@@ -14,7 +15,7 @@
 
 namespace ttf::drives {
 
-// Returns every step with its ports.
+// Returns every step of the program with its ports.
 std::span<const schedules::model::StepPorts> step_ports();
 
 struct NodeSetConfig {
@@ -25,6 +26,7 @@ struct NodeSetConfig {
   std::uint32_t replication = 0;
   std::shared_ptr<const nodes::sensing::Scene> scene;
   std::shared_ptr<const recording::rows::RecordedInput> recorded;  // for clusters with recorded sources
+  const nodes::foreign::StepFolder* steps = nullptr;               // for clusters that name libraries
 };
 
 // Returns the steps of a node's tasks, in file order. Throws InputError if the schedule's names do not match the

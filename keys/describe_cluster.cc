@@ -20,7 +20,10 @@ constexpr Description kCluster[] = {
     {"nodes.NAME.max_drift_ppm", "The node's oscillator deviates by at most this.", "100"},
     {"nodes.NAME.drift_ppm", "The oscillator deviates by exactly this; absent, by a drawn part of the most.", "50"},
     {"nodes.NAME.tasks", "The node has these tasks."},
-    {"nodes.NAME.tasks.NAME.step", "The task runs this code; drives/step_catalog.h lists the steps.", "fusion"},
+    {"nodes.NAME.tasks.NAME.step",
+     "The task runs this code: a step of drives/step_catalog.h, or a library's file name that ends in .so "
+     "(docs/own_step.md).",
+     "fusion"},
     {"nodes.NAME.tasks.NAME.activation", "The task is activated like this."},
     {"nodes.NAME.tasks.NAME.activation.kind",
      "The task is activated by time, by a list that has arrived, by a sensor that measures, or by the end of another "

@@ -323,7 +323,7 @@ class Loader {
     task.deadline = map.duration("deadline", kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
-    for (const char* key : {"activation", "worst_case", "deadline"}) remember(map, key);
+    for (const char* key : {"step", "activation", "worst_case", "deadline"}) remember(map, key);
     map.finish();
   }
 

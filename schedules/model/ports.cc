@@ -10,6 +10,8 @@
 namespace ttf::schedules::model {
 namespace {
 
+constexpr std::string_view kLibraryEnd = ".so";
+
 struct Direction {
   std::string_view key;  // "reads" or "writes"
   const std::vector<PortBinding>& bound;
@@ -44,6 +46,8 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
 
 }  // namespace
 
+bool names_library(std::string_view step) { return step.ends_with(kLibraryEnd); }
+
 void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
   Findings findings;
   std::vector<std::string_view> names;
@@ -51,11 +55,18 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
   for (const Node& node : cluster.nodes)
     for (const Task& task : node.tasks) {
       const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
+      if (names_library(task.step)) {
+        if (task.step.size() == kLibraryEnd.size() || task.step.find('/') != std::string::npos)
+          findings.add({cluster.file, task.line, path + ".step", task.step,
+                        "must be a file name without a folder, such as distance.so: --steps gives the folder"});
+        continue;
+      }
       const auto step = std::find_if(steps.begin(), steps.end(),
                                      [&](const StepPorts& candidate) { return candidate.step == task.step; });
       if (step == steps.end()) {
         findings.add({cluster.file, task.line, path + ".step", task.step,
-                      fmt::format("must be one of {}", fmt::join(names, ", "))});
+                      fmt::format("must be one of {}, or a library's file name that ends in {}", fmt::join(names, ", "),
+                                  kLibraryEnd)});
         continue;
       }
       bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads}, findings);

@@ -1,5 +1,6 @@
 // Binds a schedule's names to the code's, checked before anything runs. The errors are an unknown step, a needed
-// port without binding, and a binding of an unknown port.
+// port without binding, and a binding of an unknown port. A library's ports are those that the task binds: the library is
+// not loaded here, and says for itself whether they suit it (nodes/foreign/ttfusion_step.h).
 #pragma once
 
 #include <span>
@@ -18,6 +19,9 @@ struct StepPorts {
   bool any_reads = false;  // besides `reads`, the step reads at least one sensor's list, by a
                            // port with that sensor's name
 };
+
+// Returns whether a step's name is a library's file name, such as distance.so, and not that of the program's own code.
+bool names_library(std::string_view step);
 
 // Throws InputError with every mismatch.
 void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps);

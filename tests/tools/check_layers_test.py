@@ -118,6 +118,9 @@ class CheckLayers(unittest.TestCase):
                     "fusion/a.cpp: sources are .h and .cc", "fusion/a.cpp: fusion may not include sim")
         self.expect({"core/b.inl": "", "core/c.hpp": ""}, "core/b.inl: ", "core/c.hpp: ")
 
+    def test_examples_and_tests_may_be_in_c(self):
+        self.expect({"tests/a.c": "", "sim/b.c": ""}, "sim/b.c: sources are .h and .cc")
+
     def test_what_is_no_header_or_not_there(self):
         self.expect({"core/a.cc": '#include "core/b.cc"\n', "core/b.cc": "", "core/c.cc": '#include "core/gone.h"\n',
                      "core/d.cc": '#include "core/gone.pb.h"\n'}, "core/a.cc: ", "core/c.cc: ", "core/d.cc: ")

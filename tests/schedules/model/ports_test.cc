@@ -60,6 +60,21 @@ TEST(Ports, UnknownStep) {
   EXPECT_NE(findings[0].expected.find("fusion, gateway"), std::string::npos);
 }
 
+TEST(Ports, ALibrarysPortsAreFreeButItsNameIsAFiles) {
+  Cluster cluster = with_ports();
+  Task& task = cluster.nodes[0].tasks[1];
+  task.step = "distance.so";
+  task.writes[0].port = "anything";
+  EXPECT_TRUE(port_findings(cluster).empty());
+  for (const char* name : {".so", "../distance.so", "/lib/distance.so", "a/b.so"}) {
+    task.step = name;
+    ASSERT_EQ(port_findings(cluster).size(), 1u) << name;
+    EXPECT_EQ(port_findings(cluster)[0].sentence(),
+              std::string("small.yaml:12: nodes.all.tasks.forward.step = ") + name +
+                  ": must be a file name without a folder, such as distance.so: --steps gives the folder");
+  }
+}
+
 TEST(Ports, PortTheCodeNeedsIsMissingAndPortItDoesNotHaveIsThere) {
   Cluster cluster = with_ports();
   cluster.nodes[0].tasks[1].writes[0].port = "exit";
