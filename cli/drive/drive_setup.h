@@ -13,6 +13,7 @@
 #include "evaluation/ages/stage_account.h"
 #include "evaluation/cluster/startup_account.h"
 #include "evaluation/faults/fault_account.h"
+#include "nodes/foreign/libraries.h"
 #include "recording/log/manifest.h"
 #include "recording/log/writer.h"
 #include "recording/records/records.h"
@@ -36,7 +37,7 @@ Recording read_recording(const std::string& path);
 
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,
-                                        const Recording& recording);
+                                        const Recording& recording, const nodes::foreign::StepFolder* steps = nullptr);
 // Opens a log and attaches its scenario and cluster.
 std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
                                                      const recording::log::LogManifest& manifest,

@@ -16,6 +16,7 @@
 #include "cli/drive/recording_outputs.h"
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
+#include "cli/drive/step_options.h"
 #include "cli/drive_progress.h"
 #include "cli/output.h"
 #include "cli/shipped.h"
@@ -33,6 +34,7 @@ struct RunOptions {
   std::optional<std::string> seed, duration;
   std::string input;
   std::string out;
+  StepOptions steps;
   bool json = false;
   bool no_log = false;
   bool no_pictures = false;
@@ -40,7 +42,7 @@ struct RunOptions {
 
 StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& scenario,
                             fusion::strategies::StrategyKind strategy, std::uint64_t seed, const Recording& recording,
-                            const std::string& folder) {
+                            const std::string& folder, const nodes::foreign::StepFolder* steps) {
   StrategyResult result;
   result.strategy = strategy;
   result.cluster = checked_cluster(scenario, strategy);
@@ -57,14 +59,15 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, name_of(strategy));
     if (!options.input.empty()) refuse_overwriting(options.input, result.log_path, "--out");
-    log = begin_log(result.log_path, manifest_of(scenario, result.cluster, strategy, seed, recording), scenario,
+    log = begin_log(result.log_path, manifest_of(scenario, result.cluster, strategy, seed, recording, steps), scenario,
                     result.cluster);
     sinks.push_back(log.get());
   }
   DriveProgress progress(until ? *until : drives::drive_end(scenario), "driven");
   sinks.push_back(&progress);
   recording::records::Tee tee(sinks);
-  const drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
+  drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
+  config.steps = steps;
   result.outcome = drives::run_drive(config, tee);
   judge.finish(result);
   result.made_track = tracks.any();
@@ -83,7 +86,8 @@ struct Planned {
 };
 
 // Checks the input before any simulation, and before an earlier log is overwritten.
-Planned planned(const RunOptions& options, const std::string& file, const Recording& recording) {
+Planned planned(const RunOptions& options, const std::string& file, const Recording& recording,
+                const nodes::foreign::StepFolder* steps) {
   Planned plan;
   plan.scenario = drives::load_scenario(file);
   plan.seed = options.seed ? seed_of(*options.seed) : plan.scenario.seed;
@@ -95,16 +99,17 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
     plan.folder = alone ? options.out : options.out + "/" + named_folder(plan.scenario);
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     const schedules::model::Cluster cluster = checked_cluster(plan.scenario, strategy);
-    drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
+    drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr, steps);
     if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
   }
   return plan;
 }
 
-std::vector<Planned> all_planned(const RunOptions& options, const Recording& recording) {
+std::vector<Planned> all_planned(const RunOptions& options, const Recording& recording,
+                                 const nodes::foreign::StepFolder* steps) {
   std::vector<Planned> plans;
   for (const std::string& file : options.scenarios) {
-    Planned plan = planned(options, file, recording);
+    Planned plan = planned(options, file, recording, steps);
     const auto same = std::ranges::find(plans, plan.folder, &Planned::folder);
     if (same != plans.end())
       throw InputError(
@@ -116,13 +121,14 @@ std::vector<Planned> all_planned(const RunOptions& options, const Recording& rec
 }
 
 // Drives one scenario with each strategy, and writes its folder.
-std::vector<StrategyResult> driven(const RunOptions& options, const Planned& plan, const Recording& recording) {
+std::vector<StrategyResult> driven(const RunOptions& options, const Planned& plan, const Recording& recording,
+                                   const nodes::foreign::StepFolder* steps) {
   create_folder(plan.folder);
   std::vector<StrategyResult> results;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     fmt::print(stderr, "{}: {:g} s with {} ...\n", plan.scenario.name, plan.scenario.duration.seconds(),
                name_of(strategy));
-    results.push_back(run_strategy(options, plan.scenario, strategy, plan.seed, recording, plan.folder));
+    results.push_back(run_strategy(options, plan.scenario, strategy, plan.seed, recording, plan.folder, steps));
   }
   if (!options.no_pictures && !options.no_log) write_pictures(plan.scenario, results, plan.folder);
   write_file(plan.folder + "/summary.json", to_json(plan.scenario, plan.seed, results).dump(2) + '\n');
@@ -162,10 +168,12 @@ int run_scenarios(const RunOptions& options) {
   if (!options.input.empty() && options.scenarios.size() > 1)
     throw InputError({"command line", 0, "--input", options.input, "goes with one scenario"});
   const Recording recording = read_recording(options.input);
-  const std::vector<Planned> plans = all_planned(options, recording);
+  const std::optional<nodes::foreign::StepFolder> folder = step_folder(options.steps);
+  const nodes::foreign::StepFolder* const steps = pointer_to(folder);
+  const std::vector<Planned> plans = all_planned(options, recording, steps);
   for (const Planned& plan : plans) try_folder(plan.folder);  // before hours of driving
   std::vector<ScenarioResults> all;
-  for (const Planned& plan : plans) all.push_back({plan.scenario.name, driven(options, plan, recording)});
+  for (const Planned& plan : plans) all.push_back({plan.scenario.name, driven(options, plan, recording, steps)});
   if (options.json) {
     nlohmann::ordered_json json;
     for (std::size_t s = 0; s < plans.size(); ++s)
@@ -198,6 +206,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--duration", options->duration, "Seconds to drive, instead of the scenario's");
   command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(named());
   command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(named());
+  add_step_options(*command, options->steps);
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");

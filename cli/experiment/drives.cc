@@ -100,9 +100,10 @@ report::drive::Drive driven(const SweepDrives& drives, const experiments::result
 }
 
 std::vector<report::drive::Drive> all_driven(const report::experiment::ExperimentFolder& folder,
-                                             const std::string& file, std::uint32_t point, std::uint32_t& replication) {
+                                             const std::string& file, std::uint32_t point,
+                                             const nodes::foreign::StepFolder* steps, std::uint32_t& replication) {
   const SweepFile sweep = experiments::sweep::load_sweep(file);
-  const SweepDrives drives(sweep);
+  const SweepDrives drives(sweep, steps);
   check_same_experiment(drives, folder);
   const std::vector<experiments::results::Row> rows = first_done_by_all(*folder.store, point, folder.paradigms.size());
   if (rows.empty()) throw NoDrives(fmt::format("point {} has no replication that every paradigm has done", point));
@@ -122,7 +123,8 @@ experiments::results::Row drive_again(const SweepDrives& drives, const experimen
   const experiments::sweep::PreparedDrive drive = drives.prepare(key);
   const std::unique_ptr<recording::log::LogWriter> log = drive::begin_log(
       fmt::format("{}/{}.mcap", folder, sweep.paradigms[key.paradigm].name),
-      drive::manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario, drive.cluster);
+      drive::manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}, drives.steps()), drive.scenario,
+      drive.cluster);
   experiments::results::Row row = drives.run(key, drive, log.get());
   log->close();
   return row;
@@ -130,7 +132,8 @@ experiments::results::Row drive_again(const SweepDrives& drives, const experimen
 
 report::experiment::ExperimentDrives drives_of(const report::experiment::ExperimentFolder& folder,
                                                const std::optional<std::string>& file,
-                                               std::optional<std::uint32_t> point) {
+                                               std::optional<std::uint32_t> point,
+                                               const nodes::foreign::StepFolder* steps) {
   report::experiment::ExperimentDrives result;
   result.point = point.value_or(folder.points.front().point);
   if (std::ranges::find(folder.points, result.point, &report::experiment::ExperimentPoint::point) ==
@@ -142,7 +145,7 @@ report::experiment::ExperimentDrives drives_of(const report::experiment::Experim
   try {
     if (!folder.store) throw NoDrives("there is no results.sqlite");
     if (path.empty()) throw NoDrives("answer.json does not name the experiment's file: give --file");
-    result.drives = all_driven(folder, path, result.point, result.replication);
+    result.drives = all_driven(folder, path, result.point, steps, result.replication);
   } catch (const NoDrives& reason) {
     if (file)
       throw InputError({"command line", 0, "--file", *file, std::string("cannot be driven again: ") + reason.what()});

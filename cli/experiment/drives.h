@@ -25,6 +25,7 @@ experiments::results::Row drive_again(const experiments::sweep::SweepDrives& dri
 // the folder. Progress goes to standard error.
 report::experiment::ExperimentDrives drives_of(const report::experiment::ExperimentFolder& folder,
                                                const std::optional<std::string>& file,
-                                               std::optional<std::uint32_t> point);
+                                               std::optional<std::uint32_t> point,
+                                               const nodes::foreign::StepFolder* steps);
 
 }  // namespace ttf::cli::experiment

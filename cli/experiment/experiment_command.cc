@@ -59,6 +59,9 @@ int run_experiment(const ExperimentOptions& options) {
     if (options.replications > 0)
       throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
                         "is for sweeps: a campaign injects each fault once"});
+    if (options.steps.folder)
+      throw InputError(
+          {"command line", 0, "--steps", *options.steps.folder, "is for sweeps: a campaign runs no steps"});
     return run_fault_campaign(options);
   }
   return run_sweep_experiment(options, ranks);
@@ -91,6 +94,7 @@ void add_experiment(CLI::App& app, Action& action) {
       command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
   auto* resume = command->add_flag("--resume", options->resume, "Continue the results that are in --out");
   command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)")->check(named());
+  drive::add_step_options(*command, options->steps);
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);
   replay->excludes(shard)->excludes(merge)->excludes(resume)->excludes(json);

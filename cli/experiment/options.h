@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/drive/step_options.h"
 #include "experiments/mpi/ranks.h"
 #include "experiments/results/shard.h"
 #include "experiments/sweep/drives.h"
@@ -18,6 +19,7 @@ struct ExperimentOptions {
   std::string shard;
   std::vector<std::string> merge;
   std::optional<std::string> replay;
+  drive::StepOptions steps;
   unsigned jobs = 0;
   std::uint32_t replications = 0;  // 0: as many as in the file
   bool resume = false;

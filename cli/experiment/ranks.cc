@@ -14,6 +14,7 @@ namespace ttf::cli::experiment {
 int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks) {
   ExperimentOptions options = given;
   std::optional<experiments::sweep::SweepFile> sweep;
+  std::optional<nodes::foreign::StepFolder> folder;
   std::optional<experiments::sweep::SweepDrives> drives;
   std::exception_ptr mine;
   std::string words;
@@ -29,7 +30,8 @@ int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks)
           {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
     sweep.emplace(experiments::sweep::load_sweep(options.file));
     if (ranks.rank() == 0) settle_replications(options, *sweep);  // rank 0 tells the others their drives
-    drives.emplace(*sweep);
+    folder = drive::step_folder(options.steps);
+    drives.emplace(*sweep, drive::pointer_to(folder));
   } catch (const InputError& error) {
     mine = std::current_exception();
     words = error.findings().front().sentence();

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "cli/experiment/answer_json.h"
@@ -144,7 +145,8 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
   std::size_t shown = 0;
   store.for_each([&](const experiments::results::Row& row) {
     if (row.status == experiments::results::kDone || ++shown > kShownFailures) return;
-    const std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
+    std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
+    for (const std::string& argument : options.steps.arguments()) more += " " + argument;
     text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out out/one\n", sweep.label_of(row.key.point),
                         row.status, options.file, key_text(sweep, row.key), more);
   });
@@ -220,7 +222,8 @@ int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks
   ExperimentOptions options = given;
   SweepFile sweep = experiments::sweep::load_sweep(options.file);
   settle_replications(options, sweep);
-  const SweepDrives drives(sweep);
+  const std::optional<nodes::foreign::StepFolder> folder = drive::step_folder(options.steps);
+  const SweepDrives drives(sweep, drive::pointer_to(folder));
   if (options.replay) return replay(options, drives);
   return drive_and_answer(options, drives, alone);
 }

@@ -13,6 +13,7 @@
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
+#include "cli/drive/step_options.h"
 #include "cli/experiment/drives.h"
 #include "cli/logs/told_stages.h"
 #include "cli/logs/viewed_sensors.h"
@@ -34,6 +35,7 @@ struct ReportOptions {
   TimeWindowOptions window;
   std::optional<std::string> file;
   std::optional<std::uint32_t> point;
+  drive::StepOptions steps;
   bool no_drives = false;
   std::string out;
 };
@@ -55,7 +57,8 @@ void describe(std::vector<report::drive::Drive>& drives) {
 std::string experiment_html(const ReportOptions& options, report::drive::DiagramWindow window) {
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.folders[0]);
   report::experiment::ExperimentDrives drives;
-  if (!options.no_drives) drives = experiment::drives_of(folder, options.file, options.point);
+  const std::optional<nodes::foreign::StepFolder> steps = drive::step_folder(options.steps);
+  if (!options.no_drives) drives = experiment::drives_of(folder, options.file, options.point, drive::pointer_to(steps));
   describe(drives.drives);
   if (!drives.why_none.empty()) print_warnings(drives.why_none);
   window.most = kMostDrives;
@@ -99,7 +102,7 @@ std::string html(const ReportOptions& options) {
   if (experiments == 0) {
     for (const auto& [name, given] :
          {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
-          std::pair("--no-drives", options.no_drives)})
+          std::pair("--steps", options.steps.folder.has_value()), std::pair("--no-drives", options.no_drives)})
       if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
     std::vector<report::drive::ResultsFolder> folders;
     for (const std::string& path : options.folders) {
@@ -161,6 +164,7 @@ void add_report(CLI::App& app, Action& action) {
           ->check(whole_number({0, experiments::sweep::kMostPoints - 1}));
   auto* none = command->add_flag("--no-drives", options->no_drives, "Drive nothing again: no timing diagrams");
   none->excludes(file)->excludes(point);
+  drive::add_step_options(*command, options->steps);
   command->add_option("-o,--out", options->out, "The page to write, .html")->required()->check(named());
   command->callback([options, &action] { action = [options] { return run_report(*options); }; });
 }

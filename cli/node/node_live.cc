@@ -144,7 +144,8 @@ nodes::runner::RunnerConfig config_of(const NodeOptions& options, const Start& s
 }
 
 recording::log::LogManifest wall_manifest(const node_set::NodeSet& set) {
-  recording::log::LogManifest manifest = drive::manifest_of(set.scenario, set.cluster, set.strategy, set.seed, {});
+  recording::log::LogManifest manifest =
+      drive::manifest_of(set.scenario, set.cluster, set.strategy, set.seed, {}, drive::pointer_to(set.steps));
   manifest.clock = recording::log::kWallClock;
   manifest.host = set.host;
   manifest.time_scale_ppm = set.time_scale_ppm;
@@ -165,7 +166,8 @@ int run_node_live(const NodeOptions& options) {
   if (set.topics) check_topics(set);
   create_folder(set.folder);
   const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
-  const drives::NodeSetConfig code{&set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr};
+  const drives::NodeSetConfig code{
+      &set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr, drive::pointer_to(set.steps)};
   auto steps = drives::make_steps(code, options.node);
   const auto medium = set.bus.medium->make({set.cluster, options.node, set.bus.interfaces, set.can_interfaces,
                                             set.session, supervisor ? kLivePatience : std::chrono::milliseconds{0}});

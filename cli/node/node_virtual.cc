@@ -43,8 +43,9 @@ int run_node_virtual(const NodeOptions& options) {
     if (!supervisor->wait_for_start()) throw std::runtime_error("the supervisor ended before the start");
   }
   const drive::Recording none;
-  const node_set::NodeDrive drive{&set.scenario, &set.cluster, set.strategy, set.seed,
-                                  &none,         options.node, options.log};
+  const node_set::NodeDrive drive{&set.scenario, &set.cluster, set.strategy,
+                                  set.seed,      &none,        drive::pointer_to(set.steps),
+                                  options.node,  options.log};
   const drives::DriveOutcome outcome = run_node_drive(drive, exchange);
   exchange.leave();
   const nlohmann::ordered_json json = node_set::outcome_json(outcome);

@@ -27,11 +27,13 @@ static_assert(sizeof(ExecutiveCounts) == std::size(kCounts) * sizeof(std::uint64
 
 drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange) {
   const auto log = drive::begin_log(
-      drive.log_path, manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording),
+      drive.log_path,
+      manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording, drive.steps),
       *drive.scenario, *drive.cluster);
   sim::processes::TurnTaking others(*drive.cluster, drive.node, exchange);
-  const drives::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
-                                   drive.recording->rows, &others};
+  drives::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
+                             drive.recording->rows, &others};
+  config.steps = drive.steps;
   drives::DriveOutcome outcome = drives::run_drive(config, *log);
   log->close();
   return outcome;

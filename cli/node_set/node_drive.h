@@ -21,6 +21,7 @@ struct NodeDrive {
   fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;
   const drive::Recording* recording = nullptr;
+  const nodes::foreign::StepFolder* steps = nullptr;
   NodeId node{};
   std::string log_path;
 };

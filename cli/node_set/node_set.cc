@@ -135,6 +135,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
   command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
   command.add_option("--duration", arguments.duration,
                      "Seconds to drive, instead of the scenario's; 0: until it is stopped, an hour at most");
+  drive::add_step_options(command, arguments.steps);
 }
 
 NodeSet read_node_set(const NodeSetArguments& arguments) {
@@ -156,6 +157,9 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.rejoin = arguments.rejoin;
   set.host = arguments.host ? host_option(*arguments.host) : this_host();
 
+  set.step_options = arguments.steps;
+  set.steps = drive::step_folder(arguments.steps);
+
   std::string drive = set.file;  // the name in messages
   if (kind_of_file(set.file) == FileKind::kCluster) {
     set.cluster = drive::checked_cluster(set.file);
@@ -174,7 +178,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     set.scenario.duration = set.scenario.world.duration = drive::kLongestDrive;
   else if (arguments.duration)
     drive::set_duration(set.scenario, drive, *arguments.duration);
-  drives::check_fits(set.scenario, set.cluster, set.strategy, false);
+  drives::check_fits(set.scenario, set.cluster, set.strategy, false, drive::pointer_to(set.steps));
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (!set.virtual_time) check_fit_for_real_time(set);
   set.folder = arguments.out.empty() ? drive::folder_of(set.scenario) + "/launch" : arguments.out;
@@ -201,6 +205,7 @@ std::vector<std::string> NodeSet::options() const {
   else
     list.insert(list.end(), {"--time-scale", schedules::check::time_scale_text(time_scale_ppm)});
   if (!virtual_time && !topics) list.emplace_back("--no-topics");
+  for (std::string& option : step_options.arguments()) list.push_back(std::move(option));
   list.insert(list.end(), {"--out", folder});
   return list;
 }

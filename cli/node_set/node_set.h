@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/drive/step_options.h"
 #include "cli/live_media/bus.h"
 #include "core/time.h"
 #include "drives/scenario.h"
@@ -24,6 +25,7 @@ struct NodeSetArguments {
   std::vector<std::string> cans;  // NAME=IF
   std::string session = "ttfusion";
   std::string out;
+  drive::StepOptions steps;
   bool virtual_time = false;
   bool no_topics = false;
   // For a node started by hand.
@@ -51,7 +53,9 @@ struct NodeSet {
   std::string host;     // names the machine's clock in the node's log, for merging logs of several machines
   bool rejoin = false;  // begins cold and integrates into the running cluster; in real time only
   bool topics = true;   // publishes the drive for ROS 2; in real time only
-  std::string folder;   // receives the nodes' logs: NAME.mcap (supervision::file_stem)
+  drive::StepOptions step_options;
+  std::optional<nodes::foreign::StepFolder> steps;
+  std::string folder;  // receives the nodes' logs: NAME.mcap (supervision::file_stem)
 
   // Returns whether its medium or its topics use DDS.
   bool needs_dds() const { return topics || bus.medium->needs_dds; }

@@ -7,6 +7,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/file_bytes.h"
 #include "core/hash.h"
@@ -43,7 +44,8 @@ std::string_view kind_words(std::string_view key) {
 
 }  // namespace
 
-SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
+SweepDrives::SweepDrives(const SweepFile& sweep, const nodes::foreign::StepFolder* steps)
+    : sweep_(sweep), steps_(steps) {
   read_files();
   const std::size_t points = sweep.points();
   const auto each_paradigm = [&](std::uint32_t point) {
@@ -66,6 +68,7 @@ SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
   std::sort(others.begin(), others.end());
   std::string all = sweep.text + '\0' + texts_.at(sweep.scenario_file);
   for (const std::string& other : others) all += '\0' + other;
+  for (const auto& [name, hash] : libraries_) all += '\0' + name + '\0' + hash;
   identity_ = hex_hash(all);
 }
 
@@ -100,14 +103,15 @@ void SweepDrives::read_files() {
 }
 
 // Adds the point to the sentences of errors.
-void SweepDrives::prepare_at(const results::RowKey& key) const {
+void SweepDrives::prepare_at(const results::RowKey& key) {
   try {
     std::vector<double> low, high;
     for (const Axis* axis : sweep_.drawn()) {
       low.push_back(axis->low);
       high.push_back(axis->high);
     }
-    (void)prepare(key, low);
+    for (auto& library : nodes::foreign::library_hashes(prepare(key, low).cluster, steps_))
+      libraries_.insert(std::move(library));
     if (!high.empty()) (void)prepare(key, high);
   } catch (const InputError& error) {
     Findings findings;
@@ -189,7 +193,7 @@ PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector
   drive.cluster = schedules::file::parse_cluster(edited(edits, true, file), file);
   if (auto findings = schedules::check::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
   schedules::model::bind_ports(drive.cluster, drives::step_ports());
-  drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
+  drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false, steps_);
   return drive;
 }
 
@@ -221,9 +225,10 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
       sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);
-    const drives::DriveConfig config{
+    drives::DriveConfig config{
         &drive.scenario, &drive.cluster, drive.strategy, sweep_.seed,
         key.replication, nullptr,        nullptr,        listener != nullptr || asked_for("precision")};
+    config.steps = steps_;
     const drives::DriveOutcome outcome = drives::run_drive(config, tee);
     evaluation::accuracy::DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -

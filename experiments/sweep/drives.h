@@ -9,6 +9,7 @@
 #include "drives/scenario.h"
 #include "experiments/results/store.h"
 #include "experiments/sweep/file.h"
+#include "nodes/foreign/libraries.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
@@ -25,8 +26,8 @@ class SweepDrives {
  public:
   // Prepares every point of a small grid; of a large one, every value of every axis, and both ends of drawn
   // values. Errors are thus known before any drive. Throws InputError, whose sentences name file, line and
-  // point.
-  explicit SweepDrives(const SweepFile& sweep);
+  // point. `steps` must outlive this.
+  explicit SweepDrives(const SweepFile& sweep, const nodes::foreign::StepFolder* steps = nullptr);
 
   // Throws InputError.
   PreparedDrive prepare(const results::RowKey& key) const;
@@ -42,21 +43,24 @@ class SweepDrives {
 
   // The store's columns; a drawn axis has its name in the file.
   std::vector<std::string> columns() const;
-  // A hash of all files behind the drives.
+  // A hash of all files behind the drives, libraries included.
   const std::string& identity() const { return identity_; }
   const SweepFile& sweep() const { return sweep_; }
+  const nodes::foreign::StepFolder* steps() const { return steps_; }
 
  private:
   PreparedDrive prepare(const results::RowKey& key, const std::vector<double>& drawn) const;
   void read_files();
-  void prepare_at(const results::RowKey& key) const;
+  void prepare_at(const results::RowKey& key);
   std::vector<Edit> edits_of(const results::RowKey& key, const std::vector<double>& drawn) const;
   // Applies the edits of a cluster, or of a scenario, to the text of the file `name`.
   std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
   void plan_faults(const std::string& file, drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
-  std::map<std::string, std::string> texts_;  // scenarios, clusters and fault plans, by path
+  const nodes::foreign::StepFolder* steps_;
+  std::map<std::string, std::string> texts_;      // scenarios, clusters and fault plans, by path
+  std::map<std::string, std::string> libraries_;  // hashes by name
   std::string identity_;
 };
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs a build, tries the program and its shipped files there, and builds the example project against it: with the
+# Installs a build, tries the program and its shipped files there, and builds the example projects against it: with the
 # compiler's defaults, for this machine's processor and by clang++. Then the same as a part of the example's own build, and a
 # Debian package.
 #   install_test.sh PROGRAM SOURCE_DIR
@@ -31,6 +31,15 @@ for file in man/man1/ttfusion.1 man/man1/ttfusion-schedule.1 bash-completion/com
   doc/ttfusion/docs/installing.md ttfusion/experiments/faults/camera_crash.yaml ttfusion/schemas/cluster.schema.json; do
   [[ -s $share/$file ]] || fail "$file is not installed"
 done
+# The example of a step of one's own, with the installed header.
+if cmake -G Ninja -S "$share/doc/ttfusion/examples/step" -B "$work/steps" "-DCMAKE_PREFIX_PATH=$prefix" >"$work/steps.txt" 2>&1 &&
+  cmake --build "$work/steps" >>"$work/steps.txt" 2>&1; then
+  grep -q "TTFUSION_STEP_INCLUDE:PATH=$prefix/include/ttfusion" "$work/steps/CMakeCache.txt" || fail "the example takes another header"
+  expect 0 's: lamp on, nearest object at' run "$share/doc/ttfusion/examples/step/scenario.yaml" --strategy tt --no-pictures \
+    --steps "$work/steps"
+else
+  fail "the example of a step does not build: $(tail -n 30 "$work/steps.txt")"
+fi
 [[ -z $(compgen -G "$build/own_symbols.*") && ! -e $build/manual ]] || fail "files stay in the build folder"
 [[ -z $(find "$prefix" -name '*.cc' -not -path '*/examples/*') ]] || fail "sources are installed"
 [[ -z $(find "$prefix" -type d -empty) ]] || fail "empty folders are installed"
