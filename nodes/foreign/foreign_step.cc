@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,7 @@ namespace ttf::nodes::foreign {
 namespace {
 
 constexpr std::size_t kLongestWords = 400;  // about a refused task
+constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 62;
 
 Finding place_of(const schedules::model::Cluster& cluster, const schedules::model::Node& node,
                  const schedules::model::Task& task) {
@@ -123,6 +125,9 @@ void ForeignStep::give(const Out& out, host::Output& output) const {
     if (!std::isfinite(out.values[v]))
       fail(fmt::format("gave {} as {} of element {} to the port {}: values must be finite", out.values[v],
                        layout.element[v % signals].name, v / signals, output.port()));
+  if (out.list.time_stamp_ns < -kFarthest_ns || out.list.time_stamp_ns > kFarthest_ns)
+    fail(fmt::format("gave the time stamp {} ns to the port {}: it must be within 2^62 ns", out.list.time_stamp_ns,
+                     output.port()));
   output.begin(out.list.sequence, count, GlobalTime{out.list.time_stamp_ns});
   for (int e = 0; e < count; ++e)
     for (std::size_t s = 0; s < signals; ++s) output.set(e, s, out.values[static_cast<std::size_t>(e) * signals + s]);

@@ -118,8 +118,8 @@ TTF_STEP_EXPORT uint32_t ttf_step_abi(void);
 TTF_STEP_EXPORT void* ttf_step_create(const ttf_step_task* task, char* error, size_t error_size);
 
 /* Runs the step once. Returns 0; any other value is a failure of the step, which ends the node.
- * A value that is not finite and a count above the capacity end the node, too. A value outside its signal's range is sent
- * as the nearest end of it, and counted. */
+ * A value that is not finite, a count above the capacity and a time stamp beyond 2^62 ns end the node, too. A value outside
+ * its signal's range is sent as the nearest end of it, and counted. */
 TTF_STEP_EXPORT int ttf_step_run(void* self, const ttf_step_context* context);
 
 /* Frees the state. */

@@ -107,6 +107,8 @@ TEST(ForeignStep, ListsThatAPortCannotHoldEndTheNode) {
   EXPECT_THAT(with_list("too_many.so"), HasSubstr("gave 1000 elements to the port out, which has room for 25"));
   EXPECT_THAT(with_list("not_finite.so"),
               HasSubstr("gave nan as y of element 0 to the port out: values must be finite"));
+  EXPECT_THAT(with_list("too_late.so"),
+              HasSubstr("gave the time stamp 9223372036854775807 ns to the port out: it must be within 2^62 ns"));
 }
 
 // Each runs the test program anew: a fork would have no timer.
