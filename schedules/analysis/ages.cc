@@ -199,10 +199,10 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   const Duration held = ages.held_for_arrivals(paths);
   for (AgePath& path : paths) {
     ages.buffer(path, releases, held);
-    bool held = false;
+    bool fused = false;
     for (Waypoint& point : path.waypoints) {
-      held = held || point.kind == Waypoint::Kind::kFused;
-      if (!held) point.buffered_worst = point.worst;
+      fused = fused || point.kind == Waypoint::Kind::kFused;
+      if (!fused) point.buffered_worst = point.worst;
       if (point.kind == Waypoint::Kind::kFused) point.buffered_worst = path.buffered_fused_worst;
       if (point.kind == Waypoint::Kind::kUsed) point.buffered_worst = path.buffered_use_worst;
     }
