@@ -1,4 +1,4 @@
-// Who is late for the barrier at the start. Those who are not late have little time, so these tests run by the wall clock.
+// Nodes that are late for the barrier at the start. The others have little time, so these tests run by the wall clock.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
