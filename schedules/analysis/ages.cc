@@ -28,16 +28,21 @@ class Ages {
     if (path.stages.empty()) return std::nullopt;
     AgePath ages;
     ages.sensor = id;
-    bounds(path, id, path.available, ages.fusion_best, ages.fusion_worst, &ages.to_fusion);
-    bounds(path, id, path.fused, ages.fused_best, ages.fused_worst, nullptr);
+    const model::Sensor& sensor = cluster_.sensor(id);
+    const std::size_t last = std::max(path.used, path.fused);
+    const Bounds all{extremes(path, sensor, last, false), extremes(path, sensor, last, true)};
+    bounds(all, path.available, ages.fusion_best, ages.fusion_worst);
+    ages.to_fusion = contributions(path, all, path.available);
+    bounds(all, path.fused, ages.fused_best, ages.fused_worst);
     ages.reaches_use = path.used != 0;
     for (Waypoint point : path.waypoints) {
       if (!ages.reaches_use && point.stages > path.fused) break;
-      bounds(path, id, point.stages, point.best, point.worst, nullptr);
+      bounds(all, point.stages, point.best, point.worst);
       ages.waypoints.push_back(point);
     }
     if (!ages.reaches_use) return ages;
-    bounds(path, id, path.used, ages.use_best, ages.use_worst, &ages.to_use);
+    bounds(all, path.used, ages.use_best, ages.use_worst);
+    ages.to_use = contributions(path, all, path.used);
     ages.newest_worst = ages.use_worst + until_next_newest(path, id);
     return ages;
   }
@@ -128,59 +133,62 @@ class Ages {
     return {std::max<std::int64_t>(0, longest_between(id).ns - between_uses)};
   }
 
-  Extreme extreme(const Path& path, const model::Sensor& sensor, std::size_t last, bool latest) const {
-    Extreme found;
-    std::vector<std::int64_t> before;
-    const auto consider = [&](const std::vector<std::int64_t>& shares) {
-      std::int64_t sum = 0;
-      for (const std::int64_t share : shares) sum += share;
-      if (!found.shares.empty() && (latest ? sum <= found.sum : sum >= found.sum)) return;
-      found = {shares, sum, sum};
-      for (const std::int64_t share : before) found.on_grid -= share;
-    };
+  // Returns the extreme walks behind 0, 1, ... and `last` stages.
+  std::vector<Extreme> extremes(const Path& path, const model::Sensor& sensor, std::size_t last, bool latest) const {
+    std::vector<Extreme> found(last + 1);
     // Before the first stage on the grid, all stages of a free-running sensor are spans.
     std::size_t gate = 0;
     if (!sensor.scheduled)
       for (; gate < last && !path.stages[gate].on_grid(latest); ++gate) {
         const Stage& stage = path.stages[gate];
-        before.push_back(latest                              ? stage.worst.ns
-                         : stage.kind == Stage::Kind::kSlots ? stage.shortest.ns
-                                                             : stage.best.ns);
+        found[gate + 1] = found[gate];
+        found[gate + 1].shares.push_back(latest                              ? stage.worst.ns
+                                         : stage.kind == Stage::Kind::kSlots ? stage.shortest.ns
+                                                                             : stage.best.ns);
+        found[gate + 1].sum += found[gate + 1].shares.back();
       }
+    if (gate == last) return found;
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
       for (std::int64_t cycle = model::kFromCycle; cycle < model::kFromCycle + model::kCycles; ++cycle)
         if (in_cycle(sensor.at, cycle)) starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
-    } else if (gate < last) {
-      starts = entries(cluster_, path.stages[gate], model::kFromCycle, latest);
     } else {
-      starts.push_back(0);
+      starts = entries(cluster_, path.stages[gate], model::kFromCycle, latest);
     }
+    const Extreme before = found[gate];
     for (const std::int64_t start : starts) {
-      std::vector<std::int64_t> shares = before;
-      std::int64_t at = start;
-      for (const std::int64_t instant : walk(cluster_, path, gate, last, start, latest, !sensor.scheduled)) {
-        shares.push_back(instant - at);
-        at = instant;
+      const std::vector<std::int64_t> instants = walk(cluster_, path, gate, last, start, latest, !sensor.scheduled);
+      for (std::size_t i = 0; i < instants.size(); ++i) {
+        Extreme& extreme = found[gate + i + 1];
+        const std::int64_t on_grid = instants[i] - start, sum = before.sum + on_grid;
+        if (!extreme.shares.empty() && (latest ? sum <= extreme.sum : sum >= extreme.sum)) continue;
+        extreme = {before.shares, sum, on_grid};
+        for (std::size_t k = 0; k <= i; ++k) extreme.shares.push_back(instants[k] - (k == 0 ? start : instants[k - 1]));
       }
-      consider(shares);
     }
     return found;
   }
 
-  void bounds(const Path& path, SensorId id, std::size_t last, Duration& best, Duration& worst,
-              std::vector<Contribution>* contributions) const {
-    const model::Sensor& sensor = cluster_.sensor(id);
-    const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
-    // Spans before the grid already include their drift against any clock.
-    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.on_grid));
-    const std::int64_t clocks_high = clocks_.apart_ns + clocks_.drift_ns(high.on_grid);
-    best = {low.sum - clocks_low};
-    worst = {high.sum + clocks_high};
-    if (contributions == nullptr) return;
-    for (std::size_t i = 0; i < last; ++i)
-      contributions->push_back({path.stages[i].name, {low.shares[i]}, {high.shares[i]}});
-    contributions->push_back({"clocks differ", {-clocks_low}, {clocks_high}});
+  // Spans before the grid already include their drift against any clock.
+  std::int64_t clocks_low(const Extreme& low) const {
+    return std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.on_grid));
+  }
+  std::int64_t clocks_high(const Extreme& high) const { return clocks_.apart_ns + clocks_.drift_ns(high.on_grid); }
+
+  // Bounds of the age behind each number of stages.
+  struct Bounds {
+    std::vector<Extreme> low, high;
+  };
+  void bounds(const Bounds& all, std::size_t stages, Duration& best, Duration& worst) const {
+    best = {all.low[stages].sum - clocks_low(all.low[stages])};
+    worst = {all.high[stages].sum + clocks_high(all.high[stages])};
+  }
+  std::vector<Contribution> contributions(const Path& path, const Bounds& all, std::size_t stages) const {
+    std::vector<Contribution> parts;
+    for (std::size_t i = 0; i < stages; ++i)
+      parts.push_back({path.stages[i].name, {all.low[stages].shares[i]}, {all.high[stages].shares[i]}});
+    parts.push_back({"clocks differ", {-clocks_low(all.low[stages])}, {clocks_high(all.high[stages])}});
+    return parts;
   }
 
   const model::Cluster& cluster_;
