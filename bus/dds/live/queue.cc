@@ -44,6 +44,7 @@ bool LiveQueue::pop(LiveItem& item) {
   const std::size_t emptied = emptied_.load(std::memory_order_relaxed);
   const LiveItem& first = (*items_)[emptied % kRoom];
   item.arrival = first.arrival;
+  item.malformed = first.malformed;
   item.size = first.size;
   std::copy_n(first.bytes.begin(), first.size, item.bytes.begin());
   emptied_.store(emptied + 1);

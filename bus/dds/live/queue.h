@@ -14,6 +14,7 @@ namespace ttf::bus::dds::live {
 
 struct LiveItem {
   ports::LiveArrival arrival;  // its spans are empty: the bytes are below
+  bool malformed = false;      // for a listener: no node ever sees one
   std::size_t size = 0;
   std::array<std::byte, wire::kMaxFrameBytes> bytes{};
 };

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/dds/common/host_identity.h"
+#include "bus/dds/live/listener.h"
 #include "bus/dds/live/live_sample.h"
 #include "core/check.h"
 #include "tests/bus/dds/common/sessions.h"
@@ -179,6 +181,71 @@ TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
     EXPECT_GE(arrival->received, now);
   }
   EXPECT_EQ(heard, all.size());
+}
+
+// A listener hears the identifiers it was given, of a stranger that names no node; malformed frames, too.
+TEST(DdsListener, HearsWhatNodesWouldAndWhatTheyRefuse) {
+  const bus::dds::common::Session session = bus::dds::common::session(2);
+  auto plans = bus::dds::live::live_lines(2);
+  bus::dds::live::DdsListener listener(session, plans, {.slots = {2, 3}, .can = {{}, {0x50}}});
+  auto heard_by_one = plans;
+  for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
+  Stranger on_a(session, heard_by_one[0]), on_can(session, heard_by_one[3]);
+  using Form = bus::ports::Heard::Form;
+  std::vector<std::pair<Form, int>> all;  // with slot or identifier
+  const auto next = [&](std::size_t more) {
+    const auto deadline = std::chrono::steady_clock::now() + 10s;
+    for (more += all.size(); all.size() < more && std::chrono::steady_clock::now() < deadline;) {
+      const auto heard = listener.hear();
+      if (!heard) continue;
+      all.emplace_back(heard->form, heard->line == 0 ? heard->slot : static_cast<int>(heard->can.identifier));
+      EXPECT_GT(heard->at, bus::ports::MachineTime{});
+      if (heard->form == Form::kFollowUp) {
+        EXPECT_EQ(heard->late, Duration::nanoseconds(77));
+      }
+    }
+  };
+  const auto said = [](auto&& change) {
+    ttf_LiveSample sample{};
+    sample.slot = 2;
+    sample.identifier = 0x50;
+    change(sample);
+    return sample;
+  };
+  using Sample = ttf_LiveSample;
+  on_a.say(said([](Sample& s) { s.number = 0; }), 8);
+  on_a.say(said([](Sample& s) { s.number = 1, s.slot = 4; }), 8);  // not heard
+  on_a.say(said([](Sample& s) { s.number = 2, s.slot = 3, s.tells_late = 1, s.late = 77; }), 8);
+  on_a.say(said([](Sample& s) { s.number = 3, s.kind = 1, s.duration = 9; }), 0);  // a symbol
+  on_a.say(said([](Sample& s) { s.number = 2; }), 8);                              // a number again
+  on_a.say(said([](Sample& s) { s.sender = 200; }), 8);                            // not on the line
+  on_a.say(said([](Sample& s) { s.number = 4; }), 7);                              // too short
+  on_a.say(said([](Sample& s) { s.number = 4, s.slot = 3; }), 8);
+  next(7);
+  on_can.say(said([](Sample& s) { s.number = 0, s.kind = 5, s.identifier = 0x51; }), 8);  // not heard
+  on_can.say(said([](Sample& s) { s.number = 1, s.kind = 5; }), 9);                       // no length of CAN FD
+  on_can.say(said([](Sample& s) { s.number = 1, s.kind = 5; }), 12);
+  next(2);
+  const std::vector<std::pair<Form, int>> expected{
+      {Form::kFrame, 2},     {Form::kFrame, 3}, {Form::kFollowUp, 3},     {Form::kMalformed, 2}, {Form::kMalformed, 2},
+      {Form::kMalformed, 2}, {Form::kFrame, 3}, {Form::kMalformed, 0x50}, {Form::kCan, 0x50}};
+  EXPECT_EQ(all, expected);
+  EXPECT_FALSE(listener.hear());
+  EXPECT_EQ(listener.lost(), 0u);
+  EXPECT_EQ(listener.failure(), "");
+}
+
+// A listener changes nothing for the members, which await no late node either.
+TEST(DdsListener, IsNoMember) {
+  const bus::dds::common::Session session = bus::dds::common::session(3);
+  auto plans = bus::dds::live::live_lines(3);
+  const bus::dds::live::DdsListener listener(session, plans, {.slots = {1}, .can = {{}, {}}});
+  for (auto& plan : plans) plan.not_awaited = {NodeId{2}};
+  const bus::dds::live::DdsMedium first(session, NodeId{0}, bus::dds::live::lines_of(plans, NodeId{0}));
+  EXPECT_THROW(first.wait_ready(50ms), bus::dds::common::NotReady);
+  const bus::dds::live::DdsMedium second(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
+  first.wait_ready(30s);
+  second.wait_ready(30s);
 }
 
 }  // namespace
