@@ -127,7 +127,8 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   const std::optional<drive::StrategyResult> result = drive.result(folder.logs());
   const drive::StrategyResult* const told = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
-  if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told), plan.externals));
+  if (watch.begun())
+    end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told), plan.set.externals));
   const std::vector<external::Account> accounts = drive.accounts();
   std::optional<Verdict> verdict;
   if (result && result->real_time)
@@ -177,8 +178,6 @@ void add_launch(CLI::App& app, Action& action) {
       ->add_option("--policy", arguments->policies,
                    "NODE=required (default), NODE=restart or NODE=optional; once for each node")
       ->allow_extra_args(false);
-  command->add_option("--external", arguments->external,
-                      "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/attach_a_node.md)");
   command->add_flag("--dry-run", arguments->dry_run, "Show the plan and whether its needs are met, but start nothing");
   command
       ->add_option("--out", arguments->set.out, "Folder for logs, output and manifest (default: out/<scenario>/launch)")

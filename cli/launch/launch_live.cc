@@ -40,8 +40,8 @@ void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLog
 }  // namespace
 
 LiveLaunch::LiveLaunch(const LaunchPlan& plan)
-    : set_(plan.set), processes_(plan.set.cluster.nodes.size() - plan.externals.size()) {
-  if (!plan.externals.empty()) hearing_.emplace(plan.set, plan.externals);
+    : set_(plan.set), processes_(plan.set.cluster.nodes.size() - plan.set.externals.size()) {
+  if (!plan.set.externals.empty()) hearing_.emplace(plan.set, plan.set.externals);
 }
 
 supervision::Hooks LiveLaunch::hooks() {

@@ -48,30 +48,6 @@ void set_policies(const std::vector<std::string>& texts, const schedules::model:
   }
 }
 
-InputError external_refused(const std::string& text, std::string expected) {
-  return InputError({"command line", 0, "--external", text, std::move(expected)});
-}
-
-// Parses --external NODE[,NODE].
-std::vector<NodeId> external_nodes(const std::string& text, const node_set::NodeSet& set) {
-  if (set.virtual_time)
-    throw external_refused(text, "must not be given with --virtual-time: a real node keeps real time");
-  if (set.bus.medium->listen == nullptr)
-    throw external_refused(text, fmt::format("must be given with --bus {}: a launch cannot hear a real node on {}",
-                                             live_media::forms_with_interfaces(), set.bus.medium->name));
-  std::vector<NodeId> nodes;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const NodeId node = node_set::node_of(set.cluster, text.substr(from, comma - from), "--external", text);
-    if (std::ranges::find(nodes, node) != nodes.end()) throw external_refused(text, "must name each node once");
-    nodes.push_back(node);
-    from = comma + 1;
-  }
-  if (nodes.size() == set.cluster.nodes.size())
-    throw external_refused(text, "must leave at least one node to the launch");
-  return nodes;
-}
-
 void refuse_restart_of_external(const LaunchPlan& plan) {
   for (const supervision::NodeSpec& node : plan.nodes)
     if (node.external && node.policy == supervision::Policy::kRestart)
@@ -86,7 +62,7 @@ std::string new_session() {
 }
 
 external::DutyPlaces places_of(const LaunchPlan& plan) {
-  return {plan.set.cluster, plan.set.bus, plan.set.can_interfaces};
+  return {plan.set.cluster, plan.set.bus, plan.set.can_interfaces, plan.set.session};
 }
 
 void refuse_restart_in_virtual_time(const LaunchPlan& plan) {
@@ -112,8 +88,7 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
     spec.command.arguments.insert(spec.command.arguments.end(), options.begin(), options.end());
     plan.nodes.push_back(std::move(spec));
   }
-  if (arguments.external) plan.externals = external_nodes(*arguments.external, plan.set);
-  for (const NodeId node : plan.externals) {
+  for (const NodeId node : plan.set.externals) {
     supervision::NodeSpec& spec = plan.nodes[index_of(node)];
     spec.external = true;
     spec.command = {};
@@ -168,8 +143,8 @@ void show_plan(const LaunchPlan& plan, bool as_json) {
           {{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
     else
       json["nodes"].push_back({{"name", node.name}, {"policy", name_of(node.policy)}, {"external", true}});
-  for (std::size_t i = 0; i < plan.externals.size(); ++i)
-    json["nodes"][index_of(plan.externals[i])]["must_send"] = external::json_of(plan.duties[i], places_of(plan));
+  for (std::size_t i = 0; i < plan.set.externals.size(); ++i)
+    json["nodes"][index_of(plan.set.externals[i])]["must_send"] = external::json_of(plan.duties[i], places_of(plan));
   fmt::print("{}\n", json.dump(2));
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,14 +9,12 @@
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/preflight.h"
 #include "cli/supervision/supervisor.h"
-#include "core/ids.h"
 
 namespace ttf::cli::launch {
 
 struct LaunchArguments {
   node_set::NodeSetArguments set;
   std::vector<std::string> policies;
-  std::optional<std::string> external;  // NODE[,NODE]
   bool dry_run = false;
   bool json = false;
   bool no_pictures = false;
@@ -28,8 +25,7 @@ struct LaunchArguments {
 struct LaunchPlan {
   node_set::NodeSet set;
   std::vector<supervision::NodeSpec> nodes;
-  std::vector<NodeId> externals;
-  std::vector<external::Duties> duties;  // of these
+  std::vector<external::Duties> duties;  // one for each of set.externals
   std::vector<supervision::PreflightItem> preflight;
 };
 // Throws InputError for an invalid command line; a missing prerequisite is only in the preflight.

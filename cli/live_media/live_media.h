@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bus/ports/listener.h"
@@ -32,16 +33,30 @@ struct MediumSetting {
   // Interfaces, if the medium has any: of channel A and optionally of channel B; by Cluster::can_buses.
   const std::vector<std::string>& channel_interfaces;
   const std::vector<std::string>& can_interfaces;
-  const std::string& session;          // keeps out messages of other sessions
-  std::chrono::milliseconds patience;  // the longest wait for the other nodes, if the medium must find them first
+  const std::string& session;                  // keeps out messages of other sessions
+  std::chrono::milliseconds patience;          // the longest wait for others, if the medium must find them first
+  const std::vector<NodeId>& real_nodes = {};  // not the program's own, and not waited for
 };
 
-// The setting of a listener, with the interfaces of a MediumSetting.
+// The setting of a listener, with the interfaces and the session of a MediumSetting.
 struct ListenerSetting {
   const schedules::model::Cluster& cluster;
   const std::vector<std::string>& channel_interfaces;
   const std::vector<std::string>& can_interfaces;
+  const std::string& session;
   const bus::ports::HeardIdentifiers& identifiers;
+};
+
+// How a node's frames travel on a medium without interfaces: each as a sample with fields, in words.
+struct Carriage {
+  struct Field {
+    std::string name, type;
+    std::string of_slot, on_can;  // its value in a frame of a slot, and in one of a private CAN
+  };
+  std::vector<std::string> places;  // by bus::ports::Line: "ttf/flexray/A"
+  // The common properties: {"partition", "ttfusion"}.
+  std::vector<std::pair<std::string, std::string>> properties;
+  std::vector<Field> fields;
 };
 
 struct LiveMediumRow {
@@ -61,8 +76,10 @@ struct LiveMediumRow {
   // std::runtime_error if the medium does not start.
   std::unique_ptr<bus::ports::LiveMedium> (*make)(const MediumSetting& setting) = nullptr;
 
-  // Makes a listener for nodes that are not the program's own; null where none of them can be heard. Throws as `make`.
+  // Makes a listener for nodes that are not the program's own. Throws as `make`.
   std::unique_ptr<bus::ports::Listener> (*listen)(const ListenerSetting& setting) = nullptr;
+  // Returns how the frames of a node travel; null for a medium with interfaces, which carry them as they are.
+  Carriage (*carriage)(const schedules::model::Cluster& cluster, NodeId node, const std::string& session) = nullptr;
 
   bool has_interfaces() const { return most_interfaces > 0; }
 };

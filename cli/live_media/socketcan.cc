@@ -86,6 +86,7 @@ const LiveMediumRow kSocketCan{
                         : "to have CANs without root: tools/test_bed.sh (docs/socketcan_use.md)",
     .make = make_socketcan,
     .listen = listen_to_cans,
+    .carriage = nullptr,
 };
 
 }  // namespace ttf::cli::live_media

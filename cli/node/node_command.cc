@@ -1,5 +1,6 @@
 #include "cli/node/node_command.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/argument_checks.h"
@@ -20,6 +21,8 @@ int run_node(const NodeArguments& arguments) {
   NodeOptions options;
   options.set = read_node_set(arguments.set);
   options.node = node_set::node_of(options.set.cluster, arguments.name, "name", arguments.name);
+  if (std::ranges::find(options.set.externals, options.node) != options.set.externals.end())
+    throw InputError({"command line", 0, "--external", *arguments.set.external, "must not name the node itself"});
   options.log = options.set.folder + "/" + supervision::file_stem(arguments.name) + ".mcap";
   options.json = arguments.json;
 #if TTF_WITH_DDS

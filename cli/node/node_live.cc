@@ -169,8 +169,9 @@ int run_node_live(const NodeOptions& options) {
   const drives::NodeSetConfig code{
       &set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr, drive::pointer_to(set.steps)};
   auto steps = drives::make_steps(code, options.node);
-  const auto medium = set.bus.medium->make({set.cluster, options.node, set.bus.interfaces, set.can_interfaces,
-                                            set.session, supervisor ? kLivePatience : std::chrono::milliseconds{0}});
+  const auto medium =
+      set.bus.medium->make({set.cluster, options.node, set.bus.interfaces, set.can_interfaces, set.session,
+                            supervisor ? kLivePatience : std::chrono::milliseconds{0}, set.externals});
   if (set.topics) try_topics(set);
   const std::optional<Start> told = supervisor ? std::nullopt : std::optional(told_start(set));
   const std::string path = free_log(options);

@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/argument_checks.h"
 #include "cli/decimal_option.h"
@@ -96,6 +97,26 @@ void refuse_other_time(const NodeSetArguments& arguments, const live_media::Bus&
            fmt::format("be {} with --virtual-time: {}", live_media::kLiveMedia.front()->name, why));
 }
 
+InputError external_refused(const std::string& text, std::string expected) {
+  return InputError({"command line", 0, "--external", text, std::move(expected)});
+}
+
+// Parses --external NODE[,NODE].
+std::vector<NodeId> external_nodes(const std::string& text, const NodeSet& set) {
+  if (set.virtual_time)
+    throw external_refused(text, "must not be given with --virtual-time: a real node keeps real time");
+  std::vector<NodeId> nodes;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const NodeId node = node_of(set.cluster, text.substr(from, comma - from), "--external", text);
+    if (std::ranges::find(nodes, node) != nodes.end()) throw external_refused(text, "must name each node once");
+    nodes.push_back(node);
+    from = comma + 1;
+  }
+  if (nodes.size() == set.cluster.nodes.size()) throw external_refused(text, "must leave at least one node");
+  return nodes;
+}
+
 void check_fit_for_real_time(const NodeSet& set) {
   if (auto findings = schedules::check::check_real_time(set.cluster, set.time_scale_ppm); !findings.empty())
     throw InputError(std::move(findings));
@@ -129,6 +150,8 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
   command.add_option(
       "--session", arguments.session,
       "Name of the drive on dds, for all its nodes and no others (default: ttfusion; launch: a new one)");
+  command.add_option("--external", arguments.external,
+                     "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/attach_a_node.md)");
   command.add_flag("--virtual-time", arguments.virtual_time,
                    "Drive in virtual time, as fast as possible, instead of in real time");
   command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/ros.md) in real time");
@@ -180,6 +203,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     drive::set_duration(set.scenario, drive, *arguments.duration);
   drives::check_fits(set.scenario, set.cluster, set.strategy, false, drive::pointer_to(set.steps));
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
+  if (arguments.external) set.externals = external_nodes(*arguments.external, set);
   if (!set.virtual_time) check_fit_for_real_time(set);
   set.folder = arguments.out.empty() ? drive::folder_of(set.scenario) + "/launch" : arguments.out;
   return set;
@@ -198,6 +222,11 @@ std::vector<std::string> NodeSet::options() const {
                                 "--duration",
                                 scaled_text(scenario.duration.ns, kNsPerSecond)};
   for (std::string& option : can_options(cluster, can_interfaces)) list.push_back(std::move(option));
+  if (!externals.empty()) {
+    std::vector<std::string> names;
+    for (const NodeId node : externals) names.push_back(cluster.node(node).name);
+    list.insert(list.end(), {"--external", fmt::format("{}", fmt::join(names, ","))});
+  }
   if (start_at_ns) list.insert(list.end(), {"--start-at", scaled_text(*start_at_ns, kNsPerSecond)});
   if (rejoin) list.emplace_back("--rejoin");
   if (virtual_time)

@@ -9,6 +9,7 @@
 
 #include "cli/drive/step_options.h"
 #include "cli/live_media/bus.h"
+#include "core/ids.h"
 #include "core/time.h"
 #include "drives/scenario.h"
 #include "fusion/strategies/strategy.h"
@@ -22,7 +23,8 @@ struct NodeSetArguments {
   std::string strategy = "tt";
   std::optional<std::string> seed, time_scale, duration;
   std::string bus{live_media::kLiveMedia.front()->name};
-  std::vector<std::string> cans;  // NAME=IF
+  std::vector<std::string> cans;        // NAME=IF
+  std::optional<std::string> external;  // NODE[,NODE]
   std::string session = "ttfusion";
   std::string out;
   drive::StepOptions steps;
@@ -46,6 +48,7 @@ struct NodeSet {
   live_media::Bus bus;
   std::vector<std::string> can_interfaces;  // by Cluster::can_buses, if the medium has interfaces; else empty
   std::string session;                      // keeps out messages of other sessions
+  std::vector<NodeId> externals;            // real nodes in the places of simulated ones; in real time only
   bool virtual_time = false;
   std::int64_t time_scale_ppm = 1'000'000;  // the factor from schedule to real time; always 1 in virtual time
   // The common start of all nodes without a supervisor, by CLOCK_REALTIME; in real time only.

@@ -138,13 +138,14 @@ expect 2 'camera_per: must be a node' launch "$work/typo.yaml" --dry-run
 # Real nodes in place of a launch's own.
 expect 2 '--external = feature: must not be given with --virtual-time: a real node keeps real time' launch "$drive" \
   --virtual-time --external feature
-expect 2 '--external = feature: must be given with --bus socketcan:IF\[,IF\]: .* on dds' launch "$drive" --external feature
+expect 0 'partition  real_session' launch "$drive" --external feature --session real_session --dry-run
+expect 2 '--external = feature,fusion: must not name the node itself' node fusion "$drive" --external feature,fusion
 on_can="launch $drive --bus socketcan:vcan_absent --dry-run --external"
 for nodes in fusoin '' feature, ,feature; do
   expect 2 "--external( = $nodes)?: must name a node of .*paper_synchronised.yaml: laser" $on_can "$nodes"
 done
 expect 2 '--external = laser,fusion,laser: must name each node once' $on_can laser,fusion,laser
-expect 2 '--external = .*: must leave at least one node to the launch' $on_can \
+expect 2 '--external = .*: must leave at least one node' $on_can \
   laser,camera,laser_pre,camera_pre,gateway,fusion,feature
 expect 2 '--policy = camera_pre=restart: must be NODE=required or NODE=optional for a node of --external' $on_can \
   camera_pre --policy camera_pre=restart

@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "bus/ports/live_medium.h"
+#include "bus/wire/flexray_frame.h"
+#include "cli/live_media/live_media.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::launch::external {
 namespace {
 
+using live_media::Carriage;
 using report::drawing::Table;
 using schedules::model::Cluster;
 
@@ -21,6 +26,20 @@ std::string hex(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
+// The interface or topic of a channel, empty without one, and that of a private CAN.
+std::string channel_place(const DutyPlaces& places, const Carriage* carriage, std::size_t channel) {
+  const auto& all = carriage != nullptr ? carriage->places : places.bus.interfaces;
+  return channel < all.size() ? all[channel] : "";
+}
+std::string can_place(const DutyPlaces& places, const Carriage* carriage, std::size_t can_bus) {
+  return carriage != nullptr ? carriage->places[bus::ports::line_of_can(can_bus)] : places.can_interfaces[can_bus];
+}
+
+std::optional<Carriage> carriage_of(const Duties& duties, const DutyPlaces& places) {
+  if (places.bus.medium->carriage == nullptr) return std::nullopt;
+  return places.bus.medium->carriage(places.cluster, *places.cluster.find_node(duties.node), places.session);
+}
+
 // "64", or "64+12" for fragments.
 std::string lengths_text(const std::vector<std::size_t>& lengths) { return fmt::format("{}", fmt::join(lengths, "+")); }
 
@@ -29,19 +48,34 @@ std::string carried(const Cluster& cluster, const SlotDuty& slot) {
   return slot.startup ? "status, sync, startup" : slot.sync ? "status, sync" : "status";
 }
 
-std::string slots_text(const Duties& duties, const DutyPlaces& places) {
+// The number of bytes of a whole frame: header, payload, frame CRC.
+std::size_t frame_bytes(const SlotDuty& slot) {
+  return bus::wire::kHeaderBytes + static_cast<std::size_t>(slot.payload_bytes) + bus::wire::kTrailerBytes;
+}
+
+std::string slots_text(const Duties& duties, const DutyPlaces& places, const Carriage* carriage) {
   if (duties.slots.empty()) return "";
-  Table table(
-      {"slot", "cycles", "ch", "due\n[us]", "window\n[us]", "CAN\nid", "data\n[bytes]", "\nheader", "\ncarries"});
+  const auto row = [&](std::vector<std::string> cells, std::vector<std::string> on_medium, std::string header,
+                       std::string carries) {
+    for (std::string& cell : on_medium) cells.push_back(std::move(cell));
+    cells.insert(cells.end(), {std::move(header), std::move(carries)});
+    return cells;
+  };
+  const auto columns = carriage != nullptr ? std::vector<std::string>{"all\n[bytes]"}
+                                           : std::vector<std::string>{"CAN\nid", "data\n[bytes]"};
+  Table table(row({"slot", "cycles", "ch", "due\n[us]", "window\n[us]"}, columns, "\nheader", "\ncarries"));
   for (const SlotDuty& slot : duties.slots)
-    table.add({fmt::to_string(slot.slot), cycles_text(slot.base_cycle, slot.repetition),
-               std::string(channels_text(slot.channels)), us(slot.due),
-               fmt::format("{} to {}", us(slot.due - duties.window.early), us(slot.due + duties.window.late)),
-               fmt::format("{:03X}", slot.slot), lengths_text(slot.can_lengths), hex(slot.header),
-               carried(places.cluster, slot)});
+    table.add(row({fmt::to_string(slot.slot), cycles_text(slot.base_cycle, slot.repetition),
+                   std::string(channels_text(slot.channels)), us(slot.due),
+                   fmt::format("{} to {}", us(slot.due - duties.window.early), us(slot.due + duties.window.late))},
+                  carriage != nullptr
+                      ? std::vector<std::string>{fmt::to_string(frame_bytes(slot))}
+                      : std::vector<std::string>{fmt::format("{:03X}", slot.slot), lengths_text(slot.can_lengths)},
+                  hex(slot.header), carried(places.cluster, slot)));
   std::string on;
-  for (std::size_t c = 0; c < places.bus.interfaces.size(); ++c)
-    on += fmt::format("{}{} is channel {}", c == 0 ? "" : ", ", places.bus.interfaces[c], "AB"[c]);
+  for (std::size_t c = 0; c < 2; ++c)
+    if (const std::string place = channel_place(places, carriage, c); !place.empty())
+      on += fmt::format("{}{} is channel {}", on.empty() ? "" : ", ", place, "AB"[c]);
   return fmt::format(
       "on FlexRay, from the begin of each cycle of {} us; the header's last six bits count the cycles;\n"
       "the payload is {} bytes; {}:\n{}",
@@ -69,14 +103,32 @@ std::string when_text(const Cluster& cluster, const CanDuty& can) {
   return "";
 }
 
-std::string cans_text(const Duties& duties, const DutyPlaces& places) {
+// A topic has the CAN's name in its own.
+std::string cans_text(const Duties& duties, const DutyPlaces& places, const Carriage* carriage) {
   if (duties.cans.empty()) return "";
-  Table table({"CAN", "interface", "id", "form", "data\n[bytes]", "\ncarries", "\nwhen"});
-  for (const CanDuty& can : duties.cans)
-    table.add({places.cluster.can_buses[can.can_bus].name, places.can_interfaces[can.can_bus],
-               fmt::format("{:03X}", can.identifier), can.flexible_data_rate ? "FD" : "classic",
-               fmt::to_string(can.length), what_text(places.cluster, can), when_text(places.cluster, can)});
+  std::vector<std::string> head{"id", "form", "data\n[bytes]", "\ncarries", "\nwhen"};
+  if (carriage != nullptr)
+    head.insert(head.begin(), "topic");
+  else
+    head.insert(head.begin(), {"CAN", "interface"});
+  Table table(std::move(head));
+  for (const CanDuty& can : duties.cans) {
+    std::vector<std::string> row{fmt::format("{:03X}", can.identifier), can.flexible_data_rate ? "FD" : "classic",
+                                 fmt::to_string(can.length), what_text(places.cluster, can),
+                                 when_text(places.cluster, can)};
+    row.insert(row.begin(), can_place(places, carriage, can.can_bus));
+    if (carriage == nullptr) row.insert(row.begin(), places.cluster.can_buses[can.can_bus].name);
+    table.add(std::move(row));
+  }
   return "on private CANs, one frame for each fragment:\n" + table.text();
+}
+
+std::string carriage_text(const Carriage& carriage) {
+  Table properties({"samples", ""}), fields({"field", "type", "in a frame of a slot", "on a private CAN"});
+  for (const auto& [name, value] : carriage.properties) properties.add({name, value});
+  for (const Carriage::Field& field : carriage.fields)
+    fields.add({field.name, field.type, field.of_slot, field.on_can});
+  return fmt::format("each frame is a sample:\n{}{}", properties.text(), fields.text());
 }
 
 std::string reads_text(const Duties& duties, const DutyPlaces& places) {
@@ -116,29 +168,29 @@ nlohmann::ordered_json signals_json(const std::vector<schedules::model::Signal>&
   return list;
 }
 
-nlohmann::ordered_json slot_json(const Cluster& cluster, const Duties& duties, const SlotDuty& slot) {
+nlohmann::ordered_json slot_json(const Cluster& cluster, const Duties& duties, const SlotDuty& slot,
+                                 const Carriage* carriage) {
   nlohmann::ordered_json json{{"slot", slot.slot},
                               {"base_cycle", slot.base_cycle},
                               {"repetition", slot.repetition},
                               {"channels", channels_text(slot.channels)},
                               {"due_us", in_us(slot.due)},
                               {"earliest_us", in_us(slot.due - duties.window.early)},
-                              {"latest_us", in_us(slot.due + duties.window.late)},
-                              {"can_identifier", slot.slot},
-                              {"can_lengths", slot.can_lengths},
-                              {"payload_bytes", slot.payload_bytes},
-                              {"header", hex(slot.header)},
-                              {"sync", slot.sync},
-                              {"startup", slot.startup}};
+                              {"latest_us", in_us(slot.due + duties.window.late)}};
+  if (carriage == nullptr) json.update({{"can_identifier", slot.slot}, {"can_lengths", slot.can_lengths}});
+  json.update({{"payload_bytes", slot.payload_bytes},
+               {"header", hex(slot.header)},
+               {"sync", slot.sync},
+               {"startup", slot.startup}});
   if (slot.pdu == kNoPdu) return json;
   json["list"] = cluster.pdu(slot.pdu).name;
   json["fragment"] = slot.fragment;
   return json;
 }
 
-nlohmann::ordered_json can_json(const DutyPlaces& places, const CanDuty& can) {
+nlohmann::ordered_json can_json(const DutyPlaces& places, const CanDuty& can, const Carriage* carriage) {
   nlohmann::ordered_json json{{"can", places.cluster.can_buses[can.can_bus].name},
-                              {"interface", places.can_interfaces[can.can_bus]},
+                              {carriage != nullptr ? "topic" : "interface", can_place(places, carriage, can.can_bus)},
                               {"identifier", can.identifier},
                               {"flexible_data_rate", can.flexible_data_rate},
                               {"length", can.length},
@@ -151,24 +203,38 @@ nlohmann::ordered_json can_json(const DutyPlaces& places, const CanDuty& can) {
   return json;
 }
 
+nlohmann::ordered_json carriage_json(const Carriage& carriage) {
+  nlohmann::ordered_json json{{"topics", carriage.places}};
+  for (const auto& [name, value] : carriage.properties) json[name] = value;
+  for (const Carriage::Field& field : carriage.fields)
+    json["fields"].push_back(
+        {{"name", field.name}, {"type", field.type}, {"of_slot", field.of_slot}, {"on_can", field.on_can}});
+  return json;
+}
+
 }  // namespace
 
 std::string text_of(const Duties& duties, const DutyPlaces& places) {
+  const std::optional<Carriage> carriage = carriage_of(duties, places);
+  const Carriage* const samples = carriage ? &*carriage : nullptr;
   std::string text;
   const auto add = [&](const std::string& part) {
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   };
-  add(slots_text(duties, places));
-  add(cans_text(duties, places));
+  add(slots_text(duties, places, samples));
+  add(cans_text(duties, places, samples));
+  if (carriage) add(carriage_text(*carriage));
   add(reads_text(duties, places));
   for (const PduId list : duties.lists) add(list_text(places.cluster.pdu(list)));
   return fmt::format("{} is a real node. It must send\n\n{}", duties.node, text);
 }
 
 nlohmann::ordered_json json_of(const Duties& duties, const DutyPlaces& places) {
+  const std::optional<Carriage> carriage = carriage_of(duties, places);
+  const Carriage* const samples = carriage ? &*carriage : nullptr;
   auto slots = nlohmann::ordered_json::array(), cans = slots, reads = slots, lists = slots;
-  for (const SlotDuty& slot : duties.slots) slots.push_back(slot_json(places.cluster, duties, slot));
-  for (const CanDuty& can : duties.cans) cans.push_back(can_json(places, can));
+  for (const SlotDuty& slot : duties.slots) slots.push_back(slot_json(places.cluster, duties, slot, samples));
+  for (const CanDuty& can : duties.cans) cans.push_back(can_json(places, can, samples));
   for (const Reading& read : duties.reads) {
     nlohmann::ordered_json one{{"from", read.from}};
     if (read.pdu != kNoPdu) one["list"] = places.cluster.pdu(read.pdu).name;
@@ -184,12 +250,15 @@ nlohmann::ordered_json json_of(const Duties& duties, const DutyPlaces& places) {
                      {"header", signals_json(layout.header, 0)},
                      {"element", signals_json(layout.element, layout.header_bits)}});
   }
-  return {{"cycle_us", in_us(duties.cycle)},
-          {"window_us", {{"early", in_us(duties.window.early)}, {"late", in_us(duties.window.late)}}},
-          {"slots", std::move(slots)},
-          {"can_frames", std::move(cans)},
-          {"reads", std::move(reads)},
-          {"lists", std::move(lists)}};
+  nlohmann::ordered_json json{
+      {"cycle_us", in_us(duties.cycle)},
+      {"window_us", {{"early", in_us(duties.window.early)}, {"late", in_us(duties.window.late)}}},
+      {"slots", std::move(slots)},
+      {"can_frames", std::move(cans)},
+      {"reads", std::move(reads)},
+      {"lists", std::move(lists)}};
+  if (carriage) json["samples"] = carriage_json(*carriage);
+  return json;
 }
 
 }  // namespace ttf::cli::launch::external

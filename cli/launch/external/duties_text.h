@@ -11,11 +11,12 @@
 
 namespace ttf::cli::launch::external {
 
-// The interfaces of channels and of private CANs (NodeSet::can_interfaces).
+// The interfaces of channels and of private CANs (NodeSet::can_interfaces), or the session of a bus without them.
 struct DutyPlaces {
   const schedules::model::Cluster& cluster;
   const live_media::Bus& bus;
   const std::vector<std::string>& can_interfaces;
+  const std::string& session;
 };
 
 std::string text_of(const Duties& duties, const DutyPlaces& places);

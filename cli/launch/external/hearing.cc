@@ -15,7 +15,7 @@ namespace ttf::cli::launch::external {
 Hearing::Hearing(const node_set::NodeSet& set, std::vector<NodeId> nodes)
     : set_(set), nodes_(std::move(nodes)), judge_(set.cluster, nodes_, set.time_scale_ppm) {
   const bus::ports::HeardIdentifiers identifiers = judge_.identifiers();
-  listener_ = set.bus.medium->listen({set.cluster, set.bus.interfaces, set.can_interfaces, identifiers});
+  listener_ = set.bus.medium->listen({set.cluster, set.bus.interfaces, set.can_interfaces, set.session, identifiers});
 }
 
 void Hearing::begin(bus::ports::MachineTime origin) {

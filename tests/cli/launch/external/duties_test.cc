@@ -87,18 +87,20 @@ TEST_F(DutiesOfAPaperNode, ALongFrameTravelsInFragments) {
   EXPECT_EQ(of("feature").slots.front().can_lengths, (std::vector<std::size_t>{64, 12}));
 }
 
+const std::string session = "launch-1234567-1774526400000000";
+
 // Every node of a cluster can be left out, and all lines have at most 100 columns.
 TEST(Duties, AreShownWithinAPageForEachNode) {
   const std::vector<std::string> interfaces{"vcan2", "vcan3", "vcan4", "vcan5", "vcan6", "vcan7", "vcan8"};
-  const live_media::Bus bus = live_media::Bus::parse("socketcan:vcan0,vcan1");
   for (const std::string name : {"paper_synchronised", "paper_unsynchronised", "two_lasers_synchronised"}) {
     const schedules::model::Cluster cluster = cluster_of(name);
     if (!cluster.arrival_window) continue;
-    for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-      const Duties duties = duties_of(cluster, static_cast<NodeId>(n), kReal);
-      std::istringstream text(text_of(duties, {cluster, bus, interfaces}));
+    for (std::size_t n = 0; n < 2 * cluster.nodes.size(); ++n) {
+      const Duties duties = duties_of(cluster, static_cast<NodeId>(n / 2), kReal);
+      const live_media::Bus bus = live_media::Bus::parse(n % 2 == 0 ? "socketcan:vcan0,vcan1" : "dds");
+      std::istringstream text(text_of(duties, {cluster, bus, interfaces, session}));
       for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 100u) << name << ": " << line;
-      const auto json = json_of(duties, {cluster, bus, interfaces});
+      const auto json = json_of(duties, {cluster, bus, interfaces, session});
       EXPECT_EQ(json["slots"].size(), duties.slots.size());
       EXPECT_EQ(json["can_frames"].size(), duties.cans.size());
     }
@@ -108,13 +110,30 @@ TEST(Duties, AreShownWithinAPageForEachNode) {
 TEST_F(DutiesOfAPaperNode, AreShownWithTheirBits) {
   const std::vector<std::string> interfaces{"vcan2", "vcan3", "vcan4"};
   const live_media::Bus bus = live_media::Bus::parse("socketcan:vcan0");
-  const std::string text = text_of(of("camera_pre"), {cluster, bus, interfaces});
+  const std::string text = text_of(of("camera_pre"), {cluster, bus, interfaces, session});
   EXPECT_NE(text.find("vcan0 is channel A"), std::string::npos) << text;
   EXPECT_NE(text.find("900 us into cycles 1 + 8n"), std::string::npos) << text;
   EXPECT_NE(text.find("-9 to 591"), std::string::npos) << text;
-  const auto json = json_of(of("camera_pre"), {cluster, bus, interfaces});
+  const auto json = json_of(of("camera_pre"), {cluster, bus, interfaces, session});
   EXPECT_EQ(json["lists"][0]["element"][1]["name"], "y");
   EXPECT_EQ(json["lists"][0]["element"][1]["bit"], 64 + 16);
+}
+
+// On a medium without interfaces the topics and fields of samples stand for them.
+TEST_F(DutiesOfAPaperNode, AreShownForSamples) {
+  const live_media::Bus bus = live_media::Bus::parse("dds");
+  const std::vector<std::string> interfaces;
+  const std::string text = text_of(of("camera_pre"), {cluster, bus, interfaces, session});
+  EXPECT_NE(text.find("ttf/flexray/A is channel A, ttf/flexray/B is channel B"), std::string::npos) << text;
+  EXPECT_NE(text.find("ttf/can/observation_can  050"), std::string::npos) << text;
+  EXPECT_NE(text.find(session), std::string::npos) << text;
+  EXPECT_EQ(text.find("interface"), std::string::npos) << text;
+  const auto json = json_of(of("camera_pre"), {cluster, bus, interfaces, session});
+  EXPECT_EQ(json["samples"]["partition"], session);
+  EXPECT_EQ(json["samples"]["fields"].size(), 12u);
+  EXPECT_EQ(json["samples"]["fields"][0]["of_slot"], "3");
+  EXPECT_EQ(json["can_frames"][1]["topic"], "ttf/can/camera_can");
+  EXPECT_FALSE(json["slots"][0].contains("can_identifier"));
 }
 
 }  // namespace
