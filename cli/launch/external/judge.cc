@@ -164,16 +164,19 @@ void Judge::hear_frame(const Heard& heard) {
   const Turn* const any = turn_of(heard.slot, channel, std::nullopt);
   if (any == nullptr) return;
   Node& node = heard_of(any->node, heard.at);
-  if (frame.error != bus::wire::FrameError::kNone)
-    return count(node, has_header(frame) ? Malformed::kFrameCrc : Malformed::kForm);
+  if (!has_header(frame)) return count(node, Malformed::kForm);
+  // With a sound header the frame was sent in its cycle, whatever its frame CRC.
+  const bool broken = frame.error != bus::wire::FrameError::kNone;
+  const auto count_as = [&](Malformed kind) { count(node, broken ? Malformed::kFrameCrc : kind); };
   Turn* const turn = turn_of(heard.slot, channel, frame.header.cycle);
-  if (turn == nullptr || !is_of(*turn->frame, frame.header)) return count(node, Malformed::kContent);
-  if (!grid_.known()) return void(++node.counts.early);
+  if (turn == nullptr || !is_of(*turn->frame, frame.header)) return count_as(Malformed::kContent);
+  if (!grid_.known()) return broken ? count(node, Malformed::kFrameCrc) : void(++node.counts.early);
   const std::int64_t cycle = grid_.nearest(heard.at, frame.header.cycle), here = grid_.cycle_at(heard.at);
-  if (cycle < here - 1 || cycle > here + 1) return count(node, Malformed::kContent);
-  if (turn->last == cycle) return count(node, Malformed::kRepeated);
+  if (cycle < here - 1 || cycle > here + 1) return count_as(Malformed::kContent);
+  if (turn->last == cycle) return count_as(Malformed::kRepeated);
   if (turn->last) node.counts.missing += missed(turn->frame->base_cycle, turn->frame->repetition, *turn->last, cycle);
   turn->last = std::max(turn->last.value_or(cycle), cycle);
+  if (broken) return count(node, Malformed::kFrameCrc);
   if (const auto fault = fault_of(*turn->frame, frame)) return count(node, *fault);
   const Duration due = grid_.in_cycle(grid_.action_point(heard.slot));
   judge_instant(node, cycle < 0 ? kLongBefore : heard.at - (grid_.start_of(cycle) + due));

@@ -129,6 +129,18 @@ TEST_F(Judging, BeforeTheFirstCycleAllIsEarly) {
   EXPECT_EQ(counts().early, 1u);
 }
 
+// The frame of a cycle counts once.
+TEST_F(Judging, ABrokenFrameIsNotMissing) {
+  judge.begin(kBegin);
+  for (int cycle = 0; cycle < 8; ++cycle) {
+    ours_like(cycle, {.spoil = cycle % 4 == 1 ? 20 : -1});
+    others(cycle);
+  }
+  EXPECT_EQ(counts().in_window, 6u);
+  EXPECT_EQ(counts().all_malformed(), 2u);
+  EXPECT_EQ(counts().missing, 0u);
+}
+
 TEST_F(Judging, TellsHowAFrameIsMalformed) {
   judge.begin(kBegin);
   others(0);
