@@ -1,8 +1,9 @@
 // A real node for a launched cluster, with SocketCAN alone: it takes the place of camera_pre in
 // schedules/paper_synchronised.yaml (docs/attach_a_node.md). `launch --external camera_pre --dry-run` says its numbers.
 //   cc -O2 -o real_node examples/real_node.c
-//   ./real_node CHANNEL_A CHANNEL_B CAMERA_CAN OBSERVATION_CAN [SHIFT_US [spoil]]
-// SHIFT_US sends its frames of slot 2 that much later than they are due, and `spoil` breaks their frame CRCs.
+//   ./real_node CHANNEL_A CHANNEL_B CAMERA_CAN OBSERVATION_CAN [FAULT...]
+// A FAULT is a number of us by which its frames of slot 2 come too late, or `spoil`, which breaks their frame CRCs. One
+// holds for all cycles; several take turns.
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <stdint.h>
@@ -70,7 +71,6 @@ static void send_list(int s, int number, uint32_t measured_us) {
 int main(int argc, char **argv) {
   if (argc < 5) return 2;
   int a = can_socket(argv[1]), b = can_socket(argv[2]), camera = can_socket(argv[3]), out = can_socket(argv[4]);
-  int64_t shift = argc > 5 ? atoi(argv[5]) * 1000LL : 0;
   for (int cycle = -1, number = 0;;) {  // counted from the drive's first, if it hears that one
     struct canfd_frame heard;
     int64_t at = receive(a, &heard);
@@ -79,9 +79,10 @@ int main(int argc, char **argv) {
     if (cycle >= 0 && (ahead == 0 || ahead > 32)) continue;  // one frame tells enough of its cycle
     cycle = cycle < 0 ? heard.data[4] & 63 : cycle + ahead;
     int64_t next = at - (heard.can_id - 1) * kSlot - kActionPoint + kCycle;
-    sleep_until(next + (kOwn - 1) * kSlot + kActionPoint + shift);
-    send_status(a, 0xFEDCBA, cycle + 1, argc > 6);
-    send_status(b, 0xABCDEF, cycle + 1, argc > 6);
+    const char *fault = argc > 5 ? argv[5 + cycle % (argc - 5)] : "0";
+    sleep_until(next + (kOwn - 1) * kSlot + kActionPoint + atoi(fault) * 1000);
+    send_status(a, 0xFEDCBA, cycle + 1, *fault == 's');
+    send_status(b, 0xABCDEF, cycle + 1, *fault == 's');
     if (cycle % 8 == 0) {  // in cycles 1 + 8n the camera is to measure
       struct can_frame trigger = {.can_id = 4};
       sleep_until(next + kTrigger);

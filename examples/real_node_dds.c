@@ -2,8 +2,8 @@
 // camera_pre in schedules/paper_synchronised.yaml (docs/attach_a_node.md), as real_node.c does on CANs.
 //   idlc bus/dds/live/live_sample.idl
 //   cc -O2 -I . -o real_node_dds examples/real_node_dds.c live_sample.c -lddsc
-//   CYCLONEDDS_URI=file://$PWD/bus/dds/loopback.xml ./real_node_dds SESSION [TIME_SCALE [SHIFT_US [spoil]]]
-// SHIFT_US sends its frames of slot 2 that much later than they are due, and `spoil` breaks their frame CRCs.
+//   CYCLONEDDS_URI=file://$PWD/bus/dds/loopback.xml ./real_node_dds SESSION [TIME_SCALE [FAULT...]]
+// A FAULT is as in real_node.c.
 #include <dds/dds.h>
 #include <live_sample.h>
 #include <stdlib.h>
@@ -75,7 +75,7 @@ static void send_list(struct line *line, int number, uint32_t measured_us) {
 
 int main(int argc, char **argv) {
   if (argc < 2) return 2;
-  const int64_t scale = argc > 2 ? atoi(argv[2]) : 1, shift = argc > 3 ? atoi(argv[3]) * 1000LL : 0;
+  const int64_t scale = argc > 2 ? atoi(argv[2]) : 1;
   dds_entity_t here = dds_create_participant(0, NULL, NULL);
   dds_qos_t *within = dds_create_qos();
   dds_qset_partition1(within, argv[1]);
@@ -99,9 +99,10 @@ int main(int argc, char **argv) {
     cycle = cycle < 0 ? count : cycle + ahead;
     int64_t due = heard.sent - (heard.tells_late ? heard.late : 0);
     int64_t next = due + scale * (kCycle - (heard.slot - 1) * kSlot - kActionPoint);
-    sleep_until(next + scale * ((kOwn - 1) * kSlot + kActionPoint) + shift);
-    send_status(&a, 0xFEDCBA, cycle + 1, argc > 4);
-    send_status(&b, 0xABCDEF, cycle + 1, argc > 4);
+    const char *fault = argc > 3 ? argv[3 + cycle % (argc - 3)] : "0";
+    sleep_until(next + scale * ((kOwn - 1) * kSlot + kActionPoint) + atoi(fault) * 1000);
+    send_status(&a, 0xFEDCBA, cycle + 1, *fault == 's');
+    send_status(&b, 0xABCDEF, cycle + 1, *fault == 's');
     if (cycle % 8 == 0) {  // in cycles 1 + 8n the camera is to measure
       sleep_until(next + scale * kTrigger);
       put(&camera, (ttf_LiveSample){.kind = kClassicCan, .identifier = 4}, NULL, 0);
