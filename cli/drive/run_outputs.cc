@@ -190,7 +190,8 @@ nlohmann::ordered_json bounds_json(std::optional<Duration> best, std::optional<D
 }
 
 nlohmann::ordered_json stages_json(const evaluation::ages::SensorStages& sensor) {
-  nlohmann::ordered_json json{{"measured", sensor.measured}, {sensor.to_use ? "used" : "fused", sensor.seen()}};
+  nlohmann::ordered_json json{
+      {"measured", sensor.measured}, {"seen", sensor.seen()}, {"to", sensor.to_use ? "use" : "fusion"}};
   for (const evaluation::ages::StageFinding& stage : sensor.stages)
     json["stages"].push_back({{"stage", stage.name},
                               {"bounds_ms", bounds_json(stage.best, stage.worst)},

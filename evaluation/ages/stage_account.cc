@@ -11,7 +11,7 @@ using schedules::analysis::AgePath;
 using schedules::analysis::Contribution;
 using schedules::analysis::Waypoint;
 
-// No measurement is followed longer, and no image.
+// No measurement is followed longer.
 constexpr Duration kLongestWay = Duration::milliseconds(1500);
 constexpr std::size_t kImagesRemembered = 64;
 // A damaged log may hold any time. Within 36 years of the drive's start, differences fit their type.
@@ -127,7 +127,7 @@ void StageAccount::on(const recording::records::ListHop& r) {
   };
   if (r.sensor != kNoSensor) return on_way({r.sensor, r.sequence});
   if (const auto image = images_.find(r.sequence); image != images_.end())
-    for (const MeasurementId& id : image->second) on_way(id);
+    for (const MeasurementId& id : image->second.first) on_way(id);
 }
 
 void StageAccount::on(const recording::records::ListFused& r) {
@@ -143,23 +143,24 @@ void StageAccount::on(const recording::records::ListFused& r) {
 }
 
 void StageAccount::on(const recording::records::ImageWritten& r) {
-  while (images_.size() >= kImagesRemembered) images_.erase(images_.begin());
-  std::vector<MeasurementId>& shown = images_[r.sequence];  // a fusion node that restarts counts anew
-  shown.clear();
+  Image& image = images_[r.sequence];
+  image = {written_++, {}};
+  if (images_.size() > kImagesRemembered)
+    images_.erase(std::ranges::min_element(images_, {}, [](const auto& one) { return one.second.order; }));
   for (const MeasurementId& id : r.newest) {
     Sensor* sensor = sensor_of(id.sensor);
     if (sensor == nullptr) continue;
     const auto way = sensor->ways.find(id.sequence);
     if (way == sensor->ways.end() || std::exchange(way->second.in_image, true)) continue;
     pass(*sensor, way->second, Kind::kImage, r.stamp.node, kNoPdu, r.stamp.true_time);
-    shown.push_back(id);
+    image.first.push_back(id);
   }
 }
 
 void StageAccount::on(const recording::records::FeatureUsed& r) {
   const auto image = images_.find(r.image_sequence);
   if (r.stale || image == images_.end()) return;
-  std::erase_if(image->second, [&](const MeasurementId& id) {
+  std::erase_if(image->second.first, [&](const MeasurementId& id) {
     Sensor* sensor = sensor_of(id.sensor);
     if (sensor->path.waypoints.back().node != r.stamp.node) return false;  // another service
     if (const auto way = sensor->ways.find(id.sequence); way != sensor->ways.end()) {
@@ -171,7 +172,10 @@ void StageAccount::on(const recording::records::FeatureUsed& r) {
 }
 
 void StageAccount::end(Sensor& sensor, const Way& way) {
-  const auto seen = [](const std::optional<TrueTime>& at) { return at.has_value(); };
+  // A damaged log's way may lead far back, or far ahead.
+  const auto seen = [&](const std::optional<TrueTime>& at) {
+    return at && *at - way.measured <= kLongestWay && way.measured - *at <= kLongestWay;
+  };
   if (way.measured < from_ || !std::ranges::all_of(way.at, seen)) return;
   TrueTime before = way.measured;
   for (std::size_t p = 0; p < way.at.size(); ++p) {

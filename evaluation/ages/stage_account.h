@@ -93,7 +93,12 @@ class StageAccount final : public recording::records::Sink {
   bool held_;
   TrueTime from_;
   std::vector<Sensor> sensors_;
-  std::map<std::uint32_t, std::vector<MeasurementId>> images_;  // the last ones, by number: those that they show first
+  struct Image {
+    std::uint64_t order = 0;           // images written before: a fusion node that restarts counts anew
+    std::vector<MeasurementId> first;  // measurements that it is the first to show
+  };
+  std::map<std::uint32_t, Image> images_;  // the last ones, by number
+  std::uint64_t written_ = 0;
 };
 
 }  // namespace ttf::evaluation::ages

@@ -122,7 +122,9 @@ void stages_section(page::Page& page, const std::vector<ToldDrive>& drives) {
     if (std::string words = beyond_words(told.drive->label, told.drive->stages); !words.empty())
       beyond.push_back(std::move(words));
   if (beyond.empty())
-    page.paragraph("At the end of every stage, every age was within the bounds that the schedule's analysis gives.");
+    page.paragraph(
+        "Each measurement that was seen all the way was within the bounds of the schedule's analysis at the end of "
+        "each stage.");
   else
     page.points(beyond);
   page.table(ages_table(drives));

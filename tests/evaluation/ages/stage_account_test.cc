@@ -175,5 +175,60 @@ TEST_F(ShortWay, OnlyWholeWaysOfTheJudgedPartCount) {
   EXPECT_EQ(all.seen(), 1u);
 }
 
+// Sums of such times would overflow.
+TEST_F(ShortWay, ImpossibleWaysOfADamagedLogDoNotCount) {
+  constexpr std::int64_t kFarMs = 1'000'000'000'000;
+  for (std::uint32_t i = 0; i < 6; ++i) measure(i, 100 + i), write(i, kFarMs), fuse(i, 110 + i);
+  measure(6, 120), write(6, 122), fuse(6, 124);
+  const SensorStages all = account.finish().at(0);
+  EXPECT_EQ(all.seen(), 1u);
+  EXPECT_EQ(all.stages[0].had.most, Duration::milliseconds(2));
+}
+
+// A path through an image to its use.
+class ThroughImages : public ShortWay {
+ protected:
+  static std::vector<AgePath> path_to_use() {
+    std::vector<AgePath> paths = path();
+    paths[0].reaches_use = true;
+    paths[0].to_use = paths[0].to_fusion;
+    paths[0].to_use.push_back({"c executes", {}, Duration::milliseconds(9)});
+    paths[0].waypoints.push_back({Waypoint::Kind::kUsed, NodeId{3}, kNoPdu, 3, {}, Duration::milliseconds(9), {}});
+    return paths;
+  }
+  void show(std::uint32_t image, std::uint32_t sequence, std::int64_t ms) {
+    recording::records::ImageWritten written;
+    written.stamp = stamp(ms, NodeId{2});
+    written.sequence = image;
+    const MeasurementId newest{SensorId{0}, sequence};
+    written.newest = {&newest, 1};
+    through.on(written);
+  }
+  void use(std::uint32_t image, std::int64_t ms) {
+    recording::records::FeatureUsed used;
+    used.stamp = stamp(ms, NodeId{3});
+    used.image_sequence = image;
+    through.on(used);
+  }
+  StageAccount through{path_to_use(), false, TrueTime{}};
+};
+
+// A fusion node that starts anew numbers its images from 0 again: the earliest written are forgotten, not the lowest numbers.
+TEST_F(ThroughImages, AnImageOfANodeThatStartedAnewIsRemembered) {
+  for (std::uint32_t i = 0; i < 70; ++i) show(1000 + i, 0, 1 + i);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    through.on(recording::records::Measured{stamp(100 + i, NodeId{1}), {SensorId{0}, i}, {}});
+    through.on(recording::records::ListHop{stamp(101 + i, NodeId{1}), recording::records::Hop::kWritten, PduId{4},
+                                           SensorId{0}, i});
+    recording::records::ListFused fused;
+    fused.stamp = stamp(102 + i, NodeId{2});
+    fused.id = {SensorId{0}, i};
+    through.on(fused);
+    show(i, i, 103 + i);
+  }
+  for (std::uint32_t i = 0; i < 3; ++i) use(i, 107 + i);
+  EXPECT_EQ(through.finish().at(0).seen(), 3u);
+}
+
 }  // namespace
 }  // namespace ttf::evaluation::ages
