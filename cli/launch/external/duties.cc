@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/socketcan/flexray_on_can.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
+#include "core/counted.h"
 #include "schedules/analysis/can_load.h"
 #include "schedules/check/real_time_rules.h"
 #include "schedules/model/sensor_lines.h"
@@ -105,18 +107,31 @@ void add_messages(const Cluster& cluster, NodeId node, std::int64_t scale, Dutie
   }
 }
 
+// Returns "6, 20..22" for the slots 22, 20, 21, 6.
+std::string runs_text(std::vector<int> slots) {
+  std::ranges::sort(slots);
+  std::vector<std::string> runs;
+  for (std::size_t first = 0, last = 0; first < slots.size(); first = last = last + 1) {
+    while (last + 1 < slots.size() && slots[last + 1] <= slots[last] + 1) ++last;  // a slot may be there twice
+    runs.push_back(slots[first] == slots[last] ? fmt::to_string(slots[first])
+                                               : fmt::format("{}..{}", slots[first], slots[last]));
+  }
+  return joined(runs);
+}
+
 // Returns where a list is sent on FlexRay: "slots 22..34, cycles 1 + 8n".
 std::string slots_of(const Cluster& cluster, PduId pdu) {
-  int first = 0, last = 0;
+  std::vector<int> slots;
   std::string cycles;
   for (const schedules::model::FrameSlot& frame : cluster.frames) {
     if (frame.pdu != pdu) continue;
-    if (first == 0) first = frame.slot;
-    last = frame.slot;
+    slots.push_back(frame.slot);
     const std::string these = cycles_text(frame.base_cycle, frame.repetition);
     cycles = cycles.empty() || cycles == these ? these : "several";
   }
-  return fmt::format("slots {}..{}, cycles {}", first, last, cycles);
+  const std::string runs = runs_text(std::move(slots));
+  const bool one = runs.find_first_not_of("0123456789") == std::string::npos;
+  return fmt::format("{} {}, cycles {}", one ? "slot" : "slots", runs, cycles);
 }
 
 void add_reads(const Cluster& cluster, NodeId node, Duties& duties) {

@@ -74,6 +74,20 @@ TEST_F(DutiesOfAPaperNode, ADeviceStrobesAndAServiceReads) {
   EXPECT_EQ(of("gateway").slots.size(), 17u);
 }
 
+TEST_F(DutiesOfAPaperNode, SlotsOfAListMayLieApart) {
+  std::vector<schedules::model::FrameSlot*> image;
+  for (schedules::model::FrameSlot& frame : cluster.frames)
+    if (frame.pdu == *cluster.find_pdu("image")) image.push_back(&frame);
+  ASSERT_EQ(image.size(), 13u);
+  image[5]->slot = 35;  // in place of 27
+  EXPECT_EQ(of("feature").reads.front().from, "slots 22..26, 28..35, cycles 1 + 8n");
+  for (schedules::model::FrameSlot* frame : image)
+    frame->slot = frame == image.front() ? 20 : frame == image[1] ? 6 : 22;
+  EXPECT_EQ(of("feature").reads.front().from, "slots 6, 20, 22, cycles 1 + 8n");
+  for (schedules::model::FrameSlot* frame : image) frame->slot = 35;
+  EXPECT_EQ(of("feature").reads.front().from, "slot 35, cycles 1 + 8n");
+}
+
 TEST_F(DutiesOfAPaperNode, AStretchedScheduleHasLaterInstants) {
   const Duties duties = of("camera_pre", 3 * kReal);
   EXPECT_EQ(duties.cycle, Duration::milliseconds(15));
