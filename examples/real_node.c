@@ -7,6 +7,7 @@
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -15,11 +16,12 @@
 enum { kSlot = 84000, kActionPoint = 7000, kCycle = 5000000, kOwn = 2, kTrigger = 900000, kBytes = 64 };  // ns
 
 static int can_socket(const char *name) {
-  struct sockaddr_can address = {.can_family = AF_CAN, .can_ifindex = (int)if_nametoindex(name)};
   int s = socket(PF_CAN, SOCK_RAW, CAN_RAW), on = 1;
+  struct sockaddr_can address = {.can_family = AF_CAN, .can_ifindex = s < 0 ? 0 : (int)if_nametoindex(name)};
+  if (address.can_ifindex == 0) perror(name), exit(1);
   setsockopt(s, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on);
   setsockopt(s, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-  if (bind(s, (struct sockaddr *)&address, sizeof address) != 0) exit(1);
+  if (bind(s, (struct sockaddr *)&address, sizeof address) != 0) perror(name), exit(1);
   return s;
 }
 
@@ -69,7 +71,10 @@ static void send_list(int s, int number, uint32_t measured_us) {
 }
 
 int main(int argc, char **argv) {
-  if (argc < 5) return 2;
+  if (argc < 5) {
+    fprintf(stderr, "usage: %s CHANNEL_A CHANNEL_B CAMERA_CAN OBSERVATION_CAN [FAULT...]\n", argv[0]);
+    return 2;
+  }
   int a = can_socket(argv[1]), b = can_socket(argv[2]), camera = can_socket(argv[3]), out = can_socket(argv[4]);
   for (int cycle = -1, number = 0;;) {  // counted from the drive's first, if it hears that one
     struct canfd_frame heard;

@@ -6,6 +6,7 @@
 // A FAULT is as in real_node.c.
 #include <dds/dds.h>
 #include <live_sample.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -35,7 +36,10 @@ static struct line line_of(dds_entity_t participant, dds_entity_t publisher, con
   dds_qos_t *qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
   line.writer = dds_create_writer(publisher, line.topic, qos, NULL);
-  if (line.writer < 0) exit(1);
+  if (line.writer < 0) {
+    fprintf(stderr, "%s: %s\n", topic, dds_strretcode(-line.writer));
+    exit(1);
+  }
   return line;
 }
 
@@ -74,7 +78,10 @@ static void send_list(struct line *line, int number, uint32_t measured_us) {
 }
 
 int main(int argc, char **argv) {
-  if (argc < 2) return 2;
+  if (argc < 2) {
+    fprintf(stderr, "usage: %s SESSION [TIME_SCALE [FAULT...]]\n", argv[0]);
+    return 2;
+  }
   const int64_t scale = argc > 2 ? atoi(argv[2]) : 1;
   dds_entity_t here = dds_create_participant(0, NULL, NULL);
   dds_qos_t *within = dds_create_qos();

@@ -11,6 +11,8 @@ source "$(dirname "$0")/launching.sh"
 [[ -e /sys/class/net/lo ]] && "$program" launch "$source/scenarios/paper_scenario1.yaml" --dry-run >/dev/null 2>&1 ||
   { echo "skipped: no loopback interface"; exit 77; }
 session=real-node-$$
+"$real_node" 2>"$work/usage"
+[[ $? -eq 2 && $(<"$work/usage") == usage:* ]] || fail "no usage without a session: $(<"$work/usage")"
 launch_options=(--no-topics --session "$session" --external camera_pre)
 drive=$source/tests/test_bed/short_drive.yaml
 
