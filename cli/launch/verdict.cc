@@ -33,8 +33,9 @@ std::string counted_text(const DriveFacts& facts) {
   add(early, "early frame");
   add(lost, "lost frame");
   add(facts.restarts, "restart");
-  if (!facts.external.empty()) parts.push_back(facts.external);
-  return joined(parts);
+  const std::string counted_here = joined(parts);
+  if (facts.external.empty()) return counted_here;
+  return counted_here.empty() ? facts.external : counted_here + "; " + facts.external;
 }
 
 std::string older_text(const std::string& sensor, const evaluation::accuracy::ServiceFindings::Older& older,

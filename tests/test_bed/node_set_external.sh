@@ -8,6 +8,14 @@ $virtual_time || skip "the real node keeps the schedule as it is, which this ker
 make_interfaces
 cc -O2 -Wall -o "$run/real_node" "$project/examples/real_node.c"
 
+echo "the stand-in says what is wrong with its arguments"
+code=0
+said=$("$run/real_node" 2>&1) || code=$?
+[[ $code -eq 2 && $said == usage:* ]] || fail "exit code $code without arguments: $said"
+code=0
+said=$("$run/real_node" nowhere "$b" "$camera_can" "$observation_can" 2>&1) || code=$?
+[[ $code -eq 1 && $said == nowhere:* ]] || fail "exit code $code without an interface: $said"
+
 # with_real_node FOLDER [FAULT...] -- OPTION...: a drive with it; there is no camera.
 with_real_node() {
   local folder=$1 faults=() code=0
@@ -56,5 +64,5 @@ judge_real faulty 'real["early"] >= 2 * 48 and real["late"] >= 2 * 48' "its fram
   "$(none_but 'real["early"] + real["late"] + real["malformed"]["wrong frame CRC"]')" "and nothing else" \
   'real["in_window"] >= 2 * 48 + 20 + 20' "those in between" \
   'lost("early_frames") >= 4 * 48 and lost("late_frames") >= 4 * 48' "the others tell it, too" \
-  '"late" in verdict and "malformed of camera_pre" in verdict' "the verdict"
+  '"late" in verdict and "camera_pre: " in verdict and "malformed" in verdict' "the verdict"
 echo "a real node: all as the page says"

@@ -54,24 +54,29 @@ std::string table_text(const std::vector<Account>& accounts) {
   if (accounts.empty()) return "";
   report::drawing::Table table({"real node", "frames in\nwindow", "\nearly", "\nlate", "\nmalformed", "\nmissing",
                                 "first after\n[s]", "at the\nend"});
-  std::string kinds;
+  std::string below;
   for (const Account& account : accounts) {
     const Counts& counts = account.counts;
     table.add({account.node, fmt::to_string(counts.in_window), fmt::to_string(counts.early),
                fmt::to_string(counts.late), fmt::to_string(counts.all_malformed()), fmt::to_string(counts.missing),
                account.first ? fmt::format("{:.3f}", account.first->seconds()) : "-", state_text(account)});
     if (const std::string these = kinds_text(counts); !these.empty())
-      kinds += fmt::format("malformed frames of {}: {}\n", account.node, these);
+      below += fmt::format("malformed frames of {}: {}\n", account.node, these);
+    if (!account.never_heard.empty())
+      below += fmt::format("never heard of {}: {}\n", account.node, joined(account.never_heard));
   }
-  return table.text() + kinds;
+  return table.text() + below;
 }
 
 std::string wrongs_text(const std::vector<Account>& accounts) {
-  std::vector<std::string> texts;
-  for (const Account& account : accounts)
-    if (const std::string wrongs = parts_text(wrongs_of(account.counts)); !wrongs.empty())
-      texts.push_back(fmt::format("{} of {}", wrongs, account.node));
-  return joined(texts);
+  std::string text;
+  for (const Account& account : accounts) {
+    std::vector<std::string> wrongs;
+    if (const std::string counted = parts_text(wrongs_of(account.counts)); !counted.empty()) wrongs.push_back(counted);
+    for (const std::string& name : account.never_heard) wrongs.push_back(name + " never heard");
+    if (!wrongs.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", account.node, joined(wrongs));
+  }
+  return text;
 }
 
 nlohmann::ordered_json json_of(const std::vector<Account>& accounts) {
@@ -87,6 +92,7 @@ nlohmann::ordered_json json_of(const std::vector<Account>& accounts) {
                     {"late", counts.late},
                     {"malformed", std::move(malformed)},
                     {"missing", counts.missing},
+                    {"never_heard", account.never_heard},
                     {"first_after_s", account.first ? nlohmann::ordered_json(account.first->seconds())
                                                     : nlohmann::ordered_json(nullptr)},
                     {"state", state_text(account)}});

@@ -14,8 +14,9 @@ namespace ttf::cli::launch::external {
 struct Account {
   std::string node;
   Counts counts;
-  std::optional<Duration> first;   // the first frame, from the begin of the drive
-  std::optional<Duration> silent;  // for how long, if for too long
+  std::optional<Duration> first;              // the first frame, from the begin of the drive
+  std::optional<Duration> silent;             // for how long, if for too long
+  std::vector<std::string> never_heard = {};  // lists and lines of a node that was heard
 };
 
 // Returns "waiting", "sending", "silent for 1.2 s".
@@ -23,9 +24,11 @@ std::string state_text(const Account& account);
 // Returns the state and all that was counted, without zeros: "sending, 812 in window, 3 late".
 std::string status_text(const Account& account);
 
-// Returns one table, and below it a line for each node with malformed frames. Empty without accounts.
+// Returns one table, and below it lines for nodes with malformed frames or lists that never came. Empty without
+// accounts.
 std::string table_text(const std::vector<Account>& accounts);
-// Returns what was not as it should be, for the verdict: "camera_pre sent 3 frames early"; empty if nothing.
+// Returns what was not as it should be, for the verdict: "camera_pre: 3 early, 1 late; camera: 2 missing". Empty if
+// nothing.
 std::string wrongs_text(const std::vector<Account>& accounts);
 nlohmann::ordered_json json_of(const std::vector<Account>& accounts);
 

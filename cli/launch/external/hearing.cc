@@ -11,9 +11,18 @@
 #include "sim/crank/cluster_simulation.h"
 
 namespace ttf::cli::launch::external {
+namespace {
+
+// One interface is that of channel A.
+schedules::model::Channels heard_channels(const node_set::NodeSet& set) {
+  using schedules::model::Channels;
+  return set.bus.medium->has_interfaces() && set.bus.interfaces.size() == 1 ? Channels::kA : Channels::kAB;
+}
+
+}  // namespace
 
 Hearing::Hearing(const node_set::NodeSet& set, std::vector<NodeId> nodes)
-    : set_(set), nodes_(std::move(nodes)), judge_(set.cluster, nodes_, set.time_scale_ppm) {
+    : set_(set), nodes_(std::move(nodes)), judge_(set.cluster, nodes_, set.time_scale_ppm, heard_channels(set)) {
   const bus::ports::HeardIdentifiers identifiers = judge_.identifiers();
   listener_ = set.bus.medium->listen({set.cluster, set.bus.interfaces, set.can_interfaces, set.session, identifiers});
 }
@@ -26,14 +35,15 @@ void Hearing::begin(bus::ports::MachineTime origin) {
 }
 
 void Hearing::take_in() {
-  while (const auto heard = listener_->hear()) judge_.hear(*heard);
+  while (const auto heard = listener_->hear()) in_order_.add(*heard);
+  in_order_.hand_over([&](const bus::ports::Heard& heard) { judge_.hear(heard); });
 }
 
 std::optional<Account> Hearing::account(NodeId node, bus::ports::MachineTime now) const {
   const auto found = std::ranges::find(nodes_, node);
   if (found == nodes_.end()) return std::nullopt;
   const auto number = static_cast<std::size_t>(found - nodes_.begin());
-  Account account{set_.cluster.node(node).name, judge_.counts(number), {}, {}};
+  Account account{set_.cluster.node(node).name, judge_.counts(number), {}, {}, judge_.never_heard(number)};
   if (!account.counts.first) return account;
   if (origin_) account.first = *account.counts.first - *origin_;
   // Behind the end of the drive all are silent: the other nodes' last frame says how far it went.

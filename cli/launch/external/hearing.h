@@ -9,6 +9,7 @@
 
 #include "bus/ports/listener.h"
 #include "cli/launch/external/account.h"
+#include "cli/launch/external/in_order.h"
 #include "cli/launch/external/judge.h"
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/supervisor.h"
@@ -39,6 +40,7 @@ class Hearing {
   const node_set::NodeSet& set_;
   const std::vector<NodeId> nodes_;
   Judge judge_;
+  InOrder in_order_;
   std::unique_ptr<bus::ports::Listener> listener_;
   std::optional<bus::ports::MachineTime> origin_;
 };

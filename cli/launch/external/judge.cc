@@ -34,6 +34,7 @@ std::string_view text_of(Malformed kind) {
     case Malformed::kList: return "impossible list";
     case Malformed::kTorn: return "incomplete list";
     case Malformed::kRepeated: return "repeated";
+    case Malformed::kOldList: return "old list";
   }
   return "";
 }
@@ -42,8 +43,9 @@ std::uint64_t Counts::all_malformed() const {
   return std::accumulate(malformed.begin(), malformed.end(), std::uint64_t{0});
 }
 
-Judge::Judge(const schedules::model::Cluster& cluster, std::vector<NodeId> nodes, std::int64_t time_scale_ppm)
-    : cluster_(cluster), time_scale_ppm_(time_scale_ppm), window_(*cluster.arrival_window),
+Judge::Judge(const schedules::model::Cluster& cluster, std::vector<NodeId> nodes, std::int64_t time_scale_ppm,
+             schedules::model::Channels channels)
+    : cluster_(cluster), time_scale_ppm_(time_scale_ppm), window_(*cluster.arrival_window), channels_(channels),
       grid_(cluster, time_scale_ppm), lists_(cluster.pdus.size()),
       others_sync_(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots) + 1) {
   for (const NodeId id : nodes) {
@@ -62,7 +64,8 @@ void Judge::add_slots(std::size_t node) {
   for (const FrameSlot& frame : cluster_.frames) {
     if (frame.sender != nodes_[node].id || is_dynamic(cluster_.flexray, frame)) continue;
     for (const Channel channel : schedules::model::kBothChannels)
-      if (includes(frame.channels, channel)) turns_.push_back({node, &frame, channel, std::nullopt});
+      if (includes(frame.channels, channel) && includes(channels_, channel))
+        turns_.push_back({node, &frame, channel, std::nullopt});
     if (frame.pdu != kNoPdu && !lists_[index_of(frame.pdu)])
       lists_[index_of(frame.pdu)] = std::make_unique<bus::cni::IncomingList>(cluster_.pdu(frame.pdu));
     const Duration silence = kPeriodsOfSilence * frame.repetition * stretched(cluster_.cycle(), time_scale_ppm_);
@@ -79,6 +82,7 @@ void Judge::add_cans(std::size_t node) {
       CanFrames frames{.node = node, .can_bus = b, .identifier = message.identifier, .message = &message};
       frames.flexible_data_rate = bus.flexible_data_rate;
       const schedules::model::PduLayout& layout = cluster_.pdu(message.pdu);
+      frames.name = layout.name;
       frames.length = static_cast<std::size_t>(
           *schedules::analysis::can_data_length(bus.flexible_data_rate, layout.fragment_bytes));
       frames.list = std::make_unique<bus::cni::IncomingList>(layout);
@@ -96,10 +100,12 @@ void Judge::add_cans(std::size_t node) {
     CanFrames frames{.node = node, .can_bus = *can};
     if (sensor.host == id && (sensor.scheduled || sensor.follows())) {
       frames.identifier = schedules::model::trigger_identifier(static_cast<SensorId>(s));
+      frames.name = sensor.name + " trigger";
       if (sensor.scheduled) frames.at = sensor.at;
       cans_.push_back(std::move(frames));
     } else if (sensor.device == id) {
       frames.identifier = schedules::model::strobe_identifier(static_cast<SensorId>(s));
+      frames.name = sensor.name + " strobe";
       frames.length = schedules::model::kStrobeBytes;
       cans_.push_back(std::move(frames));
     }
@@ -139,6 +145,7 @@ Judge::Node& Judge::heard_of(std::size_t number, MachineTime at) {
   Node& node = nodes_[number];
   if (!node.counts.first) node.counts.first = at;
   node.counts.last = at;
+  if (!node.first_cycle && grid_.known()) node.first_cycle = std::max(grid_.cycle_at(at), std::int64_t{0});
   return node;
 }
 
@@ -148,7 +155,8 @@ void Judge::hear_malformed(const Heard& heard) {
   if (heard.line <= bus::ports::line_of(Channel::kB)) {
     if (const Turn* turn = turn_of(heard.slot, static_cast<Channel>(heard.line), std::nullopt))
       count(heard_of(turn->node, heard.at), Malformed::kForm);
-  } else if (const CanFrames* frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier)) {
+  } else if (CanFrames* const frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier)) {
+    frames->heard = true;
     count(heard_of(frames->node, heard.at), Malformed::kForm);
   }
 }
@@ -174,7 +182,7 @@ void Judge::hear_frame(const Heard& heard) {
   const std::int64_t cycle = grid_.nearest(heard.at, frame.header.cycle), here = grid_.cycle_at(heard.at);
   if (cycle < here - 1 || cycle > here + 1) return count_as(Malformed::kContent);
   if (turn->last == cycle) return count_as(Malformed::kRepeated);
-  if (turn->last) node.counts.missing += missed(turn->frame->base_cycle, turn->frame->repetition, *turn->last, cycle);
+  node.counts.missing += missed(node, turn->frame->base_cycle, turn->frame->repetition, turn->last, cycle);
   turn->last = std::max(turn->last.value_or(cycle), cycle);
   if (broken) return count(node, Malformed::kFrameCrc);
   if (const auto fault = fault_of(*turn->frame, frame)) return count(node, *fault);
@@ -201,10 +209,10 @@ std::optional<Malformed> Judge::fault_of(bus::cni::ArrivalEffect effect) {
   switch (effect) {
     case bus::cni::ArrivalEffect::kMalformed: return Malformed::kList;
     case bus::cni::ArrivalEffect::kTorn: return Malformed::kTorn;
+    case bus::cni::ArrivalEffect::kStale: return Malformed::kOldList;
     case bus::cni::ArrivalEffect::kIncomplete:
     case bus::cni::ArrivalEffect::kCompleted:
-    case bus::cni::ArrivalEffect::kDuplicate:
-    case bus::cni::ArrivalEffect::kStale: break;
+    case bus::cni::ArrivalEffect::kDuplicate: break;  // on FlexRay the other channel's, or the next cycle's
   }
   return std::nullopt;
 }
@@ -213,6 +221,7 @@ void Judge::hear_can(const Heard& heard) {
   CanFrames* const frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier);
   if (frames == nullptr) return;
   Node& node = heard_of(frames->node, heard.at);
+  frames->heard = true;
   if (heard.can.flexible_data_rate != frames->flexible_data_rate || heard.can.data.size() != frames->length)
     return count(node, Malformed::kForm);
   if (frames->list) return judge_list(heard, *frames, node);
@@ -224,7 +233,10 @@ void Judge::hear_can(const Heard& heard) {
 void Judge::judge_list(const Heard& heard, CanFrames& frames, Node& node) {
   const schedules::model::PduLayout& layout = cluster_.pdu(frames.message->pdu);
   const auto effect = frames.list->arrive(heard.can.data.first(static_cast<std::size_t>(layout.fragment_bytes)));
-  if (const auto fault = fault_of(effect); fault == Malformed::kList) return count(node, *fault);
+  // No other channel brings a list again, and no cycle does.
+  if (effect == bus::cni::ArrivalEffect::kDuplicate) return count(node, Malformed::kRepeated);
+  const auto fault = fault_of(effect);
+  if (fault && fault != Malformed::kTorn) return count(node, *fault);  // it begins no list
   const std::uint32_t sequence = frames.list->arrived();
   const bool begins = frames.sequence != sequence;
   const Duration shortest = stretched(frames.message->shortest_period, time_scale_ppm_);
@@ -234,7 +246,7 @@ void Judge::judge_list(const Heard& heard, CanFrames& frames, Node& node) {
     frames.sequence = sequence;
     frames.began = heard.at;
   }
-  if (effect == bus::cni::ArrivalEffect::kTorn) return count(node, Malformed::kTorn);
+  if (fault) return count(node, *fault);
   ++(early ? node.counts.early : node.counts.in_window);
 }
 
@@ -247,8 +259,8 @@ void Judge::judge_trigger(const Heard& heard, CanFrames& frames, Node& node) {
   const std::int64_t before = here - since, next = before + repetition;
   const std::int64_t cycle = -behind(next) < behind(before) ? next : before;
   if (frames.last == cycle) return count(node, Malformed::kRepeated);
-  if (frames.last) node.counts.missing += missed(frames.at->base_cycle, frames.at->repetition, *frames.last, cycle);
-  frames.last = cycle;
+  node.counts.missing += missed(node, frames.at->base_cycle, frames.at->repetition, frames.last, cycle);
+  frames.last = std::max(frames.last.value_or(cycle), cycle);
   judge_instant(node, cycle < 0 ? kLongBefore : behind(cycle));
 }
 
@@ -256,12 +268,16 @@ void Judge::judge_instant(Node& node, Duration behind) const {
   ++(behind < -window_.early ? node.counts.early : behind > window_.late ? node.counts.late : node.counts.in_window);
 }
 
-// Returns how many of these cycles lie between two cycles, without both.
-std::uint64_t Judge::missed(int base_cycle, int repetition, std::int64_t last, std::int64_t next) {
+// Returns how many of these cycles lie between two cycles, without both. The cycle of the node's first frame stands
+// for a last one: a node that begins within a cycle may have been too late for its other frames.
+std::uint64_t Judge::missed(const Node& node, int base_cycle, int repetition, std::optional<std::int64_t> last,
+                            std::int64_t next) {
+  if (!last) last = node.first_cycle;
+  if (!last || next <= *last + 1) return 0;
   const auto passed = [&](std::int64_t cycle) {  // before that one
     return timebase::floor_div(cycle - base_cycle + repetition - 1, repetition);
   };
-  return next <= last + 1 ? 0 : static_cast<std::uint64_t>(passed(next) - passed(last + 1));
+  return static_cast<std::uint64_t>(passed(next) - passed(*last + 1));
 }
 
 Judge::Turn* Judge::turn_of(int slot, Channel channel, std::optional<std::uint8_t> cycle_counter) {
@@ -283,12 +299,20 @@ Counts Judge::counts(std::size_t number) const {
   const auto until = grid_.last_heard_cycle();
   if (!until) return counts;
   for (const Turn& turn : turns_)
-    if (turn.node == number && turn.last)
-      counts.missing += missed(turn.frame->base_cycle, turn.frame->repetition, *turn.last, *until);
+    if (turn.node == number)
+      counts.missing += missed(nodes_[number], turn.frame->base_cycle, turn.frame->repetition, turn.last, *until);
   for (const CanFrames& frames : cans_)
-    if (frames.node == number && frames.at && frames.last)
-      counts.missing += missed(frames.at->base_cycle, frames.at->repetition, *frames.last, *until);
+    if (frames.node == number && frames.at)
+      counts.missing += missed(nodes_[number], frames.at->base_cycle, frames.at->repetition, frames.last, *until);
   return counts;
+}
+
+std::vector<std::string> Judge::never_heard(std::size_t number) const {
+  std::vector<std::string> names;
+  if (!nodes_[number].counts.first) return names;
+  for (const CanFrames& frames : cans_)
+    if (frames.node == number && !frames.at && !frames.heard) names.push_back(frames.name);
+  return names;
 }
 
 }  // namespace ttf::cli::launch::external

@@ -5,7 +5,8 @@
 //   early, late it came before or behind that. A list on a private CAN is early if it comes sooner behind the last one than
 //               the schedule allows, and never late: no instant is its own
 //   malformed   a receiver cannot use it, whenever it came
-//   missing     its cycle passed without it, from the node's first frame there up to the last cycle of the cluster
+//   missing     its cycle passed without it, behind that of the node's first frame of any kind, up to the last cycle of
+//               the cluster. Lists and strobes on a private CAN have no cycle: they may be never heard
 // A frame on FlexRay counts on each channel. A frame before the cluster's first cycle counts as early.
 #pragma once
 
@@ -32,9 +33,10 @@ enum class Malformed : std::uint8_t {
   kContent,   // not the slot's: its cycle, its payload length, sync or startup indicator
   kList,      // numbers or codes that no sender of the list writes
   kTorn,      // the next list began before this one was whole
-  kRepeated,  // a second frame of its slot in a cycle
+  kRepeated,  // a second frame of its slot in a cycle, or a fragment of a list on a private CAN again
+  kOldList,   // its number is behind the last list's, as a sender's that counts anew
 };
-inline constexpr std::size_t kMalformedKinds = 6;
+inline constexpr std::size_t kMalformedKinds = 7;
 // Returns "wrong frame CRC".
 std::string_view text_of(Malformed kind);
 
@@ -50,16 +52,22 @@ class Judge {
  public:
   using MachineTime = bus::ports::MachineTime;
 
-  // `nodes`: the real ones. The cluster must be fit for real time (schedules/check/real_time_rules.h).
-  Judge(const schedules::model::Cluster& cluster, std::vector<NodeId> nodes, std::int64_t time_scale_ppm);
+  // `nodes`: the real ones. `channels`: those that can be heard. The cluster must be fit for real time
+  // (schedules/check/real_time_rules.h).
+  Judge(const schedules::model::Cluster& cluster, std::vector<NodeId> nodes, std::int64_t time_scale_ppm,
+        schedules::model::Channels channels = schedules::model::Channels::kAB);
 
   // Returns the frames to be heard: the real nodes', and the sync frames of the others.
   bus::ports::HeardIdentifiers identifiers() const;
   void begin(MachineTime cycle_0) { grid_.begin(cycle_0); }
+  // The instants must be in order over all lines (in_order.h).
   void hear(const bus::ports::Heard& heard);
 
   // By the index in `nodes`.
   Counts counts(std::size_t node) const;
+  // Returns the lists and lines on private CANs that never came from a node that was heard: "camera_objects",
+  // "camera strobe". Scheduled triggers count as missing instead.
+  std::vector<std::string> never_heard(std::size_t node) const;
   // Returns the longest time that the node may be silent: three of its longest periods, but half a second at least.
   Duration longest_silence(std::size_t node) const { return nodes_[node].longest_silence; }
   // Returns when the other nodes were last heard.
@@ -70,6 +78,7 @@ class Judge {
     NodeId id{};
     Counts counts;
     Duration longest_silence{};
+    std::optional<std::int64_t> first_cycle = {};  // the first known one in which it sent
   };
   // A frame of a slot on a channel, or a scheduled trigger.
   struct Turn {
@@ -83,6 +92,8 @@ class Judge {
     std::uint32_t identifier = 0;
     bool flexible_data_rate = false;
     std::size_t length = 0;
+    std::string name = {};
+    bool heard = false;
     const schedules::model::CanMessage* message = nullptr;  // a list's
     std::optional<schedules::model::CycleInstant> at = {};  // a scheduled trigger's
     std::unique_ptr<bus::cni::IncomingList> list = {};
@@ -106,7 +117,9 @@ class Judge {
   bool is_of(const schedules::model::FrameSlot& slot, const bus::wire::FrameHeader& header) const;
   std::optional<Malformed> fault_of(const schedules::model::FrameSlot& slot, const bus::wire::DecodedFrame& frame);
   static std::optional<Malformed> fault_of(bus::cni::ArrivalEffect effect);
-  static std::uint64_t missed(int base_cycle, int repetition, std::int64_t last, std::int64_t next);
+  // `last`: no value for a frame that was not heard yet.
+  static std::uint64_t missed(const Node& node, int base_cycle, int repetition, std::optional<std::int64_t> last,
+                              std::int64_t next);
   // Returns null for a slot that no real node has, in that cycle or in any.
   Turn* turn_of(int slot, schedules::model::Channel channel, std::optional<std::uint8_t> cycle_counter);
   CanFrames* frames_of(std::size_t can_bus, std::uint32_t identifier);
@@ -114,6 +127,7 @@ class Judge {
   const schedules::model::Cluster& cluster_;
   const std::int64_t time_scale_ppm_;
   const schedules::model::ArrivalWindow window_;
+  const schedules::model::Channels channels_;
   CycleGrid grid_;
   std::vector<Node> nodes_;
   std::vector<Turn> turns_;

@@ -54,10 +54,10 @@ TEST_F(Verdicts, WhatWasCountedMayNotMatter) {
 TEST_F(Verdicts, RealNodesAreCountedAsOthersAre) {
   facts.service.uses = 37;
   facts.restarts = 1;
-  facts.external = "3 late, 1 malformed of camera_pre";
+  facts.external = "camera_pre: 3 late, 1 malformed";
   EXPECT_EQ(
       verdict_of(facts).sentence,
-      "1 restart, 3 late, 1 malformed of camera_pre: this does not matter, each of 37 used images was as fresh as the "
+      "1 restart; camera_pre: 3 late, 1 malformed: this does not matter, each of 37 used images was as fresh as the "
       "schedule promises");
 }
 
