@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -18,7 +19,7 @@ namespace ttf::nodes::foreign {
 namespace {
 
 constexpr int kTicks = 10;  // in the limit of a call
-constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS};
 constexpr std::size_t kHandlersStack = 64 * 1024;
 
 // The calling thread's call. Its handlers run on the same thread.
@@ -47,6 +48,14 @@ extern "C" void ttf_call_crashes(int signal) {
   raise(signal);
 }
 
+// A library that calls exit() would end a drive as if all were well.
+extern "C" void ttf_call_exits() {
+  if (const CallTerms* const terms = t_terms; terms != nullptr) {
+    say(terms->exit);
+    _exit(1);
+  }
+}
+
 // Once a process.
 void install_handlers() {
   static const bool installed = [] {
@@ -62,6 +71,8 @@ void install_handlers() {
       sigaction(signal, nullptr, &now);
       if (now.sa_handler == SIG_DFL) sigaction(signal, &action, nullptr);
     }
+    if (std::atexit(ttf_call_exits) != 0 || std::at_quick_exit(ttf_call_exits) != 0)
+      throw std::runtime_error("cannot watch for the end of the process in the steps' calls");
     return true;
   }();
   (void)installed;
@@ -123,12 +134,14 @@ ThreadWatch& watch() {
 
 CallTerms terms_of(const std::string& place, Duration limit) {
   return {fmt::format("error: {}: a call did not return within {:g} s (--step-limit)\n", place, limit.seconds()),
-          fmt::format("error: {}: a call crashed\n", place), limit};
+          fmt::format("error: {}: a call crashed\n", place),
+          fmt::format("error: {}: a call ended the process\n", place), limit};
 }
 
 Call::Call(const CallTerms& terms) {
   TTF_CHECK(t_terms == nullptr, "a call of a step within another one: {}", terms.crash);
   ThreadWatch& own = watch();
+  pthread_sigmask(SIG_SETMASK, nullptr, &mask_);
   std::fegetenv(&environment_);
   std::fesetenv(FE_DFL_ENV);
   t_ticks = 0;
@@ -139,6 +152,7 @@ Call::Call(const CallTerms& terms) {
 Call::~Call() {
   watch().tick({});
   t_terms = nullptr;
+  pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
   std::fesetenv(&environment_);
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -74,25 +76,31 @@ ForeignStep::ForeignStep(const schedules::model::Cluster& cluster, const schedul
                                 .output_count = static_cast<std::uint32_t>(outs_.size()),
                                 .outputs = writes_.ports()};
   std::array<char, kLongestWords> words{};
-  {
-    const Call call(terms_);
-    self_ = library_.create(&described, words.data(), words.size());
-  }
+  const std::optional<std::string> thrown =
+      thrown_by(terms_, [&] { self_ = library_.create(&described, words.data(), words.size()); });
   words.back() = '\0';
   if (self_ != nullptr) return;
   Finding refusal = place_;
   refusal.expected =
-      fmt::format("is refused by the library: {}", words[0] != '\0' ? words.data() : "it gives no reason");
+      thrown ? "ttf_step_create " + *thrown
+             : fmt::format("is refused by the library: {}", words[0] != '\0' ? words.data() : "it gives no reason");
   throw InputError(std::move(refusal));
 }
 
+// A destructor must not throw: an exception is a crash, within the guard.
 ForeignStep::~ForeignStep() {
   const Call call(terms_);
-  library_.destroy(self_);
+  try {
+    library_.destroy(self_);
+  } catch (...) {
+    std::terminate();
+  }
 }
 
 void ForeignStep::fail(const std::string& words) const {
-  throw std::runtime_error(fmt::format("{}: {}", text_of(place_), words));
+  Finding failure = place_;
+  failure.expected = words;
+  throw std::runtime_error(failure.sentence());
 }
 
 // A list's time stamp is placed when it arrives: later, it could mean another round.
@@ -116,6 +124,9 @@ void ForeignStep::take(const host::Input& input, const host::StepContext& contex
 void ForeignStep::give(const Out& out, host::Output& output) const {
   if (out.list.written == 0) return;
   const schedules::model::PduLayout& layout = output.layout();
+  if (out.list.values != out.values.data())
+    fail(
+        fmt::format("replaced the pointer to the values of the port {}: they belong in the given room", output.port()));
   if (out.list.count > static_cast<std::uint32_t>(layout.max_elements))
     fail(fmt::format("gave {} elements to the port {}, which has room for {}", out.list.count, output.port(),
                      layout.max_elements));
@@ -153,10 +164,8 @@ void ForeignStep::run(host::StepContext& context) {
                                .output_count = static_cast<std::uint32_t>(outs_.size()),
                                .outputs = out_pointers_.data()};
   int result = 0;
-  {
-    const Call call(terms_);
-    result = library_.run(self_, &given);
-  }
+  if (const auto thrown = thrown_by(terms_, [&] { result = library_.run(self_, &given); }))
+    fail("ttf_step_run " + *thrown);
   if (result != 0) fail(fmt::format("failed: ttf_step_run returned {}", result));
   for (std::size_t o = 0; o < outs_.size(); ++o) give(outs_[o], context.outputs[o]);
 }

@@ -41,10 +41,7 @@ Library load_library(const std::string& path, const Finding& place, const CallTe
   }
   const auto abi = function_of<decltype(ttf_step_abi)>(handle, "ttf_step_abi", path, place);
   std::uint32_t version = 0;
-  {
-    const Call call(terms);
-    version = abi();
-  }
+  if (const auto thrown = thrown_by(terms, [&] { version = abi(); })) refuse(place, "ttf_step_abi " + *thrown);
   if (version != TTF_STEP_ABI)
     refuse(place, fmt::format("must be built with version {} of ttfusion_step.h: {} is of version {}", TTF_STEP_ABI,
                               path, version));

@@ -20,8 +20,9 @@
  * several workers: a library has no global state, or guards it. Every call gets the default floating-point environment;
  * whatever a call changes there is undone.
  *
- * Failures. A call that does not return within --step-limit ends the process. So does a crash. No C++ exception may
- * leave a call.
+ * Failures. A call that does not return within --step-limit ends the process. So do a crash and exit(). A C++ exception
+ * that leaves a call is a failure of the step. A signal ticks while a call lasts, a tenth of --step-limit apart: system
+ * calls such as nanosleep() may return early with EINTR.
  *
  * Versions. ttf_step_abi() says for which version the library was built; the program refuses others. Within a version,
  * structs only grow at their ends, and struct_size tells how far this program knows one.

@@ -1,7 +1,9 @@
 // Passes lists on, as the program's own gateway does: the task's k-th output is its k-th input. The definitions make
 // libraries that go wrong: TEST_ABI is another version, TEST_REFUSAL the words of a refusal, and TEST_RUN what the tenth
 // execution does.
+#include <fenv.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,6 +55,20 @@ static int grow(volatile char* below) {
   return grow(here) + here[0];
 }
 
+// Sends a list with the rounding that it finds, and leaves another one.
+static void turn_rounding(ttf_step_output* out) {
+  out->written = 1;
+  out->count = 1;
+  out->values[0] = fegetround() == FE_TONEAREST ? 8 : 16;
+  fesetround(FE_DOWNWARD);
+}
+
+static void block_all(void) {
+  sigset_t all;
+  sigfillset(&all);
+  sigprocmask(SIG_SETMASK, &all, NULL);
+}
+
 int ttf_step_run(void* state, const ttf_step_context* context) {
   copy_step* self = state;
   for (uint32_t p = 0; p < context->input_count; ++p) {
@@ -68,8 +84,10 @@ int ttf_step_run(void* state, const ttf_step_context* context) {
   if (++self->runs == 10) {
     TEST_RUN;
   }
+  (void)block_all;
   (void)grow;
   (void)spin;
+  (void)turn_rounding;
   return 0;
 }
 #endif

@@ -56,11 +56,22 @@ TEST(ForeignStep, KnowsNoTimeStampsWithoutGlobalTime) {
 }
 
 TEST(ForeignStep, LeavesTheFloatingPointEnvironmentAlone) {
-  OneTask task("copy.so");
+  OneTask task("rounds.so");
   ASSERT_EQ(std::fesetround(FE_UPWARD), 0);
-  task.run();
-  EXPECT_EQ(std::fegetround(), FE_UPWARD);
+  for (int k = 0; k < 10; ++k) task.run();
+  const int after = std::fegetround();
   std::fesetround(FE_TONEAREST);
+  EXPECT_EQ(after, FE_UPWARD);
+  ASSERT_TRUE(task.output().written());
+  EXPECT_NEAR(host::element_value(task.layout(), task.output().view(), 0, 0), 8.0, 0.1) << "the call's is the default";
+}
+
+TEST(ForeignStep, LeavesTheSignalMaskAlone) {
+  OneTask task("blocks.so");
+  for (int k = 0; k < 10; ++k) task.run();
+  sigset_t mask;
+  pthread_sigmask(SIG_SETMASK, nullptr, &mask);
+  EXPECT_EQ(sigismember(&mask, SIGTERM), 0);
 }
 
 TEST(ForeignStep, LibrariesThatDoNotFitAreOneSentence) {
@@ -77,6 +88,8 @@ TEST(ForeignStep, LibrariesThatDoNotFitAreOneSentence) {
   EXPECT_THAT(
       refusal("refuses.so"),
       HasSubstr(std::string(kPlace) + "refuses.so: is refused by the library: in of laser_objects is not what I read"));
+  EXPECT_THAT(refusal("throws_at_creation.so"),
+              HasSubstr(std::string(kPlace) + "throws_at_creation.so: ttf_step_create threw: no such object"));
 }
 
 std::string failure(const std::string& library) {
@@ -87,6 +100,13 @@ std::string failure(const std::string& library) {
     return error.what();
   }
   return "";
+}
+
+TEST(ForeignStep, AnExceptionHasItsPlace) {
+  EXPECT_EQ(failure("throws.so").substr(failure("throws.so").find("nodes.gateway")),
+            "nodes.gateway.tasks.forward_laser.step = throws.so: ttf_step_run threw: no such object");
+  EXPECT_THAT(failure("throws_seven.so"),
+              HasSubstr("throws_seven.so: ttf_step_run threw something else than a std::exception"));
 }
 
 TEST(ForeignStep, ListsThatAPortCannotHoldEndTheNode) {
@@ -109,6 +129,7 @@ TEST(ForeignStep, ListsThatAPortCannotHoldEndTheNode) {
               HasSubstr("gave nan as y of element 0 to the port out: values must be finite"));
   EXPECT_THAT(with_list("too_late.so"),
               HasSubstr("gave the time stamp 9223372036854775807 ns to the port out: it must be within 2^62 ns"));
+  EXPECT_THAT(with_list("replaces.so"), HasSubstr("replaced the pointer to the values of the port out: "));
 }
 
 // Each runs the test program anew: a fork would have no timer.
@@ -135,6 +156,12 @@ TEST_F(ForeignStepDeaths, AHangOnAnotherThreadEndsTheProcess) {
               "hangs.so: a call did not return within 0.1 s");
 }
 
+TEST_F(ForeignStepDeaths, AnExitIsAFailure) {
+  for (const char* library : {"exits.so", "quits.so"})
+    EXPECT_EXIT(run_ten(library, StepFolder::kUsualLimit), testing::ExitedWithCode(1),
+                std::string("^error: .*forward_laser.step = ") + library + ": a call ended the process\n$");
+}
+
 #ifndef TTF_SANITIZED  // sanitizers have handlers of their own
 TEST_F(ForeignStepDeaths, ACrashHasASentence) {
   EXPECT_EXIT(run_ten("crashes.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGSEGV),
@@ -143,6 +170,10 @@ TEST_F(ForeignStepDeaths, ACrashHasASentence) {
               "overflows.so: a call crashed\n$");
   EXPECT_EXIT(run_ten("aborts.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGABRT),
               "aborts.so: a call crashed\n$");
+  EXPECT_EXIT(run_ten("traps.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGTRAP),
+              "traps.so: a call crashed\n$");
+  EXPECT_EXIT(run_ten("throws_at_end.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGABRT),
+              "throws_at_end.so: a call crashed\n$");
 }
 #endif
 
