@@ -117,8 +117,7 @@ void check_described(const schedules::model::Cluster& cluster) {
 }
 
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                fusion::strategies::StrategyKind strategy, bool recording_given,
-                const nodes::foreign::StepFolder* steps) {
+                fusion::strategies::StrategyKind strategy, bool recording_given) {
   check_described(cluster);
   check_recording(scenario, cluster, recording_given);
   check_late(scenario, cluster, strategy);
@@ -128,7 +127,6 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
   (void)tracker_of(scenario, cluster);
-  nodes::foreign::check_steps(cluster, steps);
 }
 
 DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out) {

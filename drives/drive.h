@@ -62,10 +62,9 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
 // InputError; run_drive() calls it too.
 void check_described(const schedules::model::Cluster& cluster);
 // Checks the scenario's demands on the cluster's nodes and the recording before anything starts: faults,
-// start-up, late lists, steps of libraries. Throws InputError.
+// start-up, late lists. Steps of libraries have a check of their own (nodes/foreign/libraries.h). Throws InputError.
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                fusion::strategies::StrategyKind strategy, bool recording_given,
-                const nodes::foreign::StepFolder* steps = nullptr);
+                fusion::strategies::StrategyKind strategy, bool recording_given);
 
 // Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError
 // if scenario, cluster and code do not match.

@@ -50,7 +50,8 @@ Recording read_recording(const std::string& path) {
 
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,
-                                        const Recording& recording, const nodes::foreign::StepFolder* steps) {
+                                        const Recording& recording, const nodes::foreign::StepFolder* steps,
+                                        const std::vector<NodeId>& externals) {
   recording::log::LogManifest manifest;
   manifest.version = TTF_VERSION;
   manifest.seed = seed;
@@ -64,7 +65,8 @@ recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const 
     manifest.recording_name = recording.name;
     manifest.hashes.emplace_back("recording", recording.hash);
   }
-  for (auto& library : nodes::foreign::library_hashes(cluster, steps)) manifest.hashes.push_back(std::move(library));
+  for (auto& library : nodes::foreign::library_hashes(cluster, steps, externals))
+    manifest.hashes.push_back(std::move(library));
   for (const schedules::model::Node& node : cluster.nodes) {
     manifest.node_names.push_back(node.name);
     manifest.task_names.emplace_back();

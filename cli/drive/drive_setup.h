@@ -37,7 +37,8 @@ Recording read_recording(const std::string& path);
 
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,
-                                        const Recording& recording, const nodes::foreign::StepFolder* steps = nullptr);
+                                        const Recording& recording, const nodes::foreign::StepFolder* steps = nullptr,
+                                        const std::vector<NodeId>& externals = {});
 // Opens a log and attaches its scenario and cluster.
 std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
                                                      const recording::log::LogManifest& manifest,

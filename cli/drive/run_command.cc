@@ -99,7 +99,8 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
     plan.folder = alone ? options.out : options.out + "/" + named_folder(plan.scenario);
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     const schedules::model::Cluster cluster = checked_cluster(plan.scenario, strategy);
-    drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr, steps);
+    drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
+    nodes::foreign::check_steps(cluster, steps);
     if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
   }
   return plan;

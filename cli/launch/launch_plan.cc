@@ -94,6 +94,9 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
     spec.command = {};
     plan.duties.push_back(external::duties_of(plan.set.cluster, node, plan.set.time_scale_ppm));
   }
+  for (std::size_t n = 0; n < plan.nodes.size(); ++n)
+    if (!plan.nodes[n].external)
+      nodes::foreign::check_steps(plan.set.cluster, plan.set.cluster.nodes[n], drive::pointer_to(plan.set.steps));
   set_policies(arguments.policies, plan.set.cluster, plan.nodes);
   refuse_restart_in_virtual_time(plan);
   refuse_restart_of_external(plan);

@@ -23,6 +23,8 @@ int run_node(const NodeArguments& arguments) {
   options.node = node_set::node_of(options.set.cluster, arguments.name, "name", arguments.name);
   if (std::ranges::find(options.set.externals, options.node) != options.set.externals.end())
     throw InputError({"command line", 0, "--external", *arguments.set.external, "must not name the node itself"});
+  nodes::foreign::check_steps(options.set.cluster, options.set.cluster.node(options.node),
+                              drive::pointer_to(options.set.steps));
   options.log = options.set.folder + "/" + supervision::file_stem(arguments.name) + ".mcap";
   options.json = arguments.json;
 #if TTF_WITH_DDS

@@ -144,8 +144,8 @@ nodes::runner::RunnerConfig config_of(const NodeOptions& options, const Start& s
 }
 
 recording::log::LogManifest wall_manifest(const node_set::NodeSet& set) {
-  recording::log::LogManifest manifest =
-      drive::manifest_of(set.scenario, set.cluster, set.strategy, set.seed, {}, drive::pointer_to(set.steps));
+  recording::log::LogManifest manifest = drive::manifest_of(set.scenario, set.cluster, set.strategy, set.seed, {},
+                                                            drive::pointer_to(set.steps), set.externals);
   manifest.clock = recording::log::kWallClock;
   manifest.host = set.host;
   manifest.time_scale_ppm = set.time_scale_ppm;

@@ -201,7 +201,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     set.scenario.duration = set.scenario.world.duration = drive::kLongestDrive;
   else if (arguments.duration)
     drive::set_duration(set.scenario, drive, *arguments.duration);
-  drives::check_fits(set.scenario, set.cluster, set.strategy, false, drive::pointer_to(set.steps));
+  drives::check_fits(set.scenario, set.cluster, set.strategy, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (arguments.external) set.externals = external_nodes(*arguments.external, set);
   if (!set.virtual_time) check_fit_for_real_time(set);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/ids.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 
@@ -17,12 +18,16 @@ struct StepFolder {
   Duration limit = kUsualLimit;  // for one call, by the wall
 };
 
-// Makes each step of the cluster's libraries once, as a drive does before it begins. Without a folder the cluster may name
-// no library. Throws InputError.
+// Makes each step of libraries once, as a drive does before it begins: of all nodes, or of the nodes that the process or its
+// children have. Without a folder these nodes may name no library. Throws InputError.
 void check_steps(const schedules::model::Cluster& cluster, const StepFolder* folder);
+void check_steps(const schedules::model::Cluster& cluster, const schedules::model::Node& node,
+                 const StepFolder* folder);
 
-// Returns the libraries' names with the hashes of their contents, by name. Throws InputError if one cannot be read.
+// Returns the libraries' names with the hashes of their contents, by name, but not those that only the nodes `without` name:
+// these are not simulated. Throws InputError if one cannot be read.
 std::vector<std::pair<std::string, std::string>> library_hashes(const schedules::model::Cluster& cluster,
-                                                                const StepFolder* folder);
+                                                                const StepFolder* folder,
+                                                                const std::vector<NodeId>& without = {});
 
 }  // namespace ttf::nodes::foreign

@@ -96,7 +96,7 @@ TEST(ForeignDrive, AllocatesNothingOnTheCyclicPath) {
 TEST(ForeignDrive, AClusterFileAloneLoadsNoCode) {
   const drives::Drive drive = example();
   try {
-    drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
+    check_steps(drive.cluster, nullptr);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(error.findings().front().sentence().find("nodes.feature.tasks.warn.step = distance.so: needs --steps"),
@@ -115,6 +115,7 @@ TEST(ForeignDrive, HashesNameEachLibraryOnce) {
   ASSERT_EQ(hashes.size(), 1u);
   EXPECT_EQ(hashes[0].first, "copy.so");
   EXPECT_EQ(hashes[0].second.size(), 16u);
+  EXPECT_TRUE(library_hashes(drive.cluster, &kSteps, {*drive.cluster.find_node("gateway")}).empty());
 }
 
 }  // namespace
