@@ -11,6 +11,7 @@
 #include "core/errors.h"
 #include "core/file_bytes.h"
 #include "recording/merge/stored_log.h"
+#include "schedules/model/ports.h"
 
 namespace ttf::report::drive {
 namespace {
@@ -53,6 +54,12 @@ void find_logs(ResultsFolder& folder) {
 }
 
 }  // namespace
+
+bool has_libraries(const Drive& drive) {
+  return drive.log != nullptr && std::ranges::any_of(drive.log->manifest().hashes, [](const auto& hash) {
+           return schedules::model::names_library(hash.first);
+         });
+}
 
 Json parse_json(std::string_view text, const std::string& file) {
   try {

@@ -39,6 +39,9 @@ struct ResultsFolder {
   std::vector<Drive> drives;         // at least one
   std::vector<std::string> remarks;  // sentences about missing or damaged files
 };
+// Returns whether libraries took part as steps: then the log's manifest has their hashes.
+bool has_libraries(const Drive& drive);
+
 // Throws InputError for an invalid summary or an unreadable log.
 ResultsFolder read_results_folder(const std::string& path);
 

@@ -277,7 +277,7 @@ void failures(page::Page& page, const ExperimentFolder& folder) {
   if (more > 0) page.paragraph(fmt::format("And {} more, in runs.csv.", more));
 }
 
-void how_made(page::Page& page, const ExperimentFolder& folder) {
+void how_made(page::Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives) {
   page.section("How to repeat it");
   const std::string file = page::shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
   if (!folder.store) {
@@ -294,9 +294,10 @@ void how_made(page::Page& page, const ExperimentFolder& folder) {
                   "file is below") +
       (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
   page.command(
-      fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
+      fmt::format("ttfusion experiment {0}{2} --out again\nttfusion experiment {0} --replay {1}{2} --out one\n"
                   "ttfusion report one -o one.html\n",
-                  file, page::shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
+                  file, page::shell_word(fmt::format("0/{}/0", folder.paradigms.front())),
+                  std::ranges::any_of(drives.drives, drive::has_libraries) ? " --steps FOLDER" : ""));
   page.preformatted("The experiment's file", head.text);
 }
 
@@ -377,7 +378,7 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
   }
   one_of_each(page, folder, drives, window);
   failures(page, folder);
-  how_made(page, folder);
+  how_made(page, folder, drives);
   return page.html();
 }
 
