@@ -102,7 +102,8 @@ std::string html(const ReportOptions& options) {
   if (experiments == 0) {
     for (const auto& [name, given] :
          {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
-          std::pair("--steps", options.steps.folder.has_value()), std::pair("--no-drives", options.no_drives)})
+          std::pair("--steps", options.steps.folder.has_value()),
+          std::pair("--step-limit", options.steps.limit.has_value()), std::pair("--no-drives", options.no_drives)})
       if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
     std::vector<report::drive::ResultsFolder> folders;
     for (const std::string& path : options.folders) {

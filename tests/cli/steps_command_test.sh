@@ -35,13 +35,23 @@ for library in distance lamp; do
   grep -aq "hash.$library.so" "$work/example/tt.mcap" || fail "the log's manifest has no hash of $library.so"
 done
 
+mkdir "$work/distance_only"
+cp "$steps/distance.so" "$work/distance_only"
+expect 0 'wrote' report "$work/example" -o "$work/example.html"
+grep -q -- '--strategy tt --seed [0-9]* --steps FOLDER$' "$work/example.html" || fail "the report's command has no --steps"
+
+# ---- each process needs the libraries of its own nodes
+launched() { expect "$1" "$2" launch "$example/scenario.yaml" --no-topics --dry-run --time-scale 10 --out "$work/real" "${@:3}"; }
+launched 2 'nodes.dashboard.tasks.show.step = lamp.so: must be a file' --steps "$work/distance_only"
+launched 0 '' --steps "$work/distance_only" --external dashboard
+
 # ---- a library's gateway, in place of the program's own
 with_gateway() {   # LIBRARY: a scenario whose gateway is the library's, in $work/LIBRARY.yaml
   sed "s/step: gateway/step: $1/" "$source/schedules/paper_synchronised.yaml" >"$work/$1.cluster.yaml"
   sed "s#\.\./schedules/paper_synchronised.yaml#$1.cluster.yaml#; s#\.\./schedules#$source/schedules#" \
     "$source/scenarios/paper_scenario1.yaml" >"$work/$1.yaml"
 }
-for library in copy other_version refuses hangs crashes fails; do with_gateway "$library.so"; done
+for library in copy other_version refuses hangs crashes exits fails; do with_gateway "$library.so"; done
 drive() { local code=$1 says=$2 library=$3; shift 3; expect "$code" "$says" run "$work/$library.yaml" --strategy tt --no-pictures \
   --steps "$steps" --out "$work/$library" "$@"; }
 hash=$(sed -n 's/.*"paper_scenario1 tt": "\(.*\)".*/\1/p' "$source/tests/golden/content_hashes.json")
@@ -50,8 +60,10 @@ place='nodes.gateway.tasks.forward_laser.step ='
 drive 2 "$place other_version.so: must be built with version 1 of ttfusion_step.h: .*/other_version.so is of version 2\$" other_version.so
 drive 2 "$place refuses.so: is refused by the library: in of laser_objects is not what I read\$" refuses.so
 place='nodes.gateway.tasks.forward_camera.step ='   # the camera's lists come more often
+drive 1 "$place exits.so: a call ended the process\$" exits.so
 drive 1 "$place fails.so: failed: ttf_step_run returned 7\$" fails.so
-drive 1 "$place hangs.so: a call did not return within 0.2 s \\(--step-limit\\)\$" hangs.so --step-limit 0.2
+# A processor that others hold may let any call of this library last too long.
+drive 1 "nodes.gateway.tasks.forward_[a-z]+.step = hangs.so: a call did not return within 0.2 s \\(--step-limit\\)\$" hangs.so --step-limit 0.2
 (ulimit -c 0; drive 139 "$place crashes.so: a call crashed\$" crashes.so; exit "$failures") || fail "a crash is not said"
 for library in other_version refuses; do [[ ! -e $work/$library.so/tt.mcap ]] || fail "what is refused leaves a log"; done
 

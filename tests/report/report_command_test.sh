@@ -183,6 +183,7 @@ expect 2 '^error: command line: --file = changed/small.yaml: cannot be driven ag
 expect 2 '^error: nowhere.yaml: ' report small --file nowhere.yaml -o x.html
 expect 2 '^error: command line: --point = 2: must be a point of small, 0 to 1' report small --point 2 -o x.html
 expect 2 '^error: command line: --point: goes with an experiment' report seed1 --point 0 -o x.html
+expect 2 '^error: command line: --step-limit: goes with an experiment' report seed1 --step-limit 3 -o x.html
 # Figures that differ from the rows': they are not this drive's.
 cp -r small forged
 cp -r small holes
