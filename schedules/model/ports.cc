@@ -44,6 +44,9 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
                   fmt::format("must bind at least one sensor's list: step {} fuses them", task.step)});
 }
 
+// A zero would end the name for the system, and other control characters would hide it from the reader.
+bool no_file_name_has(char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
 }  // namespace
 
 bool names_library(std::string_view step) { return step.ends_with(kLibraryEnd); }
@@ -56,9 +59,10 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
     for (const Task& task : node.tasks) {
       const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
       if (names_library(task.step)) {
-        if (task.step.size() == kLibraryEnd.size() || task.step.find('/') != std::string::npos)
+        if (task.step.size() == kLibraryEnd.size() || std::ranges::any_of(task.step, no_file_name_has))
           findings.add({cluster.file, task.line, path + ".step", task.step,
-                        "must be a file name without a folder, such as distance.so: --steps gives the folder"});
+                        "must be a file name without a folder and control characters, such as distance.so: "
+                        "--steps gives the folder"});
         continue;
       }
       const auto step = std::find_if(steps.begin(), steps.end(),

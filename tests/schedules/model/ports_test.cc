@@ -71,7 +71,12 @@ TEST(Ports, ALibrarysPortsAreFreeButItsNameIsAFiles) {
     ASSERT_EQ(port_findings(cluster).size(), 1u) << name;
     EXPECT_EQ(port_findings(cluster)[0].sentence(),
               std::string("small.yaml:12: nodes.all.tasks.forward.step = ") + name +
-                  ": must be a file name without a folder, such as distance.so: --steps gives the folder");
+                  ": must be a file name without a folder and control characters, such as distance.so: "
+                  "--steps gives the folder");
+  }
+  for (const char c : {'\0', '\n', '\x7f'}) {
+    task.step = std::string("dist") + c + "ance.so";
+    EXPECT_EQ(port_findings(cluster).size(), 1u) << static_cast<int>(c);
   }
 }
 
