@@ -148,7 +148,7 @@ TEST_F(ForeignStepDeaths, AHangEndsTheProcess) {
   EXPECT_EXIT(
       run_ten("hangs.so", Duration::milliseconds(100)), testing::ExitedWithCode(1),
       "^error: .*paper_synchronised.yaml:243: nodes.gateway.tasks.forward_laser.step = hangs.so: a call did not "
-      "return within 0.1 s \\(--step-limit\\)\n$");
+      "return within 0.1 s \\(--step-limit\\)\n");
 }
 
 TEST_F(ForeignStepDeaths, AHangOnAnotherThreadEndsTheProcess) {
@@ -159,21 +159,21 @@ TEST_F(ForeignStepDeaths, AHangOnAnotherThreadEndsTheProcess) {
 TEST_F(ForeignStepDeaths, AnExitIsAFailure) {
   for (const char* library : {"exits.so", "quits.so"})
     EXPECT_EXIT(run_ten(library, StepFolder::kUsualLimit), testing::ExitedWithCode(1),
-                std::string("^error: .*forward_laser.step = ") + library + ": a call ended the process\n$");
+                std::string("^error: .*forward_laser.step = ") + library + ": a call ended the process\n");
 }
 
 #ifndef TTF_SANITIZED  // sanitizers have handlers of their own
 TEST_F(ForeignStepDeaths, ACrashHasASentence) {
   EXPECT_EXIT(run_ten("crashes.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGSEGV),
-              "^error: .*forward_laser.step = crashes.so: a call crashed\n$");
+              "^error: .*forward_laser.step = crashes.so: a call crashed\n");
   EXPECT_EXIT(run_ten("overflows.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGSEGV),
-              "overflows.so: a call crashed\n$");
+              "overflows.so: a call crashed\n");
   EXPECT_EXIT(run_ten("aborts.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGABRT),
-              "aborts.so: a call crashed\n$");
+              "aborts.so: a call crashed\n");
   EXPECT_EXIT(run_ten("traps.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGTRAP),
-              "traps.so: a call crashed\n$");
+              "traps.so: a call crashed\n");
   EXPECT_EXIT(run_ten("throws_at_end.so", StepFolder::kUsualLimit), testing::KilledBySignal(SIGABRT),
-              "throws_at_end.so: a call crashed\n$");
+              "throws_at_end.so: a call crashed\n");
 }
 #endif
 
