@@ -51,7 +51,7 @@ TEST_F(StagesSection, AgesOutsideTheBoundsAreToldFirst) {
   EXPECT_EQ(beyond_words("tt", tt.stages), "tt: ages outside the schedule's bounds: 3 of 19 measurements of laser.");
   EXPECT_EQ(beyond_words("buff", buff.stages), "");
   EXPECT_EQ(count(html({{&buff, {}, {}}, {&tt, {}, {}}}), "3 ▲"), 2u);
-  EXPECT_EQ(count(html({{&buff, {}, {}}}), "every age was within the bounds"), 1u);
+  EXPECT_EQ(count(html({{&buff, {}, {}}}), "was within the bounds of the schedule"), 1u);
   EXPECT_EQ(answer_of({{&tt, {}, {}}}).more.at(0), beyond_words("tt", tt.stages));
 }
 
