@@ -61,7 +61,7 @@ for one in timings:
     assert all(len(order) > 100 for chunk in chunks for order in chunk["order"])
 END
 # Ages were within the bounds of the schedule, stage by stage.
-has run.html 'every age was within the bounds'
+has run.html 'was within the bounds of the schedule'
 [[ $(grep -c 'stage by stage</summary>' run.html) == 2 ]] || fail "not both sensors have their stages"
 # The page loads no other files.
 lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
