@@ -21,6 +21,7 @@
 typedef struct {
   uint32_t signals[4];  // of each port
   int runs;
+  double spare[64];  // values that are not the program's
 } copy_step;
 
 uint32_t ttf_step_abi(void) { return TEST_ABI; }
