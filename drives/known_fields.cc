@@ -21,7 +21,9 @@ std::optional<Field> field_of(const Sensors& sensors, const schedules::model::Se
       const sim::world::CameraConfig& camera = sensors.cameras.of(sensor.name).model;
       return Field{.half_angle = camera.half_field_rad, .max_range = camera.max_range_m, .shadow = camera.shadow};
     }
-    case schedules::model::SensorKind::kRadar: break;
+    case schedules::model::SensorKind::kRadar:
+    case schedules::model::SensorKind::kMonoCamera:
+    case schedules::model::SensorKind::kOdometry: break;
   }
   return std::nullopt;
 }

@@ -28,9 +28,11 @@ std::string_view name_of(SensorKind kind) {
   switch (kind) {
     case SensorKind::kLaser: return "laser";
     case SensorKind::kCamera: return "camera";
-    case SensorKind::kRadar: break;
+    case SensorKind::kRadar: return "radar";
+    case SensorKind::kMonoCamera: return "mono_camera";
+    case SensorKind::kOdometry: break;
   }
-  return "radar";
+  return "odometry";
 }
 
 void load(YamlMap& yaml, sim::world::LaserConfig& laser) { laser = sim::world::load_laser(yaml); }

@@ -36,7 +36,9 @@ void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor)
         return place_emulated(attached.scenario->sensors.lasers.of(of.name).model, sensor);
       case schedules::model::SensorKind::kCamera:
         return place_emulated(attached.scenario->sensors.cameras.of(of.name).model, sensor);
-      case schedules::model::SensorKind::kRadar: break;
+      case schedules::model::SensorKind::kRadar:
+      case schedules::model::SensorKind::kMonoCamera:
+      case schedules::model::SensorKind::kOdometry: break;
     }
   }
   for (const fusion::sensors::KnownSensor& known : attached.scenario->tracker.sensors)

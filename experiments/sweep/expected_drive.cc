@@ -176,7 +176,9 @@ std::optional<SizeLook> ExpectedError::size_seen(const Seen& seen) const {
       return SizeLook{index, Eigen::Vector2d::Unit(shown()), sigma * sigma,
                       by_range * by_range + by_aspect * by_aspect};
     }
-    case schedules::model::SensorKind::kRadar: break;
+    case schedules::model::SensorKind::kRadar:
+    case schedules::model::SensorKind::kMonoCamera:
+    case schedules::model::SensorKind::kOdometry: break;
   }
   return std::nullopt;
 }

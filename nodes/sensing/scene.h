@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/time.h"
+#include "sim/world/ego.h"
 #include "sim/world/world.h"
 
 namespace ttf::nodes::sensing {
@@ -14,6 +15,8 @@ class Scene {
   virtual ~Scene() = default;
   // Writes the states of all objects at `at` into `out`, which keeps its capacity.
   virtual void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const = 0;
+  // Returns the state of the sensors' vehicle; one that stands at the origin of the ground, unless the scene moves it.
+  virtual sim::world::EgoState ego_at(TrueTime) const { return {}; }
   // Returns the largest number of objects.
   virtual std::size_t objects() const = 0;
 };

@@ -222,7 +222,9 @@ class Loader {
     item.line = map.line();
     item.kind = map.choice<model::SensorKind>("kind", {{"laser", model::SensorKind::kLaser},
                                                        {"camera", model::SensorKind::kCamera},
-                                                       {"radar", model::SensorKind::kRadar}});
+                                                       {"radar", model::SensorKind::kRadar},
+                                                       {"mono_camera", model::SensorKind::kMonoCamera},
+                                                       {"odometry", model::SensorKind::kOdometry}});
     item.device = node(map, "device");
     item.host = node(map, "host");
     enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };

@@ -157,7 +157,7 @@ struct Node {
   int line = 0;
 };
 
-enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar };
+enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar, kMonoCamera, kOdometry };
 
 // A sensor measures in one of three ways. Free: with a period on the device's own clock, first at `phase` (drawn
 // if absent). Scheduled: at an instant of the host's global time, by a trigger line. Following: by the same
