@@ -4,44 +4,53 @@
     ttfusion export out/paper_scenario1/tt.mcap --format tables -o out/tables
     examples/table_figure.py out/tables out/errors.pdf
 
+The tables may be those of --format sqlite in one file, too: out/tables.sqlite.
+
 It draws with Matplotlib (Debian: python3-matplotlib). The name of the figure
 ends with its format: .pdf, .svg or .png. Exit code 1: there is no Matplotlib. Exit code 2: a table cannot be read.
 """
+import contextlib
 import csv
 import math
 import pathlib
+import sqlite3
 import sys
 
 
-def rows(folder: pathlib.Path, table: str) -> list[dict[str, str]]:
-    with open(folder / f"{table}.csv", newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+def rows(tables: pathlib.Path, name: str) -> list:
+    """Returns a table's rows; the name of a column gives a row's field."""
+    if not tables.is_file():
+        with open(tables / f"{name}.csv", newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+    with contextlib.closing(sqlite3.connect(f"{tables.absolute().as_uri()}?mode=ro", uri=True)) as database:
+        database.row_factory = sqlite3.Row
+        return database.execute(f"SELECT * FROM {name} ORDER BY rowid").fetchall()
 
 
-def number(text: str) -> float:
+def number(field: str | float | None) -> float:
     """An empty field is an absent value."""
-    return float(text) if text else math.nan
+    return math.nan if field in ("", None) else float(field)
 
 
-def position_errors(folder: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
+def position_errors(tables: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
     """Returns for each object: time [s] and distance [m] from the truth, for each use of an image."""
     found: dict[str, list[tuple[float, float]]] = {}
-    for row in rows(folder, "errors"):
+    for row in rows(tables, "errors"):
         distance_m = math.hypot(number(row["error_x_m"]), number(row["error_y_m"]))
         found.setdefault(f"object {row['object']}", []).append((float(row["time_s"]), distance_m))
     return found
 
 
-def ages(folder: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
+def ages(tables: pathlib.Path) -> dict[str, list[tuple[float, float]]]:
     """Returns for each sensor: time [s], and the age [ms] of its newest measurement in the used image."""
     found: dict[str, list[tuple[float, float]]] = {}
-    for row in rows(folder, "ages"):
+    for row in rows(tables, "ages"):
         found.setdefault(row["sensor"], []).append((float(row["time_s"]), number(row["age_ms"])))
     return found
 
 
-def draw(folder: pathlib.Path, picture: str) -> None:
-    errors, of_sensors = position_errors(folder), ages(folder)
+def draw(tables: pathlib.Path, picture: str) -> None:
+    errors, of_sensors = position_errors(tables), ages(tables)
     import matplotlib
     matplotlib.use("Agg")  # writes files, and needs no screen
     import matplotlib.pyplot as plt
@@ -72,6 +81,6 @@ if __name__ == "__main__":
     except OSError as error:
         print(f"error: {error.filename}: {error.strerror}", file=sys.stderr)
         sys.exit(2)
-    except (KeyError, ValueError) as error:
+    except (KeyError, IndexError, ValueError, sqlite3.Error) as error:
         print(f"error: {sys.argv[1]}: not the tables of a drive: {error}", file=sys.stderr)
         sys.exit(2)

@@ -24,9 +24,10 @@
 namespace ttf::cli::logs {
 namespace {
 
-const std::vector<FormatEnds> kFormatEnds = {{"pcapng", {".pcapng"}}, {"candump", {".log"}},
-                                             {"csv", {".csv"}},       {"perfetto", {".pftrace"}},
-                                             {"foxglove", {".mcap"}}, {"markdown", {".md"}}};
+const std::vector<FormatEnds> kFormatEnds = {
+    {"pcapng", {".pcapng"}},       {"candump", {".log"}},   {"csv", {".csv"}},
+    {"perfetto", {".pftrace"}},    {"foxglove", {".mcap"}}, {"markdown", {".md"}},
+    {"sqlite", {".sqlite", ".db"}}};
 
 struct ExportOptions {
   std::vector<std::string> logs;
@@ -89,11 +90,12 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
 }
 
 int export_drive_tables(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
-  const auto tables = export_tables(drive, options.out);
+  const auto tables =
+      options.format == "sqlite" ? export_sqlite(drive, options.out) : export_tables(drive, options.out);
   std::vector<std::string> rows;
   for (const auto& [file, count] : tables) rows.push_back(fmt::format("{} of {}", counted(count, "row"), file));
   if (options.json) {
-    fmt::print("{{\n  \"format\": \"tables\",\n  \"rows\": {{");
+    fmt::print("{{\n  \"format\": \"{}\",\n  \"rows\": {{", options.format);
     for (std::size_t t = 0; t < tables.size(); ++t)
       fmt::print("{}\"{}\": {}", t == 0 ? "" : ", ", tables[t].first, tables[t].second);
     fmt::print("}}\n}}\n");
@@ -138,7 +140,7 @@ int run_export(const ExportOptions& options) {
   const recording::merge::MergedLogs drive = drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   if (options.format == "foxglove") return export_for_viewers(options, drive);
-  if (options.format == "tables") return export_drive_tables(options, drive);
+  if (options.format == "tables" || options.format == "sqlite") return export_drive_tables(options, drive);
   recording::exports::FrameCollector collector;
   read_shown(drive, collector);
   const recording::exports::LogNames names(drive.manifest());
@@ -165,11 +167,12 @@ void add_export(CLI::App& app, Action& action) {
       "export", "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, Python, a spreadsheet or a paper");
   command->footer(
       "The start of the run is 1970-01-01 in pcapng and foxglove, second 1000000000 in candump, and 0 in\n"
-      "csv, perfetto and tables.\n"
+      "csv, perfetto, tables and sqlite.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
       "          ttfusion export out/drive/tt.mcap --format foxglove -o out/scene.mcap\n"
       "          ttfusion export out/drive/tt.mcap --format tables -o out/tables\n"
+      "          ttfusion export out/drive/tt.mcap --format sqlite -o out/tables.sqlite\n"
       "          ttfusion export out/noise --format gnuplot -o out/figures\n"
       "          ttfusion export out/noise --format markdown -o out/noise.md");
   command
@@ -183,10 +186,11 @@ void add_export(CLI::App& app, Action& action) {
                    "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
                    "foxglove (scene and plots, for Foxglove and Lichtblick), "
                    "tables (truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder), "
+                   "sqlite (the same tables in one file), "
                    "gnuplot (tables and scripts for papers, into a folder), "
                    "markdown (an experiment's tables, with every point)")
       ->required()
-      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "tables", "gnuplot", "markdown"}));
+      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "tables", "sqlite", "gnuplot", "markdown"}));
   command->add_option("-o,--out", options->out, "File to write; for tables and gnuplot the folder")
       ->required()
       ->check(named());

@@ -4,8 +4,10 @@
 #include <deque>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "cli/drive_progress.h"
+#include "cli/logs/table_database.h"
 #include "cli/logs/told_uses.h"
 #include "cli/output.h"
 #include "recording/exports/frames.h"
@@ -14,21 +16,13 @@
 
 namespace ttf::cli::logs {
 
-std::vector<std::pair<std::string, std::uint64_t>> export_tables(const recording::merge::MergedLogs& drive,
-                                                                 const std::string& out) {
-  using recording::exports::Table;
-  create_folder(out);
-  std::vector<std::pair<std::string, std::uint64_t>> written;
-  std::deque<OutputFile> files;
-  for (const std::string_view name : recording::exports::kTableNames) {
-    written.emplace_back(std::string(name) + ".csv", 0);
-    for (const recording::merge::StoredLog& log : drive.logs())
-      refuse_overwriting(log.name(), out + "/" + written.back().first, "--out");
-    files.emplace_back(out + "/" + written.back().first);
-  }
-  recording::exports::TableExport tables(
-      recording::exports::LogNames(drive.manifest()),
-      [&](Table table, std::string_view text) { files[static_cast<std::size_t>(table)].write(text); });
+namespace {
+
+using recording::exports::Table;
+using recording::exports::TableExport;
+
+TableRows tell_tables(const recording::merge::MergedLogs& drive, TableExport::Write write) {
+  TableExport tables(recording::exports::LogNames(drive.manifest()), std::move(write));
   ToldUses uses(
       [&](const ToldUses::Use& use, ToldUses::Ages ages) {
         for (const evaluation::accuracy::SensorAge& one : ages)
@@ -47,9 +41,35 @@ std::vector<std::pair<std::string, std::uint64_t>> export_tables(const recording
   read_shown(drive, all);
   uses.finish();
   tables.frames(frames);
+  TableRows rows;
+  for (const std::string_view name : recording::exports::kTableNames)
+    rows.emplace_back(name, tables.rows()[rows.size()]);
+  return rows;
+}
+
+}  // namespace
+
+TableRows export_tables(const recording::merge::MergedLogs& drive, const std::string& out) {
+  create_folder(out);
+  std::vector<std::string> names;
+  std::deque<OutputFile> files;
+  for (const std::string_view table : recording::exports::kTableNames) {
+    const std::string path = out + "/" + names.emplace_back(std::string(table) + ".csv");
+    for (const recording::merge::StoredLog& log : drive.logs()) refuse_overwriting(log.name(), path, "--out");
+    files.emplace_back(path);
+  }
+  TableRows rows = tell_tables(
+      drive, [&](Table table, std::string_view text) { files[static_cast<std::size_t>(table)].write(text); });
   for (OutputFile& file : files) file.finish();
-  for (std::size_t t = 0; t < written.size(); ++t) written[t].second = tables.rows()[t];
-  return written;
+  for (std::size_t t = 0; t < rows.size(); ++t) rows[t].first = names[t];
+  return rows;
+}
+
+TableRows export_sqlite(const recording::merge::MergedLogs& drive, const std::string& file) {
+  TableDatabase database(file);
+  TableRows rows = tell_tables(drive, [&](Table table, std::string_view line) { database.write(table, line); });
+  database.finish();
+  return rows;
 }
 
 }  // namespace ttf::cli::logs

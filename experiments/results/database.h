@@ -1,4 +1,4 @@
-// One SQLite file, and statements on it. Private to the room.
+// One SQLite file, and statements on it.
 //
 // While a process writes, its changes go into SQLite's WAL, FILE-wal with its index FILE-shm. Readers then do not wait
 // for the writer, nor the writer for them. The end of writing takes the changes into the file. If another process

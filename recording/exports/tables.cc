@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -12,19 +13,21 @@
 namespace ttf::recording::exports {
 namespace {
 
+// Columns, in order; those without a type are real.
 constexpr std::array<std::string_view, kTables> kHeads{
-    "time_s,object,x_m,y_m,heading_rad,speed_mps,acceleration_mps2,yaw_rate_radps,length_m,width_m",
-    "time_s,step,track,valid_at_s,for_image,x_m,y_m,vx_mps,vy_mps,ax_mps2,ay_mps2,sigma_x_m,sigma_y_m,sigma_vx_mps,"
-    "sigma_vy_mps,sigma_ax_mps2,sigma_ay_mps2",
-    "time_s,image,valid_at_s,newest_measurement_s,track,confirmed,coasting,length_measured,width_measured,x_m,y_m,"
-    "heading_rad,speed_mps,acceleration_mps2,length_m,width_m,sigma_x_m,sigma_y_m,correlation_xy,sigma_heading_rad,"
-    "sigma_speed_mps,sigma_acceleration_mps2,sigma_length_m,sigma_width_m",
-    "time_s,image,sensor,age_ms",
-    "time_s,object,error_x_m,error_y_m,error_vx_mps,error_vy_mps,sigma_x_m,sigma_y_m,sigma_vx_mps,sigma_vy_mps,"
-    "error_heading_rad,error_length_m,error_width_m,nees",
-    "time_s,node,task,activated_s,end_s,deadline_met",
-    "time_s,bus,channel,cycle,id,sender,kind,flags,pdu,sequence,fragment,measurement,payload"};
-static_assert(kHeads.back().substr(6) == kCsvHeader.substr(7, kCsvHeader.size() - 8));  // behind time_s and time_ns
+    "time_s,object INTEGER,x_m,y_m,heading_rad,speed_mps,acceleration_mps2,yaw_rate_radps,length_m,width_m",
+    "time_s,step INTEGER,track INTEGER,valid_at_s,for_image INTEGER,x_m,y_m,vx_mps,vy_mps,ax_mps2,ay_mps2,"
+    "sigma_x_m,sigma_y_m,sigma_vx_mps,sigma_vy_mps,sigma_ax_mps2,sigma_ay_mps2",
+    "time_s,image INTEGER,valid_at_s,newest_measurement_s,track INTEGER,confirmed INTEGER,coasting INTEGER,"
+    "length_measured INTEGER,width_measured INTEGER,x_m,y_m,heading_rad,speed_mps,acceleration_mps2,length_m,"
+    "width_m,sigma_x_m,sigma_y_m,correlation_xy,sigma_heading_rad,sigma_speed_mps,sigma_acceleration_mps2,"
+    "sigma_length_m,sigma_width_m",
+    "time_s,image INTEGER,sensor TEXT,age_ms",
+    "time_s,object INTEGER,error_x_m,error_y_m,error_vx_mps,error_vy_mps,sigma_x_m,sigma_y_m,sigma_vx_mps,"
+    "sigma_vy_mps,error_heading_rad,error_length_m,error_width_m,nees",
+    "time_s,node TEXT,task TEXT,activated_s,end_s,deadline_met INTEGER",
+    "time_s,bus TEXT,channel TEXT,cycle INTEGER,id INTEGER,sender TEXT,kind TEXT,flags TEXT,pdu TEXT,"
+    "sequence INTEGER,fragment INTEGER,measurement TEXT,payload TEXT"};
 
 // A damaged log may have any global times.
 constexpr Duration kFarthest = Duration::milliseconds(3'600'000);
@@ -61,8 +64,28 @@ std::string numbers(std::span<const double> values) {
 
 }  // namespace
 
+std::vector<Column> columns(Table table) {
+  std::vector<Column> columns;
+  std::string_view rest = kHeads[static_cast<std::size_t>(table)];
+  while (!rest.empty()) {
+    const std::string_view column = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), column.size() + 1));
+    const std::size_t end = std::min(column.find(' '), column.size());
+    const std::string_view type = column.substr(end);
+    columns.push_back({column.substr(0, end), type == " INTEGER" ? ColumnType::kInteger
+                                              : type == " TEXT"  ? ColumnType::kText
+                                                                 : ColumnType::kReal});
+  }
+  return columns;
+}
+
 TableExport::TableExport(LogNames names, Write write) : names_(std::move(names)), write_(std::move(write)) {
-  for (std::size_t t = 0; t < kTables; ++t) write_(static_cast<Table>(t), fmt::format("{}\n", kHeads[t]));
+  for (std::size_t t = 0; t < kTables; ++t) {
+    std::string head;
+    for (const Column& column : columns(static_cast<Table>(t)))
+      head += fmt::format("{}{}", head.empty() ? "" : ",", column.name);
+    write_(static_cast<Table>(t), head + '\n');
+  }
 }
 
 void TableExport::row(Table table, std::string text) {

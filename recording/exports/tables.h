@@ -1,5 +1,5 @@
-// A drive as tables for Python, R and spreadsheets: comma-separated text (RFC 4180) with a line of names, which have the
-// units. Each table is in the order of time; rows of one instant are in the order of the records.
+// A drive as tables for Python, R, spreadsheets and databases: comma-separated text (RFC 4180) with a line of names, which
+// have the units. Each table is in the order of time; rows of one instant are in the order of the records.
 //
 //   truth    a row for each object and instant of the truth
 //   tracks   a row for each confirmed track after each step of the fusion, and for each prediction for an image
@@ -22,6 +22,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/ids.h"
 #include "core/time.h"
@@ -35,6 +36,14 @@ inline constexpr std::size_t kTables = 7;
 inline constexpr std::array<std::string_view, kTables> kTableNames{"truth",  "tracks", "images", "ages",
                                                                    "errors", "tasks",  "frames"};
 
+enum class ColumnType : std::uint8_t { kReal, kInteger, kText };
+struct Column {
+  std::string_view name;
+  ColumnType type = ColumnType::kReal;
+};
+// Returns the columns in the order of a row's fields. Any field may be empty.
+std::vector<Column> columns(Table table);
+
 // A matched object of a used image. Unknown values are not a number.
 struct TableError {
   TrueTime used{};
@@ -46,7 +55,7 @@ struct TableError {
 // Takes records in the order of MergedLogs::read().
 class TableExport final : public records::Sink {
  public:
-  // Receives the text of a table, piece by piece; the first piece is the line of names.
+  // Receives the text of a table, line by line, with the line's end; the first is the line of names.
   using Write = std::function<void(ttf::recording::exports::Table, std::string_view)>;
   TableExport(LogNames names, Write write);
 

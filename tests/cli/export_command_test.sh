@@ -104,14 +104,59 @@ expect 2 'x.csv: must not end in .csv with --format tables' export "$work/tt.mca
 cp "$work/tt.mcap" "$work/again/truth.csv"
 expect 2 '--out = .*truth.csv: must be another file than the input' export "$work/again/truth.csv" --format tables -o "$work/again"
 
+# The same tables in one file: names, columns and values are equal, and an absent value is NULL.
+expect 0 '^wrote .*/tables.sqlite: [1-9][0-9]* rows of truth, [1-9].* tracks, .* images, .* ages, .* errors, .* tasks, [1-9].* frames$' \
+  export "$work/tt.mcap" --format sqlite -o "$work/tables.sqlite"
+expect 0 '"format": "sqlite"' export "$work/tt.mcap" --format sqlite --json -o "$work/again.sqlite"
+cmp "$work/tables.sqlite" "$work/again.sqlite" || fail "the same log gives another database"
+python3 - "$work/tables" "$work/tables.sqlite" <<'EOF' || fail "the database is not the tables"
+import csv, pathlib, sqlite3, sys
+READ = {"REAL": float, "INTEGER": int, "TEXT": str}
+database = sqlite3.connect(sys.argv[2])
+files = sorted(pathlib.Path(sys.argv[1]).glob("*.csv"))
+assert [f.stem for f in files] == [n for (n,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name")]
+for file in files:
+    heads, *rows = csv.reader(open(file, newline=""))
+    columns = [(name, kind) for _, name, kind, *_ in database.execute(f"PRAGMA table_info({file.stem})")]
+    assert [name for name, _ in columns] == heads, file.stem
+    kept = database.execute(f"SELECT * FROM {file.stem} ORDER BY rowid").fetchall()
+    assert len(kept) == len(rows), file.stem
+    for row, there in zip(rows, kept):
+        read = tuple(READ[kind](field) if field else None for field, (_, kind) in zip(row, columns))
+        assert read == there and [type(f) for f in read] == [type(f) for f in there], (file.stem, read, there)
+JOINED = "FROM errors JOIN truth USING (time_s, object) JOIN ages USING (time_s) JOIN images USING (image)"
+plan = [step for *_, step in database.execute(f"EXPLAIN QUERY PLAN SELECT * {JOINED}")]
+assert len([step for step in plan if step.startswith("SEARCH") and "_by_" in step]) == 3, plan
+matched, errors = (database.execute(f"SELECT count(*) {which}").fetchone() for which in
+                   ("FROM errors JOIN truth USING (time_s, object)", "FROM errors"))
+assert matched == errors, "an error has no truth"
+EOF
+expect 1 'absent/x.sqlite: cannot be written' export "$work/tt.mcap" --format sqlite -o "$work/absent/x.sqlite"
+expect 1 'error: /dev/null: cannot be written: is no file' export "$work/tt.mcap" --format sqlite -o /dev/null
+expect 2 'x.csv: must not end in .csv with --format sqlite' export "$work/tt.mcap" --format sqlite -o "$work/x.csv"
+expect 2 '--out = .*itself.mcap: must be another file than the input' \
+  export "$work/itself.mcap" --format sqlite -o "$work/itself.mcap"
+
 # The example draws them, or says what is missing.
-if said=$(python3 "$source/examples/table_figure.py" "$work/tables" "$work/figure.svg" 2>&1); then
-  grep -q '</svg>' "$work/figure.svg" || fail "the example leaves no picture"
-elif [[ $said != "error: matplotlib is missing: install Debian's python3-matplotlib" ]]; then
-  fail "the example draws nothing: $said"
-else
-  echo "skipped: the figure of the tables: $said"
-fi
+for tables in "$work/tables" "$work/tables.sqlite"; do
+  picture=$work/figure_of_$(basename "$tables").svg
+  if said=$(python3 "$source/examples/table_figure.py" "$tables" "$picture" 2>&1); then
+    grep -q '</svg>' "$picture" || fail "the example leaves no picture"
+  elif [[ $said != "error: matplotlib is missing: install Debian's python3-matplotlib" ]]; then
+    fail "the example draws nothing: $said"
+  else
+    echo "skipped: the figure of the tables: $said"
+  fi
+done
+python3 -B - "$source/examples" "$work/tables" "$work/tables.sqlite" <<'EOF' || fail "the example reads another figure from the database"
+import pathlib, sys
+sys.path.insert(0, sys.argv[1])
+import table_figure as figure
+one, other = map(pathlib.Path, sys.argv[2:])
+assert figure.position_errors(one) == figure.position_errors(other) and figure.ages(one) == figure.ages(other)
+EOF
+said=$(python3 "$source/examples/table_figure.py" "$work/drive.pcapng" "$work/figure.svg" 2>&1) && fail "the example draws a capture"
+grep -q '^error: .*drive.pcapng: not the tables of a drive: ' <<<"$said" || fail "the example does not refuse a capture: $said"
 said=$(python3 "$source/examples/table_figure.py" "$work/absent" "$work/figure.svg" 2>&1) && fail "the example draws nothing and says nothing"
 grep -q '^error: .*absent/errors.csv' <<<"$said" || fail "the example does not name the missing table: $said"
 

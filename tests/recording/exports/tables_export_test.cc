@@ -101,6 +101,9 @@ TEST(TableExport, FramesAreThoseOfCapturesByTime) {
   for (std::uint32_t i = 0; i < 200; ++i)
     emit(collector, log::kind_of(i), Values::kDrawn, i, 1'000'000'000 - i * 1'000'000);
   tables.out.frames(collector);
+  const std::string& text = tables.text[Table::kFrames];
+  constexpr std::string_view kNames = kCsvHeader.substr(kCsvHeader.find(','));
+  EXPECT_EQ(text.substr(text.find(','), kNames.size()), kNames);
   const std::vector<LoggedFrame> frames = collector.in_order();
   const std::vector<std::string> rows = tables.rows(Table::kFrames);
   ASSERT_THAT(rows, SizeIs(frames.size()));
