@@ -116,6 +116,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   config.nodes = std::move(plan.nodes);
   config.screen = STDERR_FILENO;
   config.stop_is_success = plan.set.until_stopped;
+  config.results_due = true;
   config.folder = &folder;
   std::optional<supervision::Supervisor> supervisor(std::in_place, std::move(config), watch.around(drive.hooks()));
   const int exit_code = supervisor->run().exit_code;

@@ -131,7 +131,7 @@ int start_error(int report) {
 }  // namespace
 
 std::string Ending::text() const {
-  if (!by_signal) return fmt::format("exit {}", value);
+  if (!by_signal) return fmt::format("exit {}{}", value, without_result ? " without its result" : "");
   const char* const words = sigdescr_np(value);
   return fmt::format("signal {} ({})", value, words != nullptr ? words : "unknown");
 }

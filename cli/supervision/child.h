@@ -31,12 +31,13 @@ struct ChildCommand {
 // The end of a process.
 struct Ending {
   bool by_signal = false;
-  int value = 0;  // exit code, or the signal's number
+  int value = 0;                // exit code, or the signal's number
+  bool without_result = false;  // a code of 0 from a process that owed a result
 
-  bool success() const { return !by_signal && value == 0; }
-  // Returns a shell's code: the exit code, or 128 + signal.
-  int exit_code() const { return by_signal ? 128 + value : value; }
-  std::string text() const;  // "exit 3", "signal 9 (Killed)"
+  bool success() const { return !by_signal && value == 0 && !without_result; }
+  // Returns a shell's code: the exit code, 128 + signal, or 1 without a result.
+  int exit_code() const { return by_signal ? 128 + value : without_result ? 1 : value; }
+  std::string text() const;  // "exit 3", "signal 9 (Killed)", "exit 0 without its result"
 };
 
 // The program cannot run: what() has the reason; ending() is as a shell's, 127 not found or 126 not executable.

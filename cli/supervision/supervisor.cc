@@ -137,7 +137,7 @@ void Supervisor::take_messages(Node& node) {
 }
 
 void Supervisor::take_ending(Node& node) {
-  const auto ending = node.child->reap();
+  auto ending = node.child->reap();
   if (!ending) return;
   // The process' earlier output comes first.
   for (std::size_t taken = 0; taken < kReadAtEnd && node.child->output_fd() >= 0; taken += kReadAtOnce) {
@@ -146,6 +146,7 @@ void Supervisor::take_ending(Node& node) {
     take_output(node);
   }
   take_messages(node);
+  ending->without_result = config_.results_due && ending->success() && node.ready && !node.done;
   show_lines(node, node.lines.finish());
   node.child.reset();
   ended(node, *ending, "");

@@ -14,7 +14,7 @@
 // tell its state. It takes no part in the barrier, as it may have nothing to answer before the others have begun. A required one
 // that was not heard within heard_timeout, or by the end, fails the launch.
 //
-// A node fails by a code other than 0, by a signal, or by ending before it was ready. During a stop, neither
+// A node fails by a code other than 0, by a signal, by ending before it was ready, or by owing its result. During a stop, neither
 // the stop's signals nor their codes (130, 143) count. After the last other node has ended well, optional
 // nodes have optional_grace to end, before they are stopped.
 //
@@ -66,6 +66,7 @@ struct SupervisorConfig {
   Duration status_every = Duration::milliseconds(1'000);
   Duration words_every = Duration::milliseconds(5'000);
   bool stop_is_success = false;    // a signal is the launch's usual end
+  bool results_due = false;        // a node that has ended well has said so: {"done": ...}
   int screen = 2;                  // descriptor for the words; -1: without output
   LaunchFolder* folder = nullptr;  // outlives the supervisor; null: leaves no files
 };

@@ -20,9 +20,10 @@ struct Supervisor::Node {
   Speaker speaker;
   Backoff backoff;
   std::unique_ptr<Child> child;
-  LineCutter lines;  // belongs to the present process, as `ready`
+  LineCutter lines;  // belongs to the present process, as `ready` and `done`
   Duration began{};
   bool ready = false;
+  bool done = false;
   bool failed = false;  // and is not restarted
   std::optional<Duration> restart_at;
   ExternalHealth external;  // an external node's

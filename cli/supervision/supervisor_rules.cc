@@ -57,7 +57,7 @@ void Supervisor::show_lines(const Node& node, const std::vector<std::string>& li
 
 void Supervisor::start(Node& node) {
   node.lines = LineCutter();
-  node.ready = false;
+  node.ready = node.done = false;
   node.began = now();
   health_.begin_process(node.index);
   try {
@@ -75,7 +75,10 @@ void Supervisor::ended(Node& node, const Ending& ending, const std::string& why)
   node.ready = false;
   std::string what = why.empty() ? ending.text() : why;
   if (bad && ending.success()) what += ", before it was ready";
-  record([&] { config_.folder->process_ended(node.index, ending, std::chrono::system_clock::now(), why); });
+  record([&] {
+    config_.folder->process_ended(node.index, ending, std::chrono::system_clock::now(),
+                                  ending.without_result ? what : why);
+  });
   health_.end_process(node.index, what, ending.success());
   if (terminal_ && status_at_) show_status();
   const bool comes_back =
@@ -119,8 +122,10 @@ void Supervisor::message(Node& node, const std::string& text) {
     if (const auto wrong = health_.update(node.index, *health)) return refuse(*wrong);
     if (hooks_.on_health) guarded([&] { hooks_.on_health(node.index, *health); });
   }
-  if (const auto done = json.find("done"); done != json.end() && hooks_.on_done)
-    guarded([&] { hooks_.on_done(node.index, *done); });
+  if (const auto done = json.find("done"); done != json.end()) {
+    node.done = true;
+    if (hooks_.on_done) guarded([&] { hooks_.on_done(node.index, *done); });
+  }
 }
 
 void Supervisor::became_ready(Node& node) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `ttfusion launch` with steps of libraries: the records of a single process, and nodes whose step hangs or crashes.
+# `ttfusion launch` with steps of libraries: the records of a single process, and nodes whose step hangs, crashes or ends its process.
 #   launch_steps_test.sh PROGRAM SOURCE_DIR STEPS
 set -u
 program=$1
@@ -33,9 +33,9 @@ for _ in $(seq 600); do grep -q 'it spins' "$work/spins.err" && break; sleep 0.0
 kill -STOP "$spins" && sleep 3 && kill -CONT "$spins"
 wait "$spins" || fail "a process that was stopped during a call: $(cat "$work/spins.err")"
 
-# ---- the tenth execution hangs or crashes: in virtual time the others go on alike, to the end
+# ---- the tenth execution hangs, crashes, or ends the process as if all were well: in virtual time the others go on alike, to the end
 survivors="laser camera laser_pre camera_pre fusion feature"
-for library in hangs crashes; do
+for library in hangs crashes leaves; do
   gateway_of $library
   launch "$work/$library" "$work/$library.yaml" --policy gateway=optional ||
     fail "the survivors of a step that $library: $(cat "$work/$library.err")"
@@ -52,13 +52,28 @@ grep -q '^warning: gateway was not in operation at the end: exit 1$' "$work/hang
 grep -q 'gateway *| error: .*step = crashes.so: a call crashed' "$work/crashes.err" || fail "a crash is not told"
 grep -q '^warning: gateway was not in operation at the end: signal 11 (Segmentation fault)$' "$work/crashes.err" ||
   fail "the crashed node is not told"
+died='exit 0 without its result'
+grep -q "^warning: gateway was not in operation at the end: $died$" "$work/leaves.err" ||
+  fail "a node that ended its process is not told: $(cat "$work/leaves.err")"
+grep -Eq "^gateway +$died +0 " "$work/leaves.err" || fail "the table shows another end: $(cat "$work/leaves.err")"
+python3 - "$work/leaves" "$died" <<'EOF' || fail "the files of the launch tell another end"
+import json, sys
+manifest, summary = (json.load(open(f"{sys.argv[1]}/{name}.json")) for name in ("manifest", "summary"))
+gateway = next(node for node in manifest["nodes"] if node["name"] == "gateway")
+assert [(p["exit"], p["why"]) for p in gateway["processes"]] == [(0, sys.argv[2])], gateway
+assert summary["not_in_operation_at_end"] == [{"node": "gateway", "state": sys.argv[2]}], summary["not_in_operation_at_end"]
+EOF
 for node in $survivors; do
-  [[ -s $work/hangs.$node.csv ]] && cmp "$work/hangs.$node.csv" "$work/crashes.$node.csv" ||
-    fail "$node: a hang and a crash at the same execution leave other records"
+  for library in crashes leaves; do
+    [[ -s $work/hangs.$node.csv ]] && cmp "$work/hangs.$node.csv" "$work/$library.$node.csv" ||
+      fail "$node: steps that hang and $library at the same execution leave other records"
+  done
 done
 # A required node takes the launch along.
-launch "$work/required" "$work/hangs.yaml"
-[[ $? -eq 1 ]] || fail "a launch whose required node hangs does not exit with 1"
+for library in hangs leaves; do
+  launch "$work/required" "$work/$library.yaml"
+  [[ $? -eq 1 ]] || fail "a launch whose required node's step $library does not exit with 1"
+done
 
 # ---- in real time nothing happens to the others
 launch_options=(--steps "$steps" --step-limit 1 --no-topics)
@@ -68,6 +83,10 @@ grep -q 'gateway *| error: .*a call did not return within 1 s' "$work/live.err" 
 for node in $survivors; do
   grep -q "$node: exit [1-9]" "$work/live.err" && fail "$node ends with the node that hangs"
 done
+launch "$work/gone" "$work/leaves.yaml" --policy gateway=optional --time-scale 4 --duration 1 ||
+  fail "the others of a node that ends its process in real time: $(cat "$work/gone.err")"
+grep -q "not in operation at the end: .*$died" "$work/gone.err" || fail "an end in real time is not told: $(cat "$work/gone.err")"
+grep -q '^verdict: .*gateway' "$work/gone.out" || fail "the verdict leaves the node out: $(cat "$work/gone.out")"
 
 [[ $failures -eq 0 ]] && echo "launches with steps of libraries: hangs and crashes end their node alone"
 exit $((failures > 0))

@@ -143,6 +143,34 @@ TEST_F(Supervising, EndingBeforeBeingReadyIsAFailure) {
   EXPECT_EQ(outcome.why, "fusion: exit 0, before it was ready");
 }
 
+// A library may end a node's process by _exit(0).
+TEST_F(Supervising, EndingWithoutItsResultIsAFailureWhereOneIsDue) {
+  for (const bool due : {false, true}) {
+    std::optional<Ending> last;
+    Hooks hooks;
+    hooks.on_gone = [&](std::size_t, const Ending& ending, bool) { last = ending; };
+    auto given = config({{"gateway", Policy::kRequired, child({"ready", "start"})}});
+    given.results_due = due;
+    const auto outcome = run(std::move(given), hooks);
+    EXPECT_EQ(outcome.exit_code, due ? 1 : 0);
+    EXPECT_EQ(outcome.why, due ? "gateway: exit 0 without its result" : "");
+    EXPECT_EQ(health_[0]["process"], due ? "exit 0 without its result" : "exit 0");
+    ASSERT_TRUE(last);
+    EXPECT_EQ(last->success(), !due);
+  }
+}
+
+// Each process owes its own: the first one's does not count for the second.
+TEST_F(Supervising, ARestartedOneOwesItsResultAnew) {
+  const std::string two = "[ -e " + path("tried") + " ] && exec " TTF_LAUNCH_CHILD " ready start; >" + path("tried") +
+                          "; exec " TTF_LAUNCH_CHILD " ready start 'tell:{\"done\":{}}' exit:3";
+  auto given = config({{"gateway", Policy::kRestart, {{"/bin/sh", "-c", two}, {}}}});
+  given.results_due = true;
+  given.restart = {kSoon, kSoon, 1, kNever};
+  EXPECT_EQ(run(std::move(given)).why, "gateway: exit 0 without its result");
+  EXPECT_EQ(health_[0]["restarts"], 1);
+}
+
 TEST_F(Supervising, ReadyAndGoneAtOnceIsNone) {
   EXPECT_EQ(run(config({{"brief", Policy::kRequired, child({"ready", "exit:0"})},
                         {"fusion", Policy::kRequired, child({"ready", "start"})}}))
