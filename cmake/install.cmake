@@ -2,19 +2,37 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# ttfusion::fusion, for find_package(ttfusion), with its headers by the paths by which they include each other.
+# The rooms that other projects may use, for find_package(ttfusion COMPONENTS ...), with their headers by the paths by which
+# they include each other. A part is a file of targets: ttfusionConfig.cmake.in says what a component needs.
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/ttfusion)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/ttfusion)
-install(TARGETS ttf_base ttf_fusion EXPORT ttfusion
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${headers})
+function(ttf_install_part part)   # ttf_install_part(<part> <targets...>)
+  install(TARGETS ${ARGN} EXPORT ttfusion_${part}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} INCLUDES DESTINATION ${headers})
+  install(EXPORT ttfusion_${part} NAMESPACE ttfusion:: DESTINATION ${package} FILE ttfusion_${part}.cmake)
+endfunction()
+ttf_install_part(base ttf_base)
+ttf_install_part(fusion ttf_fusion)
 install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\"
   \"-DLIBRARY=\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/$<TARGET_FILE_NAME:ttf_fusion>\"
   \"-DWORK=${PROJECT_BINARY_DIR}/own_symbols\" -DLINKER=${CMAKE_LINKER} -DNM=${CMAKE_NM} -DOBJCOPY=${CMAKE_OBJCOPY}
   -DAR=${CMAKE_AR} -DRANLIB=${CMAKE_RANLIB} -P \"${PROJECT_SOURCE_DIR}/cmake/own_symbols.cmake\"
   COMMAND_ERROR_IS_FATAL ANY)")
-install(EXPORT ttfusion NAMESPACE ttfusion:: DESTINATION ${package} FILE ttfusionTargets.cmake)
 install(DIRECTORY fusion DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN fusion/loading EXCLUDE)
 install(FILES core/check.h core/ids.h core/time.h DESTINATION ${headers}/core)
+set(components fusion)
+if(TTF_BUILD_PROGRAM)
+  list(APPEND components timebase schedules recording)
+  ttf_install_part(core ttf_core)
+  ttf_install_part(timebase ttf_timebase)
+  ttf_install_part(schedules ttf_schedules)
+  ttf_install_part(recording ttf_wire ttf_records ttf_recording ttf_log_proto ttf_perfetto_proto ttf_foxglove_proto
+    ttf_plots_proto)
+  # Headers of generated code and of yaml-cpp are the rooms' own.
+  install(DIRECTORY core timebase schedules recording DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
+    PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE)
+  install(DIRECTORY bus/wire DESTINATION ${headers}/bus FILES_MATCHING PATTERN "*.h")
+endif()
 configure_package_config_file(cmake/ttfusionConfig.cmake.in ${PROJECT_BINARY_DIR}/ttfusionConfig.cmake
   INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ttfusionConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -66,5 +84,6 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS fonts-dejavu-core)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, gnuplot-nox")
+string(JOIN ", " CPACK_DEBIAN_PACKAGE_SUGGESTS gnuplot-nox libeigen3-dev libfmt-dev libprotobuf-dev libpugixml-dev
+  libyaml-cpp-dev libzstd-dev pkg-config zlib1g-dev)
 include(CPack)

@@ -71,8 +71,10 @@ function(ttf_room name)
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ROOM_DEPS})
-    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_include_directories(${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   endif()
+  string(REGEX REPLACE "^ttf_" "" room ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${room})   # installed, ttfusion::<room>
 endfunction()
 
 if(TTF_BUILD_TESTS)

@@ -71,6 +71,31 @@ for name in "${compilers[@]:1}"; do
   cmp "$work/defaults.tracks" "$work/$name.tracks" || fail "the example's tracks differ: $name"
 done
 
+grep -qi 'fmt\|yaml' "$work/defaults/CMakeCache.txt" && fail "ttfusion::fusion needs more than Eigen"
+
+# Other rooms.
+if cmake -G Ninja -S "$source/examples/rooms" -B "$work/rooms" "-DCMAKE_PREFIX_PATH=$prefix" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+  >"$work/rooms.txt" 2>&1 && cmake --build "$work/rooms" >>"$work/rooms.txt" 2>&1; then
+  for flag in ' -W' ' -march' ' -mno-fma' ' -ffp-contract' ' --param' ' -O'; do
+    grep -q -- "\"command\".*$flag" "$work/rooms/compile_commands.json" && fail "a room's user is compiled with $flag"
+  done
+  program=$work/rooms/check_schedule
+  expect 0 '^laser: used [0-9.]+ to [0-9.]+ ms after the measurement$' "$share/ttfusion/schedules/paper_synchronised.yaml"
+  sed 's/gdNIT: .*/gdNIT: 900 us/' "$share/ttfusion/schedules/paper_synchronised.yaml" >"$work/wrong.yaml"
+  expect 2 'wrong.yaml:[0-9]+: flexray.gdNIT = ' "$work/wrong.yaml"
+  program=$work/rooms/read_log
+  expect 0 '^paper_scenario1 by tt: [1-9][0-9]* uses of an image$' out/paper_scenario1/tt.mcap
+  expect 2 'is not a log' "$source/README.md"
+  program=$prefix/bin/ttfusion
+else
+  fail "the example of rooms does not build: $(tail -n 30 "$work/rooms.txt")"
+fi
+mkdir "$work/unknown"
+printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(unknown LANGUAGES CXX)' \
+  'find_package(ttfusion REQUIRED COMPONENTS fusion nodes)' >"$work/unknown/CMakeLists.txt"
+said=$(cmake -S "$work/unknown" -B "$work/unknown/build" "-DCMAKE_PREFIX_PATH=$prefix" 2>&1) && fail "an unknown component is found"
+grep -q 'There is no component nodes' <<<"$said" || fail "an unknown component is not named: $said"
+
 # As a part of the example's build: no tests, and none of our flags in its own sources.
 cmake -G Ninja -S "$example" -B "$work/part" "-DTTFUSION_SOURCE=$source" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
   >"$work/part.txt" 2>&1 || fail "the example does not configure with the sources: $(tail -n 30 "$work/part.txt")"

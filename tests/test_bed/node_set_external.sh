@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A real node in camera_pre's place: examples/real_node.c, which knows SocketCAN alone.
+# A real node in camera_pre's place: examples/real_node.c, which knows SocketCAN alone. The gateway's steps are a library's.
 #   node_set_external.sh TTFUSION      exit code 77, with the reason, outside the test bed and without a compiler for C
 set -euo pipefail
 source "$(dirname "$0")/node_set.bash"
@@ -7,6 +7,12 @@ need python3 cc
 $virtual_time || skip "the real node keeps the schedule as it is, which this kernel may not"
 make_interfaces
 cc -O2 -Wall -o "$run/real_node" "$project/examples/real_node.c"
+# copy.c passes lists on as the program's own step does.
+mkdir "$run/steps"
+cc -O2 -ffp-contract=off -shared -fPIC -I "$project/nodes/foreign" -o "$run/steps/copy.so" "$project/tests/nodes/foreign/copy.c" -lm
+sed 's/step: gateway/step: copy.so/' "$project/schedules/paper_synchronised.yaml" >"$run/cluster.yaml"
+sed "s#\.\./\.\./schedules/paper_synchronised.yaml#cluster.yaml#; s#\.\./\.\./schedules#$project/schedules#" "$drive" >"$run/drive.yaml"
+drive=$run/drive.yaml
 
 echo "the stand-in says what is wrong with its arguments"
 code=0
@@ -28,7 +34,7 @@ with_real_node() {
   "$run/real_node" "$a" "$b" "$camera_can" "$observation_can" "${faults[@]}" &
   local real=$!
   wait_for_receivers "$observation_can" 1
-  launch "$run/$folder" --external camera_pre,camera "$@" || code=$?
+  launch "$run/$folder" --external camera_pre,camera --steps "$run/steps" "$@" || code=$?
   kill "$real"
   wait "$real" || true
   return "$code"
@@ -52,6 +58,7 @@ judge_real in_time "$(none_but 0)" "it did something wrong" \
   'external[1]["node"] == "camera" and external[1]["state"] == "waiting"' "what of the camera?"
 grep -q "camera_pre: sending" "$run/in_time.txt" || fail "not a word of it: $(cat "$run/in_time.txt")"
 grep -q "warning: camera was not in operation at the end: waiting" "$run/in_time.txt" || fail "$(cat "$run/in_time.txt")"
+grep -aq 'copy\.so' "$run/in_time/gateway.mcap" || fail "the gateway's log names no library"
 [[ ! -e $run/in_time/camera_pre.mcap && ! -e $run/in_time/camera_pre.txt ]] || fail "it has a log"
 
 echo "its mistakes are counted, of each kind in turn; a drive without a required one fails"
