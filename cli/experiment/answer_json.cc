@@ -70,7 +70,8 @@ nlohmann::ordered_json interaction_json(const SweepFile& sweep, const experiment
 
 }  // namespace
 
-nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepAnswer& answer) {
+nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepAnswer& answer,
+                                   const std::map<std::string, std::string>& libraries) {
   nlohmann::ordered_json json{{"experiment", sweep.name},
                               {"file", sweep.file},
                               {"question", sweep.question},
@@ -82,6 +83,7 @@ nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepA
                               {"comparisons", answer.comparisons},
                               {"stay_certain", answer.certain},
                               {"answer", answers::answer_sentences(sweep, answer)}};
+  if (!libraries.empty()) json["libraries"] = libraries;
   if (sweep.compared_axis) json["compared_axis"] = sweep.grid()[sweep.compared_axis->axis]->name;
   for (const std::string& name : sweep.measures) {
     const experiments::sweep::Measure& measure = *experiments::sweep::find_measure(name);

@@ -177,7 +177,7 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   const experiments::sweep::answers::SweepAnswer answer = experiments::sweep::answers::answer_of(sweep, store);
   const std::string text =
       experiments::sweep::answers::answer_text(sweep, answer) + failures_text(options, sweep, store);
-  const nlohmann::ordered_json json = answer_json(sweep, answer);
+  const nlohmann::ordered_json json = answer_json(sweep, answer, drives.libraries());
   write_file(folder + "/answer.txt", text);
   write_file(folder + "/answer.json", json.dump(2) + '\n');
   write_file(folder + "/summary.csv", experiments::sweep::answers::summary_csv(sweep, answer));

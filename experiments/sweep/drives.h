@@ -47,6 +47,8 @@ class SweepDrives {
   const std::string& identity() const { return identity_; }
   const SweepFile& sweep() const { return sweep_; }
   const nodes::foreign::StepFolder* steps() const { return steps_; }
+  // Returns the libraries that the drives name as steps, with the hashes of their contents.
+  const std::map<std::string, std::string>& libraries() const { return libraries_; }
 
  private:
   PreparedDrive prepare(const results::RowKey& key, const std::vector<double>& drawn) const;

@@ -186,6 +186,7 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
   folder.answer = reader.text(json, "", "answer");
   folder.baseline = reader.text(json, "", "baseline");
   if (json.contains("file")) folder.file = reader.text(json, "", "file");
+  if (json.contains("libraries")) folder.libraries = keys_of(reader.object(json, "", "libraries"));
   if (json.contains("compared_axis")) folder.compared_axis = reader.text(json, "", "compared_axis");
   folder.seed = reader.count(json, "", "seed");
   folder.drives = reader.count(json, "", "runs");

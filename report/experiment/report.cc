@@ -256,11 +256,17 @@ std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& 
   return all;
 }
 
+std::string_view steps_option(const ExperimentFolder& folder) {
+  return folder.libraries.empty() ? "" : " --steps FOLDER";
+}
+
 void failures(page::Page& page, const ExperimentFolder& folder) {
   if (!folder.store || folder.failed == 0) return;
-  page::PageTable table{"`ttfusion experiment FILE --replay` with the first column drives one of them again",
-                        {"point/paradigm/replication", "error"},
-                        {}};
+  page::PageTable table{
+      fmt::format("`ttfusion experiment FILE{} --replay` with the first column drives one of them again",
+                  steps_option(folder)),
+      {"point/paradigm/replication", "error"},
+      {}};
   std::uint64_t more = 0;
   folder.store->for_each([&](const experiments::results::Row& row) {
     if (row.status == experiments::results::kDone) return;
@@ -277,7 +283,7 @@ void failures(page::Page& page, const ExperimentFolder& folder) {
   if (more > 0) page.paragraph(fmt::format("And {} more, in runs.csv.", more));
 }
 
-void how_made(page::Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives) {
+void how_made(page::Page& page, const ExperimentFolder& folder) {
   page.section("How to repeat it");
   const std::string file = page::shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
   if (!folder.store) {
@@ -285,10 +291,13 @@ void how_made(page::Page& page, const ExperimentFolder& folder, const Experiment
     return;
   }
   const experiments::results::StoreHead& head = folder.store->head();
-  page.facts({{"version", head.version},
-              {"identity of all inputs", head.identity},
-              {"seed", std::to_string(folder.seed)},
-              {"rows in results.sqlite", std::to_string(folder.store->count())}});
+  std::vector<std::pair<std::string, std::string>> facts{
+      {"version", head.version},
+      {"identity of all inputs", head.identity},
+      {"seed", std::to_string(folder.seed)},
+      {"rows in results.sqlite", std::to_string(folder.store->count())}};
+  if (!folder.libraries.empty()) facts.emplace_back("libraries of steps", joined(folder.libraries));
+  page.facts(facts);
   page.paragraph(
       std::string("These commands repeat the experiment, and one run with its log and a report. The experiment's "
                   "file is below") +
@@ -296,8 +305,7 @@ void how_made(page::Page& page, const ExperimentFolder& folder, const Experiment
   page.command(
       fmt::format("ttfusion experiment {0}{2} --out again\nttfusion experiment {0} --replay {1}{2} --out one\n"
                   "ttfusion report one -o one.html\n",
-                  file, page::shell_word(fmt::format("0/{}/0", folder.paradigms.front())),
-                  std::ranges::any_of(drives.drives, drive::has_libraries) ? " --steps FOLDER" : ""));
+                  file, page::shell_word(fmt::format("0/{}/0", folder.paradigms.front())), steps_option(folder)));
   page.preformatted("The experiment's file", head.text);
 }
 
@@ -378,7 +386,7 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
   }
   one_of_each(page, folder, drives, window);
   failures(page, folder);
-  how_made(page, folder, drives);
+  how_made(page, folder);
   return page.html();
 }
 

@@ -84,6 +84,18 @@ by = {}
 for row in rows: by.setdefault(tuple(v for k, v in row.items() if k != "paradigm"), set()).add(row["paradigm"])
 assert len(rows) == 16 and all(both == {"own", "tt"} for both in by.values()), rows
 PY
+# The page's commands name --steps, whether or not its runs were driven again.
+repeats() {   # PAGE
+  for command in 'sweep.yaml --steps FOLDER --out again' 'sweep.yaml --replay 0/[a-z]*/0 --steps FOLDER --out one'; do
+    grep -q -- "$command" "$1" || fail "$1 does not say '$command'"
+  done
+}
+expect 0 'wrote' report "$work/sweep" --no-drives -o "$work/no_drives.html"
+repeats "$work/no_drives.html"
+expect 0 'warning: No drive is shown here: .*copy.so: needs --steps' report "$work/sweep" -o "$work/without.html"
+repeats "$work/without.html"
+expect 0 'wrote' report "$work/sweep" --steps "$work/steps" -o "$work/with.html"
+repeats "$work/with.html"
 cp "$steps/fails.so" "$work/steps/copy.so"
 expect 2 'must belong to this experiment' experiment "$work/sweep.yaml" --steps "$work/steps" --resume --out "$work/sweep"
 expect 1 'forward_camera.step = copy.so: failed: ttf_step_run returned 7' experiment "$work/sweep.yaml" --steps "$work/steps" \

@@ -86,6 +86,18 @@ TEST_F(ExperimentReport, ItsCommandsNameTheFileThatWasDriven) {
   EXPECT_NE(page().find("ttfusion experiment 'my own/e.yaml' --out again"), std::string::npos);
 }
 
+TEST_F(ExperimentReport, ItsCommandsNameTheFolderOfLibraries) {
+  EXPECT_EQ(page().find("--steps"), std::string::npos);
+  std::string answer = answer_of(point(0, "1", "1"));
+  write(answer.insert(1, R"("libraries": {"copy.so": "1a", "lamp.so": "2b"}, )"));
+  const std::string html = page();
+  for (const char* words : {"ttfusion experiment experiments/e.yaml --steps FOLDER --out again",
+                            "--replay 0/adva/0 --steps FOLDER --out one", "copy.so, lamp.so"})
+    EXPECT_NE(html.find(words), std::string::npos) << words;
+  write(answer_of(point(0, "1", "1")).insert(1, R"("libraries": [], )"));
+  EXPECT_EQ(refusal(), "answer.json: libraries: must be a mapping with at least one entry");
+}
+
 TEST_F(ExperimentReport, WhyNoDriveIsShownIsSaid) {
   EXPECT_EQ(page().find("One drive of each paradigm"), std::string::npos);
   ExperimentDrives none;
