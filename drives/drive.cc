@@ -72,6 +72,9 @@ void check_recording(const Scenario& scenario, const schedules::model::Cluster& 
   if (!needed && given)
     throw InputError({scenario.file, 0, "clusters", cluster.file,
                       "takes no recording, so --input would be ignored: it has no task with step recorded_source"});
+  if (needed && scenario.truth)
+    throw InputError({scenario.file, 0, "clusters", cluster.file,
+                      "plays a recording, so --truth would be ignored: it has a task with step recorded_source"});
   if (needed && scenario.startup.cold)
     throw InputError({scenario.file, 0, "startup", "cold",
                       "must be integrated: a recording begins with cycle 0, whose instant is unknown in a cold start"});

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
+#include "recording/osi/truth_trace.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/reference.h"
 #include "sim/world/world.h"
@@ -44,7 +46,9 @@ struct Scenario {
   nodes::sensing::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
   fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged
-  faults::FaultPlan faults;         // names as written: resolve() looks them up in the drive's cluster
+  // The world of another simulator, in place of all in `world` that moves (drives/traced.h); null: none.
+  std::shared_ptr<const recording::osi::TruthTrace> truth;
+  faults::FaultPlan faults;  // names as written: resolve() looks them up in the drive's cluster
 };
 
 // Throws InputError with every finding in the file. The clusters are not opened here.

@@ -3,6 +3,7 @@
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
 #include "nodes/sensing/recorded.h"
+#include "nodes/sensing/traced.h"
 
 namespace ttf::drives {
 
@@ -13,6 +14,10 @@ Surroundings surroundings_of(const Scenario& scenario, const schedules::model::C
   Surroundings around;
   if (is_recorded(cluster)) {
     around.scene = std::make_shared<nodes::sensing::RecordedScene>(*recorded, start);
+    return around;
+  }
+  if (scenario.truth) {
+    around.scene = std::make_shared<nodes::sensing::TracedScene>(scenario.truth, start);
     return around;
   }
   around.world = std::make_shared<nodes::sensing::WorldScene>(scenario.world, seed, replication, start);

@@ -17,7 +17,7 @@ namespace ttf::drives {
 
 struct Surroundings {
   std::shared_ptr<const nodes::sensing::Scene> scene;
-  std::shared_ptr<const nodes::sensing::WorldScene> world;  // the same scene; null if it is recorded
+  std::shared_ptr<const nodes::sensing::WorldScene> world;  // the same scene; null if it is recorded or traced
   std::optional<sim::world::Reference> reference;           // in a world: of the first object with a reference
 
   // Makes the observer record the reference, too. This must outlive the observer.

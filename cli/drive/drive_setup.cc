@@ -16,6 +16,7 @@
 #include "core/hash.h"
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
+#include "recording/mcap/bytes.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
@@ -48,6 +49,17 @@ Recording read_recording(const std::string& path) {
   }
 }
 
+std::shared_ptr<const recording::osi::TruthTrace> read_truth(const std::string& path) {
+  if (path.empty()) return nullptr;
+  const std::string bytes = read_file(path);
+  try {
+    return std::make_shared<recording::osi::TruthTrace>(recording::osi::parse_truth_trace(bytes, path));
+  } catch (const InputError&) {
+    if (!bytes.starts_with(recording::mcap::kMcapMagic)) refuse_any_kind(path, "an OSI trace");
+    throw;
+  }
+}
+
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,
                                         const Recording& recording, const nodes::foreign::StepFolder* steps,
@@ -64,6 +76,10 @@ recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const 
   if (recording.rows) {
     manifest.recording_name = recording.name;
     manifest.hashes.emplace_back("recording", recording.hash);
+  }
+  if (scenario.truth) {
+    manifest.truth_name = std::filesystem::path(scenario.truth->name).filename().string();
+    manifest.hashes.emplace_back("truth", scenario.truth->hash);
   }
   for (auto& library : nodes::foreign::library_hashes(cluster, steps, externals))
     manifest.hashes.push_back(std::move(library));

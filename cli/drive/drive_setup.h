@@ -16,6 +16,7 @@
 #include "nodes/foreign/libraries.h"
 #include "recording/log/manifest.h"
 #include "recording/log/writer.h"
+#include "recording/osi/truth_trace.h"
 #include "recording/records/records.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
@@ -34,6 +35,9 @@ struct Recording {
   std::string name, hash;
 };
 Recording read_recording(const std::string& path);
+
+// The trace of --truth; null without one.
+std::shared_ptr<const recording::osi::TruthTrace> read_truth(const std::string& path);
 
 recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,

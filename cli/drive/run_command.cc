@@ -22,6 +22,7 @@
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
+#include "drives/traced.h"
 #include "recording/log/writer.h"
 #include "recording/records/tee.h"
 
@@ -32,7 +33,7 @@ struct RunOptions {
   std::vector<std::string> scenarios;
   std::string strategy;
   std::optional<std::string> seed, duration;
-  std::string input;
+  std::string input, truth;
   std::string out;
   StepOptions steps;
   bool json = false;
@@ -58,7 +59,8 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   std::unique_ptr<recording::log::LogWriter> log;
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, name_of(strategy));
-    if (!options.input.empty()) refuse_overwriting(options.input, result.log_path, "--out");
+    for (const std::string& read : {options.input, options.truth})
+      if (!read.empty()) refuse_overwriting(read, result.log_path, "--out");
     log = begin_log(result.log_path, manifest_of(scenario, result.cluster, strategy, seed, recording, steps), scenario,
                     result.cluster);
     sinks.push_back(log.get());
@@ -87,11 +89,13 @@ struct Planned {
 
 // Checks the input before any simulation, and before an earlier log is overwritten.
 Planned planned(const RunOptions& options, const std::string& file, const Recording& recording,
+                const std::shared_ptr<const recording::osi::TruthTrace>& truth,
                 const nodes::foreign::StepFolder* steps) {
   Planned plan;
   plan.scenario = drives::load_scenario(file);
   plan.seed = options.seed ? seed_of(*options.seed) : plan.scenario.seed;
   if (options.duration) set_duration(plan.scenario, file, *options.duration);
+  if (truth) drives::take_truth(plan.scenario, truth);
   const bool alone = options.scenarios.size() == 1;
   if (options.out.empty())
     plan.folder = folder_of(plan.scenario);
@@ -107,10 +111,11 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
 }
 
 std::vector<Planned> all_planned(const RunOptions& options, const Recording& recording,
+                                 const std::shared_ptr<const recording::osi::TruthTrace>& truth,
                                  const nodes::foreign::StepFolder* steps) {
   std::vector<Planned> plans;
   for (const std::string& file : options.scenarios) {
-    Planned plan = planned(options, file, recording, steps);
+    Planned plan = planned(options, file, recording, truth, steps);
     const auto same = std::ranges::find(plans, plan.folder, &Planned::folder);
     if (same != plans.end())
       throw InputError(
@@ -125,6 +130,7 @@ std::vector<Planned> all_planned(const RunOptions& options, const Recording& rec
 std::vector<StrategyResult> driven(const RunOptions& options, const Planned& plan, const Recording& recording,
                                    const nodes::foreign::StepFolder* steps) {
   create_folder(plan.folder);
+  if (plan.scenario.truth) fmt::print(stderr, "{}: {}\n", plan.scenario.name, drives::truth_text(plan.scenario));
   std::vector<StrategyResult> results;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     fmt::print(stderr, "{}: {:g} s with {} ...\n", plan.scenario.name, plan.scenario.duration.seconds(),
@@ -168,10 +174,14 @@ bool did_its_work(const RunOptions& options, const Planned& plan, const std::vec
 int run_scenarios(const RunOptions& options) {
   if (!options.input.empty() && options.scenarios.size() > 1)
     throw InputError({"command line", 0, "--input", options.input, "goes with one scenario"});
+  if (!options.input.empty() && !options.truth.empty())
+    throw InputError(
+        {"command line", 0, "--truth", options.truth, "does not go with --input, which has a truth of its own"});
   const Recording recording = read_recording(options.input);
+  const auto truth = read_truth(options.truth);
   const std::optional<nodes::foreign::StepFolder> folder = step_folder(options.steps);
   const nodes::foreign::StepFolder* const steps = pointer_to(folder);
-  const std::vector<Planned> plans = all_planned(options, recording, steps);
+  const std::vector<Planned> plans = all_planned(options, recording, truth, steps);
   for (const Planned& plan : plans) try_folder(plan.folder);  // before hours of driving
   std::vector<ScenarioResults> all;
   for (const Planned& plan : plans) all.push_back({plan.scenario.name, driven(options, plan, recording, steps)});
@@ -206,6 +216,8 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
   command->add_option("--duration", options->duration, "Seconds to drive, instead of the scenario's");
   command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(named());
+  command->add_option("--truth", options->truth, "ASAM OSI trace in place of the scenario's objects (.osi or .mcap)")
+      ->check(named());
   command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(named());
   add_step_options(*command, options->steps);
   command->add_flag("--json", options->json, "Summary as JSON on standard output");

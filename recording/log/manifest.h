@@ -22,6 +22,7 @@ struct LogManifest {
   std::string cluster_name;
   std::string strategy;
   std::string recording_name;  // file of the recorded observations that fed the drive; empty: none
+  std::string truth_name;      // trace of another simulator that was the drive's world; empty: none
   std::int64_t cycle_ns = 0;   // nominal communication cycle, for the grid of diagrams; 0 if unknown
   std::int64_t bit_ps = 0;     // nominal bit on FlexRay, for symbols' lengths; 0 if unknown
   std::vector<std::pair<std::string, std::string>> hashes;

@@ -63,6 +63,7 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   if (key == "cluster") return manifest.cluster_name = value, true;
   if (key == "strategy") return manifest.strategy = value, true;
   if (key == "recording") return manifest.recording_name = value, true;
+  if (key == "truth") return manifest.truth_name = value, true;
   if (key == "clock") return manifest.clock = value, true;
   if (key == "host") return manifest.host = value, true;
   if (key == "seed") {
@@ -125,6 +126,7 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
                           {"bit_ps", std::to_string(manifest.bit_ps)},
                           {"task_lists", std::to_string(manifest.task_names.size())}};
   if (!manifest.recording_name.empty()) entries.emplace_back("recording", manifest.recording_name);
+  if (!manifest.truth_name.empty()) entries.emplace_back("truth", manifest.truth_name);
   if (!manifest.clock.empty()) entries.emplace_back("clock", manifest.clock);
   if (!manifest.host.empty()) entries.emplace_back("host", manifest.host);
   if (manifest.time_scale_ppm != 1'000'000)

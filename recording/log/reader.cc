@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <set>
 
 #include "core/errors.h"
 #include "core/file_bytes.h"
@@ -14,6 +15,9 @@
 namespace ttf::recording::log {
 namespace {
 
+constexpr std::string_view kOwnSchemas = "ttfusion.";
+
+// A channel of another schema is passed over: an OSI trace may be in the same file.
 class Collector final : public mcap::McapHandler {
  public:
   Collector(LogInfo& info, records::Sink& sink, const ChunkListener& on_chunk)
@@ -38,8 +42,14 @@ class Collector final : public mcap::McapHandler {
   void on_chunk(std::string_view content) override {
     if (on_chunk_) on_chunk_(content);
   }
+  void on_schema(std::uint16_t id, std::string_view name) override {
+    if (!name.starts_with(kOwnSchemas)) foreign_schemas_.insert(id);
+  }
+  void on_channel(std::uint16_t id, std::uint16_t schema) override {
+    if (!records::is_kind(id) && foreign_schemas_.contains(schema)) foreign_channels_.insert(id);
+  }
   bool on_message(std::uint16_t channel, std::uint64_t log_time, std::string_view payload) override {
-    if (!records::is_kind(channel)) return false;
+    if (!records::is_kind(channel)) return foreign_channels_.contains(channel);
     const auto kind = static_cast<records::RecordKind>(channel);
     if (!decoder_.decode(kind, payload, sink_)) return false;
     info_.records.add(log_time, static_cast<std::uint8_t>(kind), payload);
@@ -55,6 +65,7 @@ class Collector final : public mcap::McapHandler {
   const ChunkListener& on_chunk_;
   Decoder decoder_;
   bool has_manifest_ = false;
+  std::set<std::uint16_t> foreign_schemas_, foreign_channels_;
 };
 
 void check_is_log(std::string_view bytes, const std::string& name) {

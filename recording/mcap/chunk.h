@@ -49,13 +49,17 @@ class ChunkOpener {
 
 // Calls `message(channel, log time, payload)` for every message among a chunk's records, in their order.
 // `message` returns false if the payload is unreadable. Returns how many messages were unreadable; a torn
-// record counts as one.
-template <class Message> std::uint64_t for_each_message(std::string_view records, Message&& message) {
+// record counts as one. Calls `declaration(record)` for every schema and channel among them.
+template <class Message, class Declaration>
+std::uint64_t for_each_message(std::string_view records, Message&& message, Declaration&& declaration) {
   std::uint64_t unreadable = 0;
   for (std::size_t offset = 0; offset < records.size();) {
     const auto record = record_at(records, offset);
     if (!record) return unreadable + 1;
     offset += kRecordHead + record->content.size();
+    if (record->opcode == static_cast<std::uint8_t>(Opcode::kSchema) ||
+        record->opcode == static_cast<std::uint8_t>(Opcode::kChannel))
+      declaration(*record);
     if (record->opcode != static_cast<std::uint8_t>(Opcode::kMessage)) continue;
     FieldReader fields(record->content);
     const auto channel = fields.take<std::uint16_t>();
@@ -65,6 +69,9 @@ template <class Message> std::uint64_t for_each_message(std::string_view records
     if (!fields.ok() || !message(channel, log_time, fields.rest())) ++unreadable;
   }
   return unreadable;
+}
+template <class Message> std::uint64_t for_each_message(std::string_view records, Message&& message) {
+  return for_each_message(records, message, [](const McapRecord&) {});
 }
 
 }  // namespace ttf::recording::mcap

@@ -215,9 +215,9 @@ class Walk {
         if (!sound) warn("the index at the end is damaged (checksum); all records are read");
         return true;
       }
-      case Opcode::kHeader:
       case Opcode::kSchema:
-      case Opcode::kChannel:
+      case Opcode::kChannel: declare(record); return false;
+      case Opcode::kHeader:
       case Opcode::kMessage:
       case Opcode::kMessageIndex:
       case Opcode::kChunkIndex:
@@ -229,6 +229,18 @@ class Walk {
     return false;
   }
 
+  void declare(const McapRecord& record) {
+    FieldReader fields(record.content);
+    const auto id = fields.take<std::uint16_t>();
+    if (record.opcode == static_cast<std::uint8_t>(Opcode::kSchema)) {
+      const std::string_view name = fields.text();
+      if (fields.ok()) handler_.on_schema(id, name);
+    } else {
+      const auto schema = fields.take<std::uint16_t>();
+      if (fields.ok()) handler_.on_channel(id, schema);
+    }
+  }
+
   void take_chunk(std::string_view content, std::size_t at) {
     const auto records = opener_.open(content, buffer_);
     if (!records) {
@@ -238,10 +250,12 @@ class Walk {
     }
     ++report_.chunks_read;
     handler_.on_chunk(content);
-    const std::uint64_t unreadable =
-        for_each_message(*records, [this](std::uint16_t channel, std::uint64_t log_time, std::string_view payload) {
+    const std::uint64_t unreadable = for_each_message(
+        *records,
+        [this](std::uint16_t channel, std::uint64_t log_time, std::string_view payload) {
           return handler_.on_message(channel, log_time, payload);
-        });
+        },
+        [this](const McapRecord& declaration) { declare(declaration); });
     if (unreadable > 0) warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
   }
 

@@ -20,6 +20,9 @@ class McapHandler {
   virtual ~McapHandler() = default;
   virtual void on_metadata(std::string_view name, const std::vector<std::pair<std::string, std::string>>& entries) = 0;
   virtual void on_attachment(std::string_view name, std::string_view media_type, std::string_view bytes) = 0;
+  // Declarations, which stand outside of chunks or in them. A summary repeats them.
+  virtual void on_schema(std::uint16_t /*id*/, std::string_view /*name*/) {}
+  virtual void on_channel(std::uint16_t /*id*/, std::uint16_t /*schema*/) {}
   // A sound chunk; its messages follow. The argument is the record's content within the walked bytes
   // (recording/mcap/chunk.h opens it).
   virtual void on_chunk(std::string_view) {}

@@ -136,6 +136,7 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
       command += " --duration " + scaled_text(told.drive->duration->ns, kNsPerSecond);
     if (manifest.time_scale_ppm != kPpm) command += " --time-scale " + scaled_text(manifest.time_scale_ppm, kPpm);
     if (!manifest.recording_name.empty()) command += " --input " + page::shell_word(manifest.recording_name);
+    if (!manifest.truth_name.empty()) command += " --truth " + page::shell_word(manifest.truth_name);
     if (has_libraries(*told.drive)) command += " --steps FOLDER";
     if (commands.insert(command).second) order.push_back(command);
   }

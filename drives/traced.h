@@ -1,0 +1,22 @@
+// The world of another simulator in place of a scenario's objects: `--truth`.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "drives/scenario.h"
+#include "recording/osi/truth_trace.h"
+
+namespace ttf::drives {
+
+// Makes the trace the scenario's world. The drive ends with the trace, or before. The scenario's own objects, its vehicle's motion
+// and its reference are not used; sensors, tracker, clusters and faults are. Throws InputError if the trace ends before the judged
+// part begins, or is shorter than the shortest drive.
+void take_truth(Scenario& scenario, std::shared_ptr<const recording::osi::TruthTrace> trace);
+
+// Returns in a sentence what the drive takes from the trace, and what it does not. Precondition: it has one.
+std::string truth_text(const Scenario& scenario);
+
+inline constexpr Duration kShortestDrive = Duration::milliseconds(100);
+
+}  // namespace ttf::drives

@@ -1,0 +1,68 @@
+// The world of another simulator: moving objects over ground, from an ASAM OSI trace of GroundTruth or of SensorView's
+// global_ground_truth.
+//
+// Instants are those of the messages. Stamps must ascend; nanoseconds may exceed a second, as some tools write them. An
+// object is there from the first message that has it to the last one before it is left out, and may come again. It keeps
+// its size. The host vehicle, if the trace names one, carries the sensors: it is in every message, and no object.
+//
+// Where an object lacks velocity, acceleration or yaw rate, they are differences of what it has.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/time.h"
+
+namespace ttf::recording::osi {
+
+// Of the middle of the bounding box; x, y, velocity and acceleration along the ground's axes.
+struct TracedState {
+  double x = 0.0, y = 0.0, heading = 0.0;  // [m], [rad] from x to y
+  double vx = 0.0, vy = 0.0;               // [m/s]
+  double ax = 0.0, ay = 0.0;               // [m/s^2]
+  double yaw_rate = 0.0;                   // [rad/s]
+};
+
+enum class TracedKind : std::uint8_t { kVehicle, kTwoWheeler, kPedestrian, kOther };
+
+struct TracedObject {
+  // In successive messages, from that of TruthTrace::instants[first] on.
+  struct Life {
+    std::size_t first = 0;
+    std::vector<TracedState> states;
+  };
+  std::uint64_t id = 0;  // the trace's
+  TracedKind kind = TracedKind::kOther;
+  double length = 0.0, width = 0.0;  // [m]
+  std::vector<Life> lives;           // in the order of time, with messages between
+};
+
+struct TracedHost {
+  TracedObject vehicle;               // with one life, in all messages
+  double rear_x = 0.0, rear_y = 0.0;  // from the middle of its box to that of the rear axle, in its axes [m]
+  bool has_rear = false;              // else unknown, and zero
+};
+
+struct TruthTrace {
+  std::string hash;                   // of the file's bytes
+  std::string name;                   // the file's, for messages
+  std::string type;                   // "GroundTruth" or "SensorView"
+  bool guessed = false;               // the type was told from the messages: the file does not name it
+  std::vector<Duration> instants;     // since the first
+  std::vector<TracedObject> objects;  // in the order of their coming, then of their ids
+  std::optional<TracedHost> host;
+
+  Duration length() const { return instants.back(); }
+};
+
+// Reads `.osi` (each message behind its length) and OSI's MCAP. Throws InputError with one sentence, also for a file that was
+// cut off. `name` stands for the file.
+TruthTrace parse_truth_trace(std::string_view bytes, const std::string& name);
+
+// An object has at least one state, and so has the trace.
+inline constexpr std::size_t kMostTracedObjects = 65'534;  // whose ids are no false detection's
+
+}  // namespace ttf::recording::osi
