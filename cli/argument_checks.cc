@@ -43,6 +43,11 @@ CLI::Validator whole_number(Range<std::int64_t> allowed) {
 }
 
 void refuse_other_format(const std::string& path, std::string_view format, const std::vector<FormatEnds>& formats) {
+  const auto has = [&](const FormatEnds& one) {
+    return std::ranges::any_of(one.ends, [&](std::string_view end) { return path.ends_with(end); });
+  };
+  for (const FormatEnds& one : formats)
+    if (one.format == format && has(one)) return;  // another format's files may end so, too
   for (const FormatEnds& one : formats)
     for (const std::string_view end : one.ends)
       if (one.format != format && path.ends_with(end))

@@ -9,12 +9,12 @@
 
 namespace ttf::drives {
 
-// Makes the trace the scenario's world. The drive ends with the trace, or before. The scenario's own objects, its vehicle's motion
-// and its reference are not used; sensors, tracker, clusters and faults are. Throws InputError if the trace ends before the judged
-// part begins, or is shorter than the shortest drive.
+// Makes the trace the scenario's world. The drive ends with the trace, or before. The scenario's own objects, its
+// vehicle's motion and its reference are not used; sensors, tracker, clusters and faults are. Throws InputError if the
+// trace ends before the judged part begins, or is shorter than the shortest drive.
 void take_truth(Scenario& scenario, std::shared_ptr<const recording::osi::TruthTrace> trace);
 
-// Returns in a sentence what the drive takes from the trace, and what it does not. Precondition: it has one.
+// Returns a sentence about the trace and its use. Precondition: the scenario has one.
 std::string truth_text(const Scenario& scenario);
 
 inline constexpr Duration kShortestDrive = Duration::milliseconds(100);

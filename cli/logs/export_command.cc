@@ -12,6 +12,7 @@
 #include "cli/drive_progress.h"
 #include "cli/logs/export_foxglove.h"
 #include "cli/logs/export_gnuplot.h"
+#include "cli/logs/export_osi.h"
 #include "cli/logs/export_tables.h"
 #include "cli/logs/log_inputs.h"
 #include "cli/output.h"
@@ -25,9 +26,9 @@ namespace ttf::cli::logs {
 namespace {
 
 const std::vector<FormatEnds> kFormatEnds = {
-    {"pcapng", {".pcapng"}},       {"candump", {".log"}},   {"csv", {".csv"}},
-    {"perfetto", {".pftrace"}},    {"foxglove", {".mcap"}}, {"markdown", {".md"}},
-    {"sqlite", {".sqlite", ".db"}}};
+    {"pcapng", {".pcapng"}},    {"candump", {".log"}},   {"csv", {".csv"}},
+    {"perfetto", {".pftrace"}}, {"foxglove", {".mcap"}}, {"osi", {".mcap"}},
+    {"osi-files", {".osi"}},    {"markdown", {".md"}},   {"sqlite", {".sqlite", ".db"}}};
 
 struct ExportOptions {
   std::vector<std::string> logs;
@@ -89,6 +90,21 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
   return 1;
 }
 
+int export_for_osi(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+  std::vector<std::string> files;
+  const recording::osi::OsiCounts counts =
+      options.format == "osi" ? export_osi(drive, options.out) : export_osi_files(drive, options.out, files);
+  if (options.json)
+    fmt::print("{{\n  \"format\": \"{}\",\n  \"sensor_data\": {},\n  \"ground_truths\": {},\n  \"left_out\": {}\n}}\n",
+               options.format, counts.images, counts.truths, counts.left_out);
+  say_written(options.out,
+              fmt::format("{} of SensorData and {} of GroundTruth{}", counted(counts.images, "message"), counts.truths,
+                          files.empty() ? ", beside the log" : " in " + joined(files, " and ")));
+  if (counts.images + counts.truths > 0) return 0;
+  fmt::print(stderr, "error: {}: has neither images nor truth\n", options.logs[0]);
+  return 1;
+}
+
 int export_drive_tables(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
   const auto tables =
       options.format == "sqlite" ? export_sqlite(drive, options.out) : export_tables(drive, options.out);
@@ -140,6 +156,7 @@ int run_export(const ExportOptions& options) {
   const recording::merge::MergedLogs drive = drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   if (options.format == "foxglove") return export_for_viewers(options, drive);
+  if (options.format == "osi" || options.format == "osi-files") return export_for_osi(options, drive);
   if (options.format == "tables" || options.format == "sqlite") return export_drive_tables(options, drive);
   recording::exports::FrameCollector collector;
   read_shown(drive, collector);
@@ -164,9 +181,10 @@ int run_export(const ExportOptions& options) {
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand(
-      "export", "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, Python, a spreadsheet or a paper");
+      "export",
+      "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, OSI's tools, Python, a spreadsheet or a paper");
   command->footer(
-      "The start of the run is 1970-01-01 in pcapng and foxglove, second 1000000000 in candump, and 0 in\n"
+      "The start of the run is 1970-01-01 in pcapng, foxglove and osi, second 1000000000 in candump, and 0 in\n"
       "csv, perfetto, tables and sqlite.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
@@ -185,13 +203,16 @@ void add_export(CLI::App& app, Action& action) {
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
                    "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
                    "foxglove (scene and plots, for Foxglove and Lichtblick), "
+                   "osi (log and ASAM OSI trace in one file: images as SensorData, truth as GroundTruth), "
+                   "osi-files (the trace as a pair of .osi files, into a folder), "
                    "tables (truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder), "
                    "sqlite (the same tables in one file), "
                    "gnuplot (tables and scripts for papers, into a folder), "
                    "markdown (an experiment's tables, with every point)")
       ->required()
-      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "tables", "sqlite", "gnuplot", "markdown"}));
-  command->add_option("-o,--out", options->out, "File to write; for tables and gnuplot the folder")
+      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "osi", "osi-files", "tables", "sqlite",
+                      "gnuplot", "markdown"}));
+  command->add_option("-o,--out", options->out, "File to write; for osi-files, tables and gnuplot the folder")
       ->required()
       ->check(named());
   command->add_flag("--json", options->json, "Counts as JSON on standard output");

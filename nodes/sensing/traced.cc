@@ -62,8 +62,8 @@ std::optional<TracedState> TracedScene::state_of(const TracedObject& object, con
   return std::nullopt;
 }
 
-// The middle of the rear axle is the vehicle's origin. Its velocity is that of the box' middle plus w x r, its acceleration
-// without the part of the angular acceleration, which acts along x only for an axle beside the middle.
+// The middle of the rear axle is the vehicle's origin. Its velocity is that of the box' middle plus w x r. Its
+// acceleration is without the angular acceleration's part, which acts along x only for an axle beside the middle.
 sim::world::EgoState TracedScene::ego_at(const Between& at) const {
   if (!trace_->host) return {};
   const recording::osi::TracedHost& host = *trace_->host;

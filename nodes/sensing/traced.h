@@ -2,11 +2,11 @@
 //
 // Between two messages an object moves along the cubic Hermite polynomial of its positions and velocities. Velocity,
 // acceleration and yaw rate go in a straight line, and the heading goes the shorter way round. An object that is in one
-// message and not in the next leaves the scene right behind the first. Before the first message and after the last the scene is
-// theirs.
+// message and not in the next leaves the scene right behind the first. Before the first message and after the last the
+// scene stands still.
 //
-// The host vehicle carries the sensors; without one the ground's axes are the sensors' vehicle's. States of objects are in
-// the vehicle's axes, with speed, acceleration and yaw rate over ground.
+// The host vehicle carries the sensors; without one the ground's axes are those of the sensors. States of objects are
+// in the vehicle's axes, with speed, acceleration and yaw rate over ground.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ class TracedScene final : public Scene {
   // An instant between two messages.
   struct Between {
     std::size_t message = 0;  // the one before
-    double part = 0.0;        // of the way to the next, 0..1
+    double part = 0.0;        // 0 at that message, 1 at the next
     double gap = 0.0;         // between the two [s]
   };
   Between between(TrueTime at) const;

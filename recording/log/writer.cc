@@ -1,6 +1,7 @@
 #include "recording/log/writer.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
 
 #include <algorithm>
 #include <optional>
@@ -15,6 +16,8 @@
 
 namespace ttf::recording::log {
 namespace {
+
+constexpr std::uint16_t kLastKind = 255;  // kinds are numbered in a byte
 
 std::uint64_t unsigned_time(std::int64_t ns) { return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)); }
 
@@ -49,7 +52,8 @@ struct LogWriter::Impl {
   ContentHash hash;
   std::uint64_t records = 0;
   bool closed = false;
-  std::optional<LogBehind> behind;  // last, so that its thread ends before the members that it writes to
+  std::uint16_t foreign = kLastKind;  // the last foreign channel
+  std::optional<LogBehind> behind;    // last, so that its thread ends before the members that it writes to
 };
 
 LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
@@ -77,6 +81,23 @@ LogWriter::~LogWriter() {
 
 void LogWriter::attach(std::string_view name, std::string_view media_type, std::string_view bytes) {
   impl_->mcap.add_attachment(0, name, media_type, bytes);
+}
+
+std::uint16_t LogWriter::add_foreign_channel(std::string_view topic, const google::protobuf::Descriptor& type,
+                                             const mcap::McapWriter::Entries& metadata) {
+  const std::uint16_t id = ++impl_->foreign;
+  impl_->mcap.add_schema(id, type.full_name(), "protobuf", mcap::protobuf_schema(type));
+  impl_->mcap.add_channel(id, id, topic, "protobuf", metadata);
+  return id;
+}
+
+void LogWriter::add_foreign_metadata(std::string_view name, const mcap::McapWriter::Entries& entries) {
+  impl_->mcap.add_metadata(name, entries);
+}
+
+void LogWriter::add_foreign(std::uint16_t channel, TrueTime at, std::string_view message) {
+  TTF_CHECK(!impl_->behind, "a foreign message in a log that is written behind");
+  impl_->mcap.add_message(channel, unsigned_time(at.ns), unsigned_time(at.ns), message);
 }
 
 void LogWriter::close() {

@@ -11,8 +11,14 @@
 #include <string>
 #include <string_view>
 
+#include "core/time.h"
 #include "recording/log/manifest.h"
+#include "recording/mcap/writer.h"
 #include "recording/records/every.h"
+
+namespace google::protobuf {
+class Descriptor;
+}  // namespace google::protobuf
 
 namespace ttf::recording::log {
 
@@ -32,6 +38,13 @@ class LogWriter final : public records::Every<LogWriter> {
 
   // Puts a file (schedule, scenario) into the log, before the first record. Names should be unique.
   void attach(std::string_view name, std::string_view media_type, std::string_view bytes);
+
+  // A channel of other messages in the same file, such as an OSI trace. Readers of logs pass over it, and the content
+  // hash does not cover it. Channels are declared before the first record. Only for a log that is written at once.
+  std::uint16_t add_foreign_channel(std::string_view topic, const google::protobuf::Descriptor& type,
+                                    const mcap::McapWriter::Entries& metadata);
+  void add_foreign_metadata(std::string_view name, const mcap::McapWriter::Entries& entries);
+  void add_foreign(std::uint16_t channel, TrueTime at, std::string_view message);
 
   // Writes the last chunk and the summary. Throws std::runtime_error if a write failed (disk full). A second
   // call does nothing; no record may follow.

@@ -21,6 +21,7 @@ constexpr int kCompressionLevel = 1;  // most of the gain at a small part of the
 
 struct McapWriter::Impl {
   struct Channel {
+    bool declared = false;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> index;  // log time, offset within the open chunk
     std::uint64_t messages = 0;
   };
@@ -43,7 +44,8 @@ struct McapWriter::Impl {
   std::string schemas, channel_records, chunk_indexes, attachment_indexes, metadata_indexes;
   std::uint64_t messages = 0, first_time = 0, last_time = 0;
   std::uint32_t chunks = 0, attachments = 0, metadata = 0;
-  std::uint16_t schema_count = 0;
+  std::uint16_t schema_count = 0, last_schema = 0;
+  std::uint32_t channel_count = 0;
 
   void put_bytes(std::string_view bytes) {
     if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size())
@@ -80,7 +82,7 @@ McapWriter::~McapWriter() {
 }
 
 void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string_view encoding, std::string_view data) {
-  TTF_CHECK(id == impl_->schema_count + 1, "schema {} after {}", id, impl_->schema_count);
+  TTF_CHECK(id > impl_->last_schema, "schema {} after {}", id, impl_->last_schema);
   std::string& out = impl_->record;
   out.clear();
   const std::size_t start = begin_record(out, Opcode::kSchema);
@@ -92,12 +94,18 @@ void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string
   impl_->put_bytes(out);
   impl_->schemas += out;
   ++impl_->schema_count;
+  impl_->last_schema = id;
 }
 
-void McapWriter::add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic,
-                             std::string_view encoding) {
-  TTF_CHECK(id == impl_->channels.size() + 1, "channel {} after {}", id, impl_->channels.size());
-  TTF_CHECK(schema >= 1 && schema <= impl_->schema_count, "schema {} of {}", schema, impl_->schema_count);
+void McapWriter::add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic, std::string_view encoding,
+                             const Entries& metadata) {
+  TTF_CHECK(id > impl_->channels.size(), "channel {} after {}", id, impl_->channels.size());
+  TTF_CHECK(schema >= 1 && schema <= impl_->last_schema, "schema {} of {}", schema, impl_->last_schema);
+  std::string map;
+  for (const auto& [key, value] : metadata) {
+    put_text(map, key);
+    put_text(map, value);
+  }
   std::string& out = impl_->record;
   out.clear();
   const std::size_t start = begin_record(out, Opcode::kChannel);
@@ -105,11 +113,14 @@ void McapWriter::add_channel(std::uint16_t id, std::uint16_t schema, std::string
   put(out, schema);
   put_text(out, topic);
   put_text(out, encoding);
-  put(out, std::uint32_t{0});  // no metadata
+  put_text(out, map);
   end_record(out, start);
   impl_->put_bytes(out);
   impl_->channel_records += out;
-  impl_->channels.emplace_back().index.reserve(1024);
+  impl_->channels.resize(id);
+  impl_->channels.back().declared = true;
+  impl_->channels.back().index.reserve(1024);
+  ++impl_->channel_count;
 }
 
 void McapWriter::add_metadata(std::string_view name, const Entries& entries) {
@@ -166,8 +177,9 @@ void McapWriter::add_attachment(std::uint64_t log_time, std::string_view name, s
 
 void McapWriter::add_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
                              std::string_view payload) {
-  TTF_CHECK(!impl_->closed && channel >= 1 && channel <= impl_->channels.size(), "channel {} of {}, closed {}", channel,
-            impl_->channels.size(), impl_->closed);
+  TTF_CHECK(
+      !impl_->closed && channel >= 1 && channel <= impl_->channels.size() && impl_->channels[channel - 1u].declared,
+      "channel {} of {}, closed {}", channel, impl_->channels.size(), impl_->closed);
   Impl& s = *impl_;
   if (!s.chunk.empty() && std::max(s.chunk_end, log_time) - std::min(s.chunk_start, log_time) > kChunkSpan) flush();
   const bool first = s.chunk.empty();
@@ -265,7 +277,7 @@ void McapWriter::close() {
   start = begin_record(statistics, Opcode::kStatistics);
   put(statistics, s.messages);
   put(statistics, s.schema_count);
-  put(statistics, static_cast<std::uint32_t>(s.channels.size()));
+  put(statistics, s.channel_count);
   put(statistics, s.attachments);
   put(statistics, s.metadata);
   put(statistics, s.chunks);

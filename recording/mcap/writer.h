@@ -30,10 +30,11 @@ class McapWriter {
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Schemas and channels are declared before the first message and outside chunks. Their ids ascend from 1
-  // without gaps.
+  // Schemas and channels are declared before the first message and outside chunks. Their ids ascend from 1. They may
+  // leave gaps, for which a channel costs memory.
   void add_schema(std::uint16_t id, std::string_view name, std::string_view encoding, std::string_view data);
-  void add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic, std::string_view encoding);
+  void add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic, std::string_view encoding,
+                   const Entries& metadata = {});
   void add_metadata(std::string_view name, const Entries& entries);  // keys unique
   void add_attachment(std::uint64_t log_time, std::string_view name, std::string_view media_type,
                       std::string_view bytes);

@@ -1,8 +1,9 @@
 // The messages of a trace file, and their type. Private to the room.
 //
-// `.osi` does not name the type of its messages, and the files' names need not. So the type is the one in which a message makes
-// sense: a GroundTruth has a stamp and a moving object with id and position, a SensorView has such a GroundTruth inside, and a
-// SensorData has a detected object with a tracking id. Their fields differ in number and wire type, so that at most one fits.
+// `.osi` does not name the type of its messages, and neither may the file's name. So the type is that in which a
+// message makes sense. A GroundTruth has a stamp and a moving object with id and position. A SensorView has such a
+// GroundTruth inside. A SensorData has a detected object with a tracking id. These fields differ in number and wire
+// type, so at most one type fits.
 #pragma once
 
 #include <string>
@@ -19,7 +20,7 @@ struct TraceMessages {
   MessageType type = MessageType::kGroundTruth;
   bool guessed = false;
   std::vector<std::string_view> messages;  // within the file's bytes, or within `kept`
-  std::vector<std::string> kept;           // of compressed chunks
+  std::vector<std::string> kept;           // copies out of compressed chunks
 
   TraceMessages() = default;
   TraceMessages(TraceMessages&&) = default;  // moving keeps the views into `kept` valid

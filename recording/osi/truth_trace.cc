@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::int64_t kLatest_s = 4'000'000'000;  // the year 2096, for clocks that count from 1970
-// What no road user exceeds; positions may be map coordinates.
+// No road user exceeds these; positions may be map coordinates.
 constexpr double kFarthest_m = 1e8, kFastest_mps = 1e3, kHardest_mps2 = 1e4, kFastestTurn_radps = 1e3,
                  kLongest_m = 500.0;
 constexpr double kSameSize_m = 1e-3;
@@ -169,7 +169,7 @@ class Gathering {
         within(object.vehicle_attributes().bbcenter_to_rear().y(), kLongest_m, "bbcenter_to_rear", "m", id, place);
   }
 
-  // Fills in what the messages lack. Differences go over the neighbours on both sides where there are two.
+  // Fills in values that the messages lack. Differences go over the neighbours on both sides where there are two.
   void derive(TracedObject& object) {
     for (TracedObject::Life& life : object.lives) {
       const auto differences = [&](auto&& lacks, auto&& set) {

@@ -2,10 +2,10 @@
 // global_ground_truth.
 //
 // Instants are those of the messages. Stamps must ascend; nanoseconds may exceed a second, as some tools write them. An
-// object is there from the first message that has it to the last one before it is left out, and may come again. It keeps
-// its size. The host vehicle, if the trace names one, carries the sensors: it is in every message, and no object.
+// object is there in the messages that have it, and may go and come again. It keeps its size. The host vehicle, if the
+// trace names one, carries the sensors: it is in every message, and no object.
 //
-// Where an object lacks velocity, acceleration or yaw rate, they are differences of what it has.
+// An absent velocity is the positions' difference. Absent acceleration and yaw rate are differences, too.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace ttf::recording::osi {
 
-// Of the middle of the bounding box; x, y, velocity and acceleration along the ground's axes.
+// The state of the middle of the bounding box; vectors are along the ground's axes.
 struct TracedState {
   double x = 0.0, y = 0.0, heading = 0.0;  // [m], [rad] from x to y
   double vx = 0.0, vy = 0.0;               // [m/s]
@@ -47,7 +47,7 @@ struct TracedHost {
 };
 
 struct TruthTrace {
-  std::string hash;                   // of the file's bytes
+  std::string hash;                   // content hash of the file
   std::string name;                   // the file's, for messages
   std::string type;                   // "GroundTruth" or "SensorView"
   bool guessed = false;               // the type was told from the messages: the file does not name it
@@ -58,8 +58,8 @@ struct TruthTrace {
   Duration length() const { return instants.back(); }
 };
 
-// Reads `.osi` (each message behind its length) and OSI's MCAP. Throws InputError with one sentence, also for a file that was
-// cut off. `name` stands for the file.
+// Reads `.osi` (each message behind its length) and OSI's MCAP. Throws InputError with one sentence, also for a file
+// that was cut off. `name` stands for the file.
 TruthTrace parse_truth_trace(std::string_view bytes, const std::string& name);
 
 // An object has at least one state, and so has the trace.

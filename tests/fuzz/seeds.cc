@@ -20,6 +20,7 @@
 #include "schedules/file/loader.h"
 #include "sim/processes/turn.h"
 #include "tests/fuzz/harness.h"
+#include "tests/recording/osi/written_trace.h"
 #include "tests/recording/record_text.h"
 #include "tests/schedules/exchange/fibex/fibex_example.h"
 
@@ -291,6 +292,33 @@ void drawn_seeds(const fs::path& folder) {
     }
 }
 
+// A car that comes and goes, seen from the ground or from a host vehicle, as GroundTruth and as SensorView.
+void osi_seeds(const fs::path& folder) {
+  std::vector<osi3::GroundTruth> truths = recording::osi::steady(4);
+  osi3::BaseMoving& base = *recording::osi::add_object(truths[1], 7, 20.0, -3.0, 3.1).mutable_base();
+  base.mutable_velocity()->set_x(5.0);
+  base.mutable_acceleration()->set_x(-1.0);
+  base.mutable_orientation_rate()->set_yaw(0.1);
+  write(folder / "osi/ground", recording::osi::framed(truths));
+  std::vector<osi3::SensorView> views;
+  for (osi3::GroundTruth& truth : truths) {
+    recording::osi::add_object(truth, 3, 50.0, 0.0)
+        .mutable_vehicle_attributes()
+        ->mutable_bbcenter_to_rear()
+        ->set_x(-1.4);
+    truth.mutable_host_vehicle_id()->set_value(3);
+    *views.emplace_back().mutable_global_ground_truth() = truth;
+  }
+  write(folder / "osi/host", recording::osi::framed(truths));
+  write(folder / "osi/view", recording::osi::framed(views));
+  const fs::path scratch = folder / "osi/channel";
+  recording::mcap::McapWriter writer(scratch.string(), "", "");
+  writer.add_schema(1, "osi3.GroundTruth", "protobuf", "");
+  writer.add_channel(1, 1, "truth", "protobuf");
+  for (const osi3::GroundTruth& truth : truths) writer.add_message(1, 0, 0, truth.SerializeAsString());
+  writer.close();
+}
+
 class Payloads final : public recording::mcap::McapHandler {
  public:
   void on_metadata(std::string_view, const std::vector<std::pair<std::string, std::string>>&) override {}
@@ -461,6 +489,7 @@ int main(int argc, char** argv) {
              {"paper_scenario1", "paper_scenario2", "laser_radar_recorded", "faulty_bus", "cold_start"});
   fibex_seeds(folder);
   recorded_seeds(folder);
+  osi_seeds(folder);
   observation_seeds(folder);
   frame_seeds(folder);
   turn_seeds(folder);
