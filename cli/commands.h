@@ -17,9 +17,11 @@ using Action = std::function<int()>;
 namespace ttf::cli::drive {
 void add_run(CLI::App& app, Action& action);
 }  // namespace ttf::cli::drive
+namespace ttf::cli::exports {
+void add_export(CLI::App& app, Action& action);
+}  // namespace ttf::cli::exports
 namespace ttf::cli::logs {
 void add_diagram(CLI::App& app, Action& action);
-void add_export(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 }  // namespace ttf::cli::logs
 namespace ttf::cli::schedule {

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   ttf::cli::Action action;
   ttf::cli::drive::add_run(app, action);
   ttf::cli::logs::add_diagram(app, action);
-  ttf::cli::logs::add_export(app, action);
+  ttf::cli::exports::add_export(app, action);
   ttf::cli::schedule::add_schedule(app, action);
   ttf::cli::experiment::add_experiment(app, action);
   ttf::cli::keys::add_keys(app, action);

@@ -7,7 +7,7 @@
 
 #include "evaluation/accuracy/drive_rows.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 class ToldUses final : public evaluation::accuracy::ImageUses {
  public:
@@ -32,4 +32,4 @@ class ToldUses final : public evaluation::accuracy::ImageUses {
   OnErrors on_errors_;
 };
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

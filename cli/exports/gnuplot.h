@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 // `inputs` are logs, or folders of logs, of one or several drives, or one experiment's folder. Creates `out`
 // if missing. Throws InputError, or std::runtime_error if a file cannot be written. Returns the files' names.
 std::vector<std::string> export_gnuplot(const std::vector<std::string>& inputs, const std::string& out);
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

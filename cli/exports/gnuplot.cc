@@ -1,4 +1,4 @@
-#include "cli/logs/export_gnuplot.h"
+#include "cli/exports/gnuplot.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@
 #include "report/paper/experiment.h"
 #include "report/plots/position_plot.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,7 +144,7 @@ std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
   std::vector<PaperFile> files;
   std::vector<report::paper::PaperDrive> drives;
   std::set<std::string> labels;
-  for (const recording::merge::MergedLogs& drive : drives_in(paths)) {
+  for (const recording::merge::MergedLogs& drive : logs::drives_in(paths)) {
     const recording::log::LogManifest& manifest = drive.manifest();
     report::paper::PaperDrive has;
     const std::string label = as_file_name(manifest.strategy);
@@ -208,4 +208,4 @@ std::vector<std::string> export_gnuplot(const std::vector<std::string>& inputs, 
   return names;
 }
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

@@ -1,4 +1,4 @@
-#include "cli/logs/export_osi.h"
+#include "cli/exports/osi.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "recording/log/writer.h"
 #include "recording/records/tee.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 using recording::osi::OsiCounts;
 using recording::osi::OsiExport;
@@ -55,4 +55,4 @@ OsiCounts export_osi_files(const recording::merge::MergedLogs& drive, const std:
   return trace.counts();
 }
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

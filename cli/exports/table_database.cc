@@ -1,4 +1,4 @@
-#include "cli/logs/table_database.h"
+#include "cli/exports/table_database.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 #include "cli/output.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 namespace {
 
 using experiments::results::Database;
@@ -119,4 +119,4 @@ void TableDatabase::finish() {
   place_.finished = true;
 }
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

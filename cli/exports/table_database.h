@@ -9,7 +9,7 @@
 #include "experiments/results/database.h"
 #include "recording/exports/tables.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 // The file exists only once it is finished. An older file of its name is gone from the start. All functions throw
 // std::runtime_error.
@@ -42,4 +42,4 @@ class TableDatabase {
   std::deque<Rows> rows_;  // by table
 };
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

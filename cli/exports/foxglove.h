@@ -7,7 +7,7 @@
 #include "recording/exports/viewer/foxglove_export.h"
 #include "recording/merge/merge.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 struct FoxgloveResult {
   recording::exports::viewer::SceneCounts counts;
@@ -18,4 +18,4 @@ struct FoxgloveResult {
 // Throws std::runtime_error if `out` cannot be written.
 FoxgloveResult export_foxglove(const recording::merge::MergedLogs& drive, const std::string& out);
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

@@ -10,10 +10,10 @@
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/drive_progress.h"
-#include "cli/logs/export_foxglove.h"
-#include "cli/logs/export_gnuplot.h"
-#include "cli/logs/export_osi.h"
-#include "cli/logs/export_tables.h"
+#include "cli/exports/foxglove.h"
+#include "cli/exports/gnuplot.h"
+#include "cli/exports/osi.h"
+#include "cli/exports/tables.h"
 #include "cli/logs/log_inputs.h"
 #include "cli/output.h"
 #include "core/counted.h"
@@ -22,7 +22,7 @@
 #include "recording/merge/merge.h"
 #include "report/experiment/markdown.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 namespace {
 
 const std::vector<FormatEnds> kFormatEnds = {
@@ -152,8 +152,8 @@ int run_export(const ExportOptions& options) {
   if (options.format == "markdown") return export_experiment_tables(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
   refuse_other_format(options.out, options.format, kFormatEnds);
-  for (const std::string& log : log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
-  const recording::merge::MergedLogs drive = drive_in(options.logs);
+  for (const std::string& log : logs::log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
+  const recording::merge::MergedLogs drive = logs::drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   if (options.format == "foxglove") return export_for_viewers(options, drive);
   if (options.format == "osi" || options.format == "osi-files") return export_for_osi(options, drive);
@@ -219,4 +219,4 @@ void add_export(CLI::App& app, Action& action) {
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

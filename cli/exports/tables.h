@@ -8,7 +8,7 @@
 
 #include "recording/merge/merge.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 using TableRows = std::vector<std::pair<std::string, std::uint64_t>>;
 
@@ -20,4 +20,4 @@ TableRows export_tables(const recording::merge::MergedLogs& drive, const std::st
 // it does not stay.
 TableRows export_sqlite(const recording::merge::MergedLogs& drive, const std::string& file);
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

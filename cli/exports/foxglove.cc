@@ -1,15 +1,15 @@
-#include "cli/logs/export_foxglove.h"
+#include "cli/exports/foxglove.h"
 
 #include <limits>
 #include <utility>
 
 #include "cli/drive_progress.h"
-#include "cli/logs/told_uses.h"
+#include "cli/exports/told_uses.h"
 #include "cli/logs/viewed_sensors.h"
 #include "core/counted.h"
 #include "recording/records/tee.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 namespace {
 
 using recording::exports::viewer::FoxgloveExport;
@@ -30,7 +30,7 @@ std::vector<std::string> missing(const SceneCounts& counts) {
 
 FoxgloveResult export_foxglove(const recording::merge::MergedLogs& drive, const std::string& out) {
   FoxgloveResult result;
-  FoxgloveExport scene(out, viewed_sensors(drive, result.warnings));
+  FoxgloveExport scene(out, logs::viewed_sensors(drive, result.warnings));
   ToldUses uses(
       [&](const ToldUses::Use& use, ToldUses::Ages ages) {
         for (const evaluation::accuracy::SensorAge& one : ages) scene.age(use.stamp.true_time, one.sensor, one.age);
@@ -53,4 +53,4 @@ FoxgloveResult export_foxglove(const recording::merge::MergedLogs& drive, const 
   return result;
 }
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

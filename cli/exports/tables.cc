@@ -1,4 +1,4 @@
-#include "cli/logs/export_tables.h"
+#include "cli/exports/tables.h"
 
 #include <array>
 #include <deque>
@@ -7,14 +7,14 @@
 #include <utility>
 
 #include "cli/drive_progress.h"
-#include "cli/logs/table_database.h"
-#include "cli/logs/told_uses.h"
+#include "cli/exports/table_database.h"
+#include "cli/exports/told_uses.h"
 #include "cli/output.h"
 #include "recording/exports/frames.h"
 #include "recording/exports/tables.h"
 #include "recording/records/tee.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 namespace {
 
@@ -72,4 +72,4 @@ TableRows export_sqlite(const recording::merge::MergedLogs& drive, const std::st
   return rows;
 }
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports

@@ -7,7 +7,7 @@
 #include "recording/merge/merge.h"
 #include "recording/osi/osi_export.h"
 
-namespace ttf::cli::logs {
+namespace ttf::cli::exports {
 
 // Writes the drive's log and the trace into one MCAP file. Throws std::runtime_error if it cannot be written; then the
 // file does not exist.
@@ -18,4 +18,4 @@ recording::osi::OsiCounts export_osi(const recording::merge::MergedLogs& drive, 
 recording::osi::OsiCounts export_osi_files(const recording::merge::MergedLogs& drive, const std::string& folder,
                                            std::vector<std::string>& files);
 
-}  // namespace ttf::cli::logs
+}  // namespace ttf::cli::exports
