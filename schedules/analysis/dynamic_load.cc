@@ -57,7 +57,7 @@ std::string dynamic_text(const model::Cluster& cluster) {
   const auto lists = dynamic_lists(cluster);
   if (lists.empty()) return "";
   const model::GlobalParameters& g = cluster.flexray;
-  std::string text = fmt::format("dynamic segment: {} minislots of {} macroticks; with every slot in use",
+  std::string text = fmt::format("dynamic segment: {} minislots of {} macroticks\nwith every slot in use",
                                  g.gNumberOfMinislots, g.gdMinislot);
   for (const DynamicLoad& load : dynamic_load(cluster))
     text += fmt::format("{} {} takes {} ({:.1f} %)", load.channel == model::Channel::kA ? "" : ",",

@@ -16,6 +16,8 @@
 namespace ttf::schedules::exchange {
 namespace {
 
+constexpr std::size_t kWidest = 100;  // characters of a line
+
 std::string cycles_text(int base_cycle, int repetition) {
   if (repetition == 1) return "every cycle";
   return fmt::format("cycles {} + n*{}", base_cycle, repetition);
@@ -68,9 +70,8 @@ std::string activation_text(const model::Cluster& cluster, const model::Task& ta
   switch (activation.kind) {
     case model::ActivationKind::kTime: {
       const GlobalTime start = time_of(g, activation.at.base_cycle, activation.at.offset);
-      return fmt::format("at {:.3f} ms + n*{:g} ms (macrotick {} of {})", in_ms(start - GlobalTime{}),
-                         in_ms(cluster.cycle() * activation.at.repetition), activation.at.offset.value,
-                         cycles_text(activation.at.base_cycle, activation.at.repetition));
+      return fmt::format("at {:.3f} ms + n*{:g} ms", in_ms(start - GlobalTime{}),
+                         in_ms(cluster.cycle() * activation.at.repetition));
     }
     case model::ActivationKind::kMessage: return fmt::format("when {} arrives", activation.port);
     case model::ActivationKind::kSensor: return fmt::format("when {} measures", cluster.sensor(activation.sensor).name);
@@ -158,6 +159,39 @@ void show_objects(const model::Cluster& cluster, std::string& text) {
                       ceiling.carried, ceiling.with_all_static_slots, ceiling.free_for_lists);
 }
 
+// A time on the cycle's own grid goes below a row that it would make too wide.
+std::string task_text(const model::Cluster& cluster, const model::Node& node, const model::Task& task) {
+  const std::string names = fmt::format("  {:<12}{:<16}", node.name, task.name);
+  std::string text = fmt::format("{}{:g}-{:g} ms, deadline {:g} ms, {}", names, in_ms(task.best_case),
+                                 in_ms(task.worst_case), in_ms(task.deadline), activation_text(cluster, task));
+  if (task.activation.kind == model::ActivationKind::kTime) {
+    const model::Activation& activation = task.activation;
+    const std::string grid = fmt::format("(macrotick {} of {})", activation.at.offset.value,
+                                         cycles_text(activation.at.base_cycle, activation.at.repetition));
+    text += (text.size() + 1 + grid.size() > kWidest ? '\n' + std::string(names.size(), ' ') : " ") + grid;
+  }
+  return text + '\n';
+}
+
+// Breaks lines that are too wide at blanks. What follows is further in.
+std::string wrapped(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string line = text.substr(at, end - at);
+    const std::string indent(std::min(line.find_first_not_of(' '), line.size()) + 4, ' ');
+    while (line.size() > kWidest) {
+      const std::size_t blank = line.rfind(' ', kWidest);
+      if (blank == std::string::npos || blank <= indent.size()) break;
+      out += line.substr(0, blank) + '\n';
+      line = indent + line.substr(blank + 1);
+    }
+    out += line + '\n';
+    at = end + 1;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string show_text(const model::Cluster& cluster) {
@@ -173,7 +207,7 @@ std::string show_text(const model::Cluster& cluster) {
   if (sent) text += "\n" + analysis::dynamic_text(cluster);
   show_objects(cluster, text);
   show_real_time(cluster, text);
-  if (!cluster.describes_tasks()) return text + "\nno tasks, sensors and CANs are described\n";
+  if (!cluster.describes_tasks()) return wrapped(text) + "\nno tasks, sensors and CANs are described\n";
   text += "\nsensors\n";
   for (const model::Sensor& sensor : cluster.sensors) {
     std::string when = fmt::format("runs freely, every {:g} ms", in_ms(sensor.period));
@@ -189,14 +223,11 @@ std::string show_text(const model::Cluster& cluster) {
   }
   text += "\ntasks\n";
   for (const model::Node& node : cluster.nodes)
-    for (const model::Task& task : node.tasks)
-      text +=
-          fmt::format("  {:<12}{:<16}{:g}-{:g} ms, deadline {:g} ms, {}\n", node.name, task.name, in_ms(task.best_case),
-                      in_ms(task.worst_case), in_ms(task.deadline), activation_text(cluster, task));
+    for (const model::Task& task : node.tasks) text += task_text(cluster, node, task);
   text += "\nCAN, worst-case load\n";
   for (const model::CanBus& bus : cluster.can_buses)
     text += fmt::format("  {:<20}{:>5.1f} %\n", bus.name, 100.0 * analysis::can_worst_load(cluster, bus));
-  return text;
+  return wrapped(text);
 }
 
 }  // namespace ttf::schedules::exchange

@@ -8,7 +8,7 @@
 
 namespace ttf::schedules::exchange {
 
-// Returns several lines of at most about 100 columns. Consecutive slots with the fragments of one list share a
+// Returns several lines of at most 100 columns, unless a word is longer. Consecutive slots with the fragments of one list share a
 // line. The cluster must have passed check().
 std::string show_text(const model::Cluster& cluster);
 

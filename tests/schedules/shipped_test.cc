@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "schedules/analysis/ages.h"
+#include "schedules/analysis/dynamic_load.h"
 #include "schedules/exchange/text.h"
 #include "tests/schedules/cluster_file.h"
 
@@ -46,6 +49,13 @@ TEST_P(Shipped, IsDrawnAsText) {
   const bool one = cluster.pdu(*cluster.find_pdu("image")).max_fragments() == 1;
   EXPECT_NE(text.find(one ? "image 0" : "image 0-"), std::string::npos);
   EXPECT_NE(text.find("(sync, startup)"), std::string::npos);
+}
+
+TEST_P(Shipped, IsTextOfAtMost100Columns) {
+  const model::Cluster cluster = file::load_cluster(shipped_path(GetParam()));
+  std::istringstream lines(exchange::show_text(cluster) + analysis::ages_text(cluster) +
+                           analysis::dynamic_text(cluster));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
 INSTANTIATE_TEST_SUITE_P(Clusters, Shipped, testing::ValuesIn(shipped_clusters()),

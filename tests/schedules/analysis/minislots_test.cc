@@ -150,7 +150,7 @@ TEST(DynamicLoad, IsThatOfTheFullestCycle) {
 TEST(DynamicLoad, IsListedAndDrawn) {
   const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   const std::string text = dynamic_text(cluster);
-  EXPECT_NE(text.find("80 minislots of 7 macroticks; with every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
+  EXPECT_NE(text.find("80 minislots of 7 macroticks\nwith every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("23-24  AB  camera_pre  camera_objects 0-1"), std::string::npos) << text;

@@ -207,7 +207,7 @@ TEST(RealTime, TheSectionIsReadStrictly) {
 TEST(RealTime, IsShown) {
   EXPECT_NE(exchange::show_text(paper(us(100), us(400)))
                 .find("\nreal time\n  frames may arrive from 100 us before to 400 us after their action point; time "
-                      "scale 1 has room for 581 us\n"),
+                      "scale 1 has room for\n      581 us\n"),
             std::string::npos);
   EXPECT_NE(exchange::show_text(paper(us(100), us(1'162)))
                 .find("\n  not at time scale 1: real_time.late = 1162 us must be at most 581 us"),
