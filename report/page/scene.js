@@ -6,10 +6,18 @@
   const side = (y) => `${Math.abs(y).toFixed(1)} m ${y < 0 ? "right" : "left"}`;
   const tip = document.querySelector(".tip");   // that of the timing diagrams
 
+  // Where the pointers hold the scene, and how far apart they are.
+  const grip = (held) => {
+    const [a, b = a] = [...held.values()];
+    return { x: (a.clientX + b.clientX) / 2, y: (a.clientY + b.clientY) / 2,
+      apart: Math.max(1, Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)) };
+  };
+
   class Player extends SceneControls {
     constructor(figure, scenes) {
       super(figure, scenes);
       this.playing = false;
+      this.held = new Map();   // the pointers that are down, by number
       this.at = this.from;
       const grid = this.build();
       figure.addEventListener("keydown", (event) => this.key(event));
@@ -87,6 +95,7 @@
       this.pending ??= requestAnimationFrame(() => { this.pending = undefined; this.draw(); });
     }
     draw(all = false) {
+      this.figure.dataset.view = [this.view.x, this.view.y, this.view.scale].join(" ");
       for (const { near, drawing, canvas, counts } of this.panels) {
         if (!near && !all) continue;
         drawing.draw(this.at);
@@ -121,25 +130,36 @@
       const factor = (event.deltaY || event.deltaX) > 0 ? 0.8 : 1.25;
       this.zoom(factor, { x: drawing.to_x(event.offsetX), y: drawing.to_y(event.offsetY) });
     }
-    // On a touch screen, dragging up or down scrolls the page, and dragging sideways moves the scene.
-    grab(event, { canvas }) {
-      if (event.button !== 0 || !event.isPrimary) return;
+    // On a touch screen, one finger scrolls the page up and down, and moves the scene sideways. Two fingers move and zoom it.
+    grab(event, { canvas, drawing }) {
+      const { held } = this, another = held.size > 0;
+      if (event.button !== 0 || held.size === 2 || (another && this.grabbed !== canvas)) return;
+      this.grabbed = canvas;
       canvas.setPointerCapture(event.pointerId);
-      const { x, y } = this.view, end = new AbortController();
-      const on = (kind, act) => canvas.addEventListener(kind, act, { signal: end.signal });
-      let at = event;
+      held.set(event.pointerId, event);
+      if (another) return;
+      const { x, y, scale } = this.view, end = new AbortController();
+      const on = (kind, act) =>
+          canvas.addEventListener(kind, (of) => { if (held.has(of.pointerId)) act(of); }, { signal: end.signal });
       on("pointermove", (moved) => {
-        if (!moved.isPrimary) return;
-        this.view.x -= (moved.clientX - at.clientX) / this.view.scale;
-        this.view.y += (moved.clientY - at.clientY) / this.view.scale;
-        at = moved;
+        const from = grip(held);
+        held.set(moved.pointerId, moved);
+        const to = grip(held), box = canvas.getBoundingClientRect();
+        this.view.x -= (to.x - from.x) / this.view.scale;
+        this.view.y += (to.y - from.y) / this.view.scale;
+        if (held.size === 2)
+          this.zoom(to.apart / from.apart, { x: drawing.to_x(to.x - box.left), y: drawing.to_y(to.y - box.top) });
         this.redraw();
       });
-      on("pointerup", () => end.abort());
+      on("pointerup", ({ pointerId }) => {
+        held.delete(pointerId);
+        if (held.size === 0) end.abort();
+      });
       // The page scrolls or grows instead.
       on("pointercancel", () => {
+        held.clear();
         end.abort();
-        Object.assign(this.view, { x, y });
+        Object.assign(this.view, { x, y, scale });
         this.redraw();
       });
     }

@@ -25,7 +25,7 @@ const SceneControls = (() => {
       keys.innerHTML =
           "<kbd>Space</kbd> plays, <kbd>←</kbd> <kbd>→</kbd> from image to image, with <kbd>Shift</kbd> by a second, " +
           "<kbd>Home</kbd> <kbd>End</kbd>, <kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>0</kbd> all. Drag to move, " +
-          "<kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, point at an object for its figures.";
+          "<kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel, or two fingers, to zoom, point at an object for its figures.";
       this.figure.append(grid, this.layers(), keys, this.heard);
       return grid;
     }
@@ -63,6 +63,11 @@ const SceneControls = (() => {
       canvas.addEventListener("pointerdown", (event) => this.grab(event, one));
       canvas.addEventListener("pointermove", (event) => this.point(event, one));
       canvas.addEventListener("pointerleave", () => this.leave());
+      // The second finger is the scene's, whatever the first one did.
+      for (const kind of ["touchstart", "touchmove"])
+        canvas.addEventListener(kind, (event) => {
+          if (event.touches.length > 1 && event.cancelable) event.preventDefault();
+        }, { passive: false });
       canvas.addEventListener("wheel", (event) => this.wheel(event, one), { passive: false });
       // A panel out of sight is not drawn.
       new IntersectionObserver(([entry]) => {

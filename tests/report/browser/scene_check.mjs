@@ -54,6 +54,38 @@ async function ids_apart(name, page, canvas, check) {
   });
 }
 
+// Two fingers move and zoom a scene: the place between them stays between them. One finger moves it sideways.
+async function fingers_move(name, page, canvas, figure, check) {
+  const phone = await page.context().newCDPSession(page);
+  const touch = (type, ...points) =>
+      phone.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y, id], i) => ({ x, y, id: id ?? i })) });
+  const box = await canvas.boundingBox(), middle = [box.x + box.width * 0.5, box.y + box.height * 0.4];
+  const beside = (x, y) => [middle[0] + x, middle[1] + y];
+  const view = async () => (await figure.getAttribute("data-view")).split(" ").map(Number);
+  const place = ([x, y, scale], [px, py]) =>
+      [x + (px - box.x - box.width / 2) / scale, y - (py - box.y - box.height / 2) / scale];
+  const near = (a, b, most) => a.every((one, i) => Math.abs(one - b[i]) < most);
+  const scroll = () => page.evaluate(() => [scrollY, visualViewport.scale]);
+  const before = await view(), stood = await scroll();
+  await touch("touchStart", beside(-40, 0));
+  await touch("touchStart", beside(-40, 0), beside(40, 0));
+  for (const part of [0.25, 0.5, 0.75, 1])
+    await touch("touchMove", beside(-40 - 40 * part, 30 * part), beside(40 + 40 * part, 30 * part));
+  await page.waitForTimeout(80);
+  const zoomed = await view();
+  check(`${name}: two fingers zoom the scene from ${before} to ${zoomed}`, Math.abs(zoomed[2] / before[2] - 2) < 0.02);
+  check(`${name}: and move it`, near(place(zoomed, beside(0, 30)), place(before, middle), 2 / zoomed[2]));
+  await touch("touchEnd", [...beside(80, 30), 1]);
+  await touch("touchMove", beside(-110, 30));
+  await page.waitForTimeout(80);
+  const moved = await view();
+  check(`${name}: the finger that stays moves the scene from ${zoomed} to ${moved}`,
+    near(moved, [zoomed[0] + 30 / zoomed[2], zoomed[1], zoomed[2]], 2 / zoomed[2]));
+  await touch("touchEnd");
+  check(`${name}: the page stands still: ${stood}, ${await scroll()}`, near(await scroll(), stood, 0.5));
+  await phone.detach();
+}
+
 // A scene plays, and goes where keys, slider, plots and timing diagram send it.
 export async function scene_plays(name, page, check, pictures) {
   const figure = page.locator("figure.scenes"), canvas = figure.locator("canvas").first();
@@ -119,6 +151,10 @@ export async function scene_plays(name, page, check, pictures) {
   await page.keyboard.press("0");
   await settled();
   check(`${name}: 0 shows all of it`, await pixels(canvas) === whole);
+  await fingers_move(name, page, canvas, figure, check);
+  await page.keyboard.press("0");
+  await settled();
+  check(`${name}: 0 shows all of it after fingers`, await pixels(canvas) === whole);
   await page.screenshot({ path: `${pictures}/${name}_scene.png` });
   // One instant for the whole page: a click in a plot, and one in the timing diagram.
   const plot = page.locator("figure.plot").filter({ hasText: "Error over time" }), over = plot.locator(".u-over");
