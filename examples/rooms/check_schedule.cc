@@ -1,4 +1,4 @@
-// Checks a cluster file by all rules, and prints how old each sensor's measurements may be when they are used.
+// Checks a cluster file by all rules. It prints the bounds of each measurement's age at its use.
 //   check_schedule CLUSTER.yaml        exit code 2: the file breaks a rule
 #include <cstdio>
 

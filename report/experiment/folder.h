@@ -64,8 +64,8 @@ struct ExperimentMeasure {
 
 struct ExperimentFolder {
   std::string path, name, question, answer, baseline;
-  std::string compared_axis;  // `baseline` is one of its values; "": the paradigms are compared
-  std::string file;           // the experiment's file, by its name then; "" in an older answer.json
+  std::string compared_axis;           // `baseline` is one of its values; "": the paradigms are compared
+  std::string file;                    // the experiment's file, by its name then; "" in an older answer.json
   std::vector<std::string> libraries;  // those of steps, by name
   std::uint64_t seed = 0, drives = 0, failed = 0;
   double confidence = 0.95;

@@ -173,7 +173,7 @@ std::string task_text(const model::Cluster& cluster, const model::Node& node, co
   return text + '\n';
 }
 
-// Breaks lines that are too wide at blanks. What follows is further in.
+// Breaks lines that are too wide at blanks. Their other lines are further in.
 std::string wrapped(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
