@@ -83,7 +83,7 @@ grep -q 'gateway *| error: .*a call did not return within 1 s' "$work/live.err" 
 for node in $survivors; do
   grep -q "$node: exit [1-9]" "$work/live.err" && fail "$node ends with the node that hangs"
 done
-launch "$work/gone" "$work/leaves.yaml" --policy gateway=optional --time-scale 4 --duration 1 ||
+launch "$work/gone" "$work/leaves.yaml" --policy gateway=optional --time-scale 4 --duration 1.5 ||
   fail "the others of a node that ends its process in real time: $(cat "$work/gone.err")"
 grep -q "not in operation at the end: .*$died" "$work/gone.err" || fail "an end in real time is not told: $(cat "$work/gone.err")"
 grep -q '^verdict: .*gateway' "$work/gone.out" || fail "the verdict leaves the node out: $(cat "$work/gone.out")"
