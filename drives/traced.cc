@@ -12,7 +12,7 @@
 namespace ttf::drives {
 namespace {
 
-std::string seconds(Duration duration) { return scaled_text(duration.ns, 1'000'000'000) + " s"; }
+std::string in_seconds(Duration duration) { return scaled_text(duration.ns, 1'000'000'000) + " s"; }
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void take_truth(Scenario& scenario, std::shared_ptr<const recording::osi::TruthT
   const Duration length = trace->length(), least = std::max(kShortestDrive, scenario.evaluate_from);
   if (length < least)
     throw InputError({trace->name, 0, "", "",
-                      fmt::format("must be at least {} long, and has {}{}", seconds(least), seconds(length),
+                      fmt::format("must be at least {} long, and has {}{}", in_seconds(least), in_seconds(length),
                                   least > kShortestDrive ? ": " + scenario.file + " evaluates from there on" : "")});
   scenario.duration = scenario.world.duration = std::min(scenario.duration, length);
   scenario.truth = std::move(trace);
@@ -30,7 +30,7 @@ std::string truth_text(const Scenario& scenario) {
   const recording::osi::TruthTrace& trace = *scenario.truth;
   std::string text = fmt::format("truth of {}, a trace of {}{}: {} in {} over {}", trace.name, trace.type,
                                  trace.guessed ? " as its messages show" : "", counted(trace.objects.size(), "object"),
-                                 counted(trace.instants.size(), "message"), seconds(trace.length()));
+                                 counted(trace.instants.size(), "message"), in_seconds(trace.length()));
   if (!trace.host)
     text += ", seen from the ground's origin";
   else if (trace.host->has_rear)
@@ -43,7 +43,7 @@ std::string truth_text(const Scenario& scenario) {
         fmt::format("; the scenario's {} not there",
                     scenario.world.objects.size() == 1 ? std::string("object is")
                                                        : fmt::format("{} objects are", scenario.world.objects.size()));
-  if (scenario.duration < trace.length()) text += fmt::format("; the drive ends at {}", seconds(scenario.duration));
+  if (scenario.duration < trace.length()) text += fmt::format("; the drive ends at {}", in_seconds(scenario.duration));
   return text;
 }
 

@@ -18,7 +18,7 @@
 namespace ttf::recording::osi {
 namespace {
 
-constexpr std::string_view kGroundTruth = "osi3.GroundTruth", kSensorView = "osi3.SensorView";
+constexpr std::string_view kTruthSchema = "osi3.GroundTruth", kViewSchema = "osi3.SensorView";
 
 [[noreturn]] void refuse(const std::string& name, std::string why) {
   throw InputError({name, 0, "", "", std::move(why)});
@@ -37,7 +37,7 @@ class Channels final : public mcap::McapHandler {
   }
   bool on_message(std::uint16_t channel, std::uint64_t, std::string_view payload) override {
     const auto type = types.find(channel);
-    if (type != types.end() && (type->second == kGroundTruth || type->second == kSensorView))
+    if (type != types.end() && (type->second == kTruthSchema || type->second == kViewSchema))
       messages[channel].emplace_back(payload);
     return true;
   }
@@ -85,16 +85,16 @@ TraceMessages from_mcap(std::string_view bytes, const std::string& name) {
     refuse(name, fmt::format("must be sound, and {} of {} are damaged", report.chunks_lost,
                              counted(report.chunks_lost + report.chunks_read, "chunk")));
   TraceMessages trace;
-  std::uint16_t channel = channel_of(channels, kGroundTruth, name);
+  std::uint16_t channel = channel_of(channels, kTruthSchema, name);
   if (channel == 0) {
     trace.type = MessageType::kSensorView;
-    channel = channel_of(channels, kSensorView, name);
+    channel = channel_of(channels, kViewSchema, name);
   }
   if (channel == 0) {
     std::vector<std::string> others;
     for (const auto& [id, type] : channels.types)
       if (std::ranges::find(others, type) == others.end() && others.size() < 3) others.push_back(type);
-    refuse(name, fmt::format("must have a channel of {} or {}, and has {}", kGroundTruth, kSensorView,
+    refuse(name, fmt::format("must have a channel of {} or {}, and has {}", kTruthSchema, kViewSchema,
                              others.empty() ? "no channel" : "channels of " + joined(others)));
   }
   trace.kept = std::move(channels.messages[channel]);
@@ -133,7 +133,7 @@ Sense sense_of(std::string_view message) {
 }
 
 // Returns the messages; each has its length in front, in four bytes.
-std::vector<std::string_view> framed(std::string_view bytes, const std::string& name) {
+std::vector<std::string_view> messages_in(std::string_view bytes, const std::string& name) {
   std::vector<std::string_view> messages;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::string_view rest = bytes.substr(at);
@@ -160,7 +160,7 @@ std::vector<std::string_view> framed(std::string_view bytes, const std::string& 
 TraceMessages from_osi(std::string_view bytes, const std::string& name) {
   TraceMessages trace;
   trace.guessed = true;
-  trace.messages = framed(bytes, name);
+  trace.messages = messages_in(bytes, name);
   Sense sense = Sense::kNone;
   for (std::size_t m = 0; m < trace.messages.size() && sense == Sense::kNone; ++m) sense = sense_of(trace.messages[m]);
   switch (sense) {

@@ -6,6 +6,7 @@
 // type, so at most one type fits.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "core/errors.h"
 
 namespace ttf::recording::osi {
+
+inline constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 enum class MessageType { kGroundTruth, kSensorView };
 

@@ -9,6 +9,7 @@
 
 #include "core/check.h"
 #include "recording/mcap/bytes.h"
+#include "recording/osi/messages.h"
 #include "recording/osi/osi.pb.h"
 #include "recording/scene/geometry.h"
 #include "recording/scene/instants.h"
@@ -17,7 +18,6 @@ namespace ttf::recording::osi {
 namespace {
 
 constexpr std::uint32_t kMajor = 3, kMinor = 8, kPatch = 0;
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 struct Version {
   std::uint32_t major = 0, minor = 0, patch = 0;

@@ -17,7 +17,6 @@
 namespace ttf::recording::osi {
 namespace {
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr std::int64_t kLatest_s = 4'000'000'000;  // the year 2096, for clocks that count from 1970
 // No road user exceeds these; positions may be map coordinates.
 constexpr double kFarthest_m = 1e8, kFastest_mps = 1e3, kHardest_mps2 = 1e4, kFastestTurn_radps = 1e3,
