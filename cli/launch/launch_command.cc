@@ -26,6 +26,7 @@
 #include "cli/supervision/signal_watch.h"
 #include "cli/supervision/supervisor.h"
 #include "core/decimal.h"
+#include "drives/traced.h"
 #if TTF_WITH_DDS
 #include "cli/launch/launch_virtual.h"
 #endif
@@ -105,6 +106,7 @@ void remove_earlier(const std::optional<supervision::EarlierLaunch>& earlier, co
 template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
+  if (plan.set.scenario.truth) fmt::print(stderr, "{}\n", drives::truth_text(plan.set.scenario));
   const auto earlier = supervision::earlier_launch(plan.set.folder);
   supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
   remove_earlier(earlier, plan, folder);

@@ -107,16 +107,19 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
 }
 
 nlohmann::ordered_json facts_of(const node_set::NodeSet& set) {
-  return {{"version", TTF_VERSION},
-          {"scenario", {{"name", set.scenario.name}, {"file", set.file}, {"hash", hex_hash(set.scenario.text)}}},
-          {"cluster", {{"name", set.cluster.name}, {"file", set.cluster.file}, {"hash", hex_hash(set.cluster.text)}}},
-          {"strategy", name_of(set.strategy)},
-          {"seed", set.seed},
-          {"bus", set.bus.text()},
-          {"virtual_time", set.virtual_time},
-          {"time_scale", static_cast<double>(set.time_scale_ppm) * 1e-6},
-          {"duration_s", set.scenario.duration.seconds()},
-          {"folder", set.folder}};
+  nlohmann::ordered_json facts{
+      {"version", TTF_VERSION},
+      {"scenario", {{"name", set.scenario.name}, {"file", set.file}, {"hash", hex_hash(set.scenario.text)}}},
+      {"cluster", {{"name", set.cluster.name}, {"file", set.cluster.file}, {"hash", hex_hash(set.cluster.text)}}},
+      {"strategy", name_of(set.strategy)},
+      {"seed", set.seed},
+      {"bus", set.bus.text()},
+      {"virtual_time", set.virtual_time},
+      {"time_scale", static_cast<double>(set.time_scale_ppm) * 1e-6},
+      {"duration_s", set.scenario.duration.seconds()},
+      {"folder", set.folder}};
+  if (set.scenario.truth) facts["truth"] = {{"file", set.scenario.truth->name}, {"hash", set.scenario.truth->hash}};
+  return facts;
 }
 
 void show_preflight(const LaunchPlan& plan) {

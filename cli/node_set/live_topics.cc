@@ -55,7 +55,9 @@ bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::Dr
   options.images = runs(set, node, "image_output");
   options.tracks = runs(set, node, "fusion");
   if (tells_truth(set, node)) {
-    options.truth_objects = static_cast<std::uint16_t>(set.scenario.world.objects.size());
+    const drives::Scenario& scenario = set.scenario;
+    options.truth_objects =
+        static_cast<std::uint16_t>(scenario.truth ? scenario.truth->objects.size() : scenario.world.objects.size());
     options.truth_period = period_of(set, set.cluster.sensors.front(), clock);
   }
   return options;

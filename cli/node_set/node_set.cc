@@ -21,6 +21,7 @@
 #include "core/strict_yaml.h"
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
+#include "drives/traced.h"
 #include "schedules/check/real_time_rules.h"
 
 namespace ttf::cli::node_set {
@@ -158,6 +159,8 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
   command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
   command.add_option("--duration", arguments.duration,
                      "Seconds to drive, instead of the scenario's; 0: until it is stopped, an hour at most");
+  command.add_option("--truth", arguments.truth, "ASAM OSI trace in place of the scenario's objects (docs/osi.md)")
+      ->check(named());
   drive::add_step_options(command, arguments.steps);
 }
 
@@ -201,6 +204,10 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     set.scenario.duration = set.scenario.world.duration = drive::kLongestDrive;
   else if (arguments.duration)
     drive::set_duration(set.scenario, drive, *arguments.duration);
+  if (const auto truth = drive::read_truth(arguments.truth)) {
+    drives::take_truth(set.scenario, truth);
+    set.until_stopped = false;  // it ends with the trace
+  }
   drives::check_fits(set.scenario, set.cluster, set.strategy, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (arguments.external) set.externals = external_nodes(*arguments.external, set);
@@ -234,6 +241,7 @@ std::vector<std::string> NodeSet::options() const {
   else
     list.insert(list.end(), {"--time-scale", schedules::check::time_scale_text(time_scale_ppm)});
   if (!virtual_time && !topics) list.emplace_back("--no-topics");
+  if (scenario.truth) list.insert(list.end(), {"--truth", scenario.truth->name});
   for (std::string& option : step_options.arguments()) list.push_back(std::move(option));
   list.insert(list.end(), {"--out", folder});
   return list;

@@ -26,6 +26,7 @@ struct NodeSetArguments {
   std::vector<std::string> cans;        // NAME=IF
   std::optional<std::string> external;  // NODE[,NODE]
   std::string session = "ttfusion";
+  std::string truth;  // a trace in place of the scenario's objects
   std::string out;
   drive::StepOptions steps;
   bool virtual_time = false;
@@ -40,7 +41,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
 
 struct NodeSet {
   std::string file;                   // scenario or cluster, as given
-  drives::Scenario scenario;          // with the given duration
+  drives::Scenario scenario;          // with the given duration and trace
   bool until_stopped = false;         // has the longest duration: a signal is the usual end; in real time only
   schedules::model::Cluster cluster;  // the strategy's, checked
   fusion::strategies::StrategyKind strategy{};

@@ -104,7 +104,7 @@ void OsiExport::image(TrueTime valid_at, const records::ImageWritten& image) {
   message.mutable_last_measurement_time()->set_seconds(newest.ns / kNsPerSecond);
   message.mutable_last_measurement_time()->set_nanos(static_cast<std::uint32_t>(newest.ns % kNsPerSecond));
   osi3::DetectedEntityHeader& header = *message.mutable_moving_object_header();
-  *header.mutable_measurement_time() = message.timestamp();
+  *header.mutable_measurement_time() = message.last_measurement_time();
   header.set_cycle_counter(image.sequence);
   header.set_data_qualifier(osi3::DetectedEntityHeader::DATA_QUALIFIER_AVAILABLE);
   for (const records::ImageObject& track : image.objects) {

@@ -151,6 +151,7 @@ TEST(OsiExport, SensorDataHasTheImagesTracks) {
   EXPECT_EQ(data.timestamp().seconds(), 1);
   EXPECT_EQ(data.timestamp().nanos(), 60'000'000u);  // in true time: 20 ms + 40 ms
   EXPECT_EQ(data.last_measurement_time().nanos(), 990'000'000u);
+  EXPECT_EQ(data.moving_object_header().measurement_time().nanos(), 990'000'000u);
   EXPECT_EQ(data.moving_object_header().cycle_counter(), 1u);
   ASSERT_EQ(data.moving_object_size(), 1);
   const osi3::DetectedMovingObject& object = data.moving_object(0);
