@@ -29,6 +29,11 @@ for cluster in paper_free_running paper_free_flexray; do
   launch "$work/$cluster" "$work/$cluster.yaml" --strategy adva || fail "launch $cluster: $(cat "$work/$cluster.err")"
   [[ $(hash_of "$work/$cluster") == "$(hash_of "$work/run_$cluster")" ]] || fail "launch $cluster leaves other records than run"
 done
+# The world of another simulator.
+python3 "$source/examples/osi_traces.py" queue "$work/queue.osi" || fail "no trace"
+"$program" run "$drive" --strategy tt --no-pictures --truth "$work/queue.osi" --out "$work/run_queue" >/dev/null 2>&1 || fail "run queue"
+launch "$work/queue" "$drive" --truth "$work/queue.osi" || fail "launch queue: $(cat "$work/queue.err")"
+[[ $(hash_of "$work/queue") == "$(hash_of "$work/run_queue")" ]] || fail "a launch with a trace leaves other records than run"
 python3 - "$work/paper_scenario1" <<'PY' || fail "the manifest of a launch is another"
 import json, os, sys
 folder = sys.argv[1]
