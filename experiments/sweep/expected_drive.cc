@@ -128,7 +128,7 @@ double distance_to_outline(const recording::records::TruthState& box, double x, 
 
 bool ExpectedError::is_defined(const drives::Scenario& scenario) {
   if (scenario.world.objects.size() != 1 || scenario.tracker.motion != fusion::config::MotionModel::kConstantVelocity ||
-      scenario.tracker.extent_noise > 0.0)
+      scenario.tracker.extent_noise > 0.0 || scenario.world.ego || scenario.world.objects.front().on)
     return false;
   return knows_size(scenario.tracker.sizes, scenario.world.objects.front()) || shows_one_face(scenario);
 }

@@ -6,6 +6,7 @@
 
 #include "core/time.h"
 #include "sim/world/ego.h"
+#include "sim/world/road/road.h"
 #include "sim/world/world.h"
 
 namespace ttf::nodes::sensing {
@@ -17,6 +18,8 @@ class Scene {
   virtual void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const = 0;
   // Returns the state of the sensors' vehicle; one that stands at the origin of the ground, unless the scene moves it.
   virtual sim::world::EgoState ego_at(TrueTime) const { return {}; }
+  // Returns the road, over ground; null where there is none.
+  virtual const sim::world::road::Road* road() const { return nullptr; }
   // Returns the largest number of objects.
   virtual std::size_t objects() const = 0;
 };
@@ -29,6 +32,8 @@ class WorldScene final : public Scene {
   void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override {
     world_.states_at(TrueTime{} + (at - start_), out);
   }
+  sim::world::EgoState ego_at(TrueTime at) const override { return world_.ego_at(TrueTime{} + (at - start_)); }
+  const sim::world::road::Road* road() const override { return world_.road(); }
   std::size_t objects() const override { return world_.size(); }
   const sim::world::World& world() const { return world_; }
 

@@ -11,14 +11,39 @@ namespace {
 
 constexpr Range<double> kPlace{-kFarthest_m, kFarthest_m};
 constexpr Range<Duration> kMemory{Duration::milliseconds(20), Duration::milliseconds(3'600'000)};
+const road::RoadConfig kNoRoad{.pieces = {road::Piece{1.0}}};
 constexpr std::int64_t kMostObjects = 65'534;  // whose ids are no false detection's
 
 // Loads an object without its place, and without what draws its size.
 void load_kind(YamlMap& map, ObjectConfig& object) {
-  object.heading = map.number_or("heading", 0.0, {-7.0, 7.0}, "rad");
   object.speed = map.number_or("speed", 0.0, {0.0, 100.0}, "m/s");
   object.length = map.number_or("length", object.length, {0.1, 30.0}, "m");
   object.width = map.number_or("width", object.width, {0.1, 5.0}, "m");
+}
+
+double load_heading(YamlMap& map) { return map.number_or("heading", 0.0, {-7.0, 7.0}, "rad"); }
+
+void load_class(YamlMap& map, ObjectConfig& object) {
+  Choices<traffic::ObjectClass> classes;
+  for (std::size_t k = 0; k < traffic::kClasses.size(); ++k)
+    classes.emplace_back(traffic::kClasses[k].name, static_cast<traffic::ObjectClass>(k));
+  object.kind = map.choice_or("class", object.kind, classes);
+  const traffic::ClassTraits& usual = traffic::traits_of(object.kind);
+  object.length = usual.length;
+  object.width = usual.width;
+  object.height = map.number_or("height", usual.height, {0.1, 5.0}, "m");
+  object.cross_section = map.number_or("cross_section", usual.cross_section, {0.001, 10'000.0}, "m^2");
+}
+
+TrajectorySegment load_segment(YamlMap& map) {
+  TrajectorySegment segment;
+  segment.duration = map.duration("duration", {Duration::milliseconds(1), Duration::milliseconds(3'600'000)});
+  const traffic::Pace pace = traffic::load_pace(map);
+  segment.acceleration = pace.speed ? pace.size() : pace.acceleration.value_or(0.0);
+  segment.speed = pace.speed;
+  segment.yaw_rate = map.number_or("yaw_rate", 0.0, {-5.0, 5.0}, "rad/s");
+  map.finish();
+  return segment;
 }
 
 void load_field(YamlMap& map, const SizeConfig& size, std::vector<ObjectConfig>& objects) {
@@ -28,6 +53,7 @@ void load_field(YamlMap& map, const SizeConfig& size, std::vector<ObjectConfig>&
   field.row = map.number_or("row", field.row, {0.5, kFarthest_m}, "m");
   field.across = map.number_or("across", field.across, {0.5, kFarthest_m}, "m");
   field.half_angle = map.number_or("half_angle", field.half_angle, {0.0, 1.4}, "rad");
+  field.each.heading = load_heading(map);
   load_kind(map, field.each);
   field.each.size = size;
   const std::vector<ObjectConfig> all = placed(field);
@@ -40,8 +66,9 @@ void load_field(YamlMap& map, const SizeConfig& size, std::vector<ObjectConfig>&
 // An object's state has a speed along its heading only: relative to a vehicle that drives, too, it must have no other.
 bool drive_along_x(const WorldConfig& config) {
   const auto does = [](const ObjectConfig& object) {
-    return object.heading == 0.0 && std::all_of(object.segments.begin(), object.segments.end(),
-                                                [](const TrajectorySegment& s) { return s.yaw_rate == 0.0; });
+    return !object.on && object.heading == 0.0 &&
+           std::all_of(object.segments.begin(), object.segments.end(),
+                       [](const TrajectorySegment& s) { return s.yaw_rate == 0.0; });
   };
   return config.yaw_rate_noise == 0.0 && std::all_of(config.objects.begin(), config.objects.end(), does);
 }
@@ -54,24 +81,32 @@ WorldConfig load_world(YamlMap& yaml) {
   config.yaw_rate_noise = yaml.number_or("yaw_rate_noise", 0.0, {0.0, 5.0}, "rad/s");
   if (yaml.has("speed_memory")) config.speed_memory = yaml.duration("speed_memory", kMemory);
   config.own_speed = yaml.number_or("own_speed", 0.0, {0.0, 100.0}, "m/s");
+  if (auto road = yaml.map_if("road")) config.road = road::load_road(*road);
+  const road::RoadConfig* road = config.road ? &*config.road : nullptr;
+  if (auto ego = yaml.map_if("ego")) config.ego = vehicle::load_ego(*ego, road);
+  for (YamlMap& light : yaml.maps_if("traffic_lights")) config.lights.push_back(traffic::load_light(light, road));
+  if (config.ego && config.own_speed != 0.0)
+    yaml.fail("own_speed", "must be 0 or absent beside an ego, which has a speed of its own");
   SizeConfig size;
   if (auto all = yaml.map_if("size")) size = load_size(*all);
   for (YamlMap& map : yaml.maps_if("objects")) {
     ObjectConfig object;
     object.name = map.text("name");
-    object.x = map.number("x", kPlace, "m");
-    object.y = map.number("y", kPlace, "m");
+    load_class(map, object);
     load_kind(map, object);
-    object.size = size;
+    if (auto on = map.map_if("on")) {
+      if (!config.road) map.fail("on", "needs a road in the world");
+      object.on = traffic::load_lane_config(map, *on, config.road.value_or(kNoRoad));
+    } else {
+      object.x = map.number("x", kPlace, "m");
+      object.y = map.number("y", kPlace, "m");
+      object.heading = load_heading(map);
+      for (YamlMap& segment : map.maps_if("segments")) object.segments.push_back(load_segment(segment));
+    }
+    // A drawn size is a car's.
+    if (object.kind == traffic::ObjectClass::kCar) object.size = size;
     if (auto own = map.map_if("size")) object.size = load_size(*own);
     object.reference = map.boolean_or("reference", false);
-    for (YamlMap& segment : map.maps_if("segments")) {
-      object.segments.push_back(
-          {segment.duration("duration", {Duration::milliseconds(1), Duration::milliseconds(3'600'000)}),
-           segment.number_or("acceleration", 0.0, {-20.0, 20.0}, "m/s^2"),
-           segment.number_or("yaw_rate", 0.0, {-5.0, 5.0}, "rad/s")});
-      segment.finish();
-    }
     const bool second = object.reference && std::any_of(config.objects.begin(), config.objects.end(),
                                                         [](const ObjectConfig& other) { return other.reference; });
     if (second) map.fail("reference", "at most one object carries the reference's antenna");

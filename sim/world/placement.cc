@@ -25,10 +25,14 @@ Device load_device(YamlMap& yaml) {
     device.placement.heading = mounting->number_or("heading", 0.0, {-7.0, 7.0}, "rad");
     mounting->finish();
   }
-  constexpr Duration kMost = Duration::milliseconds(1000);
-  device.time.fixed = yaml.duration_or("time_bias", Duration{}, {-kMost, kMost}).seconds();
-  device.time.sigma = yaml.duration_or("time_bias_sigma", Duration{}, {Duration{}, kMost}).seconds();
+  device.time = load_time_error(yaml);
   return device;
+}
+
+DriveError load_time_error(YamlMap& yaml) {
+  constexpr Duration kMost = Duration::milliseconds(1000);
+  const double fixed = yaml.duration_or("time_bias", Duration{}, {-kMost, kMost}).seconds();
+  return {fixed, yaml.duration_or("time_bias_sigma", Duration{}, {Duration{}, kMost}).seconds()};
 }
 
 DriveError in_drive(const DriveError& error, ErrorOf what, const DriveKey& key) {

@@ -32,9 +32,18 @@ struct Device {
 };
 // Reads `mounting`, `time_bias` and `time_bias_sigma`.
 Device load_device(YamlMap& yaml);
+// Reads `time_bias` and `time_bias_sigma` [s].
+DriveError load_time_error(YamlMap& yaml);
 
 // Values are part of every drive that draws: append only.
-enum class ErrorOf : std::uint32_t { kTime = 0, kRange = 1, kBearing = 2, kDisparity = 3 };
+enum class ErrorOf : std::uint32_t {
+  kTime = 0,
+  kRange = 1,
+  kBearing = 2,
+  kDisparity = 3,
+  kSpeedScale = 8,
+  kYawRate = 9
+};
 
 struct DriveKey {
   std::uint64_t seed = 0;

@@ -1,4 +1,4 @@
-// The truth: objects that drive through the scene.
+// The truth: objects that drive through the scene, and the vehicle that carries the sensors.
 //
 // An object's trajectory is a list of segments of constant acceleration and yaw rate, with process noise added: white
 // acceleration, or a speed that returns to the segments' (speed.h). It is drawn once on a 10 ms grid, with exact motion
@@ -7,30 +7,45 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/ids.h"
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "sim/world/ego.h"
+#include "sim/world/road/road.h"
 #include "sim/world/size.h"
+#include "sim/world/traffic/classes.h"
+#include "sim/world/traffic/lane_driver.h"
+#include "sim/world/traffic/lights.h"
+#include "sim/world/vehicle/journey.h"
 
 namespace ttf::sim::world {
 
 // Centre [m], heading [rad] from x to y, speed [m/s] along it, acceleration [m/s^2] along it, yaw rate [rad/s],
-// size [m]. All are relative to the sensors' vehicle: where it drives, too, an object that falls back has a negative speed.
+// size [m]. Centre and heading are in the axes of the sensors' vehicle at that instant. Speed, acceleration and yaw rate are
+// over ground where the vehicle is an `ego`. Where it has an `own_speed`, the speed is relative to it, so that an object which
+// falls back has a negative one.
 // The acceleration contains the noise of its step. White noise has no value at an instant, only a density. An observer can
 // know `steady`: the segments' acceleration, and the return of a speed with a memory (speed.h).
 struct ObjectState {
   ObjectId id{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;
-  double steady = 0;  // [m/s^2] along the heading: the acceleration without white noise
+  double steady = 0;                            // [m/s^2] along the heading: the acceleration without white noise
+  double height = traffic::kClasses[0].height;  // [m]
+  double cross_section = traffic::kClasses[0].cross_section;  // [m^2], for a radar
+  traffic::ObjectClass kind = traffic::ObjectClass::kCar;
 };
 
 struct TrajectorySegment {
   Duration duration{};
   double acceleration = 0;  // [m/s^2]
   double yaw_rate = 0;      // [rad/s]
+  // [m/s], to be reached by an acceleration of that size, of either sign.
+  std::optional<double> speed;
 };
 
 struct ObjectConfig {
@@ -39,7 +54,11 @@ struct ObjectConfig {
   double length = 4.39, width = 1.79;           // a Volkswagen Touran, the paper's car
   SizeConfig size;                              // whether this size or a drawn one is the object's
   std::vector<TrajectorySegment> segments;      // after the last one: straight on at constant speed
-  bool reference = false;                       // carries the DGPS antenna
+  // The lane on which it drives, instead of x, y, heading and segments.
+  std::optional<traffic::LaneConfig> on;
+  traffic::ObjectClass kind = traffic::ObjectClass::kCar;
+  double height = traffic::kClasses[0].height, cross_section = traffic::kClasses[0].cross_section;
+  bool reference = false;  // carries the DGPS antenna
 };
 
 struct WorldConfig {
@@ -54,6 +73,10 @@ struct WorldConfig {
   // The sensors' vehicle drives straight along x at this speed over ground [m/s]. If it is not zero, all objects keep
   // to the direction of x.
   double own_speed = 0.0;
+  // The sensors' vehicle drives as this says. Without it, it stands at the origin, or has an `own_speed`.
+  std::optional<vehicle::EgoConfig> ego;
+  std::optional<road::RoadConfig> road;
+  std::vector<traffic::LightConfig> lights;
   Duration duration{};
 };
 WorldConfig load_world(YamlMap& yaml);
@@ -82,10 +105,21 @@ class World {
   // at the start; after the drive's end the last step's motion goes on.
   void states_at(TrueTime since_start, std::vector<ObjectState>& out) const;
   ObjectState state_of(ObjectId object, TrueTime since_start) const;
+  // Returns the state of the sensors' vehicle: without an `ego`, one that stands at the origin.
+  EgoState ego_at(TrueTime since_start) const;
+  // Returns the road, over ground; null in a world without one.
+  const road::Road* road() const { return road_ ? &*road_ : nullptr; }
+  std::span<const traffic::LightConfig> lights() const { return lights_; }
   std::size_t size() const { return trajectories_.size(); }
 
  private:
+  ObjectState over_ground(ObjectId object, TrueTime since_start) const;
+  void drive_on_lanes(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication, std::size_t steps);
+
   double own_speed_ = 0.0;
+  std::optional<road::Road> road_;
+  std::vector<traffic::LightConfig> lights_;
+  std::optional<vehicle::Journey> ego_;
   std::vector<std::vector<ObjectState>> trajectories_;  // over ground: per object, a state per grid step
 };
 

@@ -1,0 +1,63 @@
+#include "sim/world/traffic/lights.h"
+
+#include <numbers>
+
+namespace ttf::sim::world::traffic {
+
+LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
+  LightConfig light;
+  light.name = yaml.text("name");
+  if (auto on = yaml.map_if("on")) {
+    if (road == nullptr) yaml.fail("on", "needs a road in the world");
+    const road::RoadConfig usual{.pieces = {road::Piece{1.0}}};
+    light.on = road::load_on_lane(*on, road != nullptr ? *road : usual);
+    const road::Road line(road != nullptr ? *road : usual);
+    const road::Pose pose = line.pose_at({light.on->station, line.middle(light.on->lane)});
+    light.x = pose.x;
+    light.y = pose.y;
+    light.heading = pose.heading + (road::Road::direction(light.on->lane) > 0.0 ? std::numbers::pi : 0.0);
+  } else {
+    light.x = yaml.number("x", {-10'000.0, 10'000.0}, "m");
+    light.y = yaml.number("y", {-10'000.0, 10'000.0}, "m");
+    light.heading = yaml.number_or("heading", std::numbers::pi, {-7.0, 7.0}, "rad");
+  }
+  for (YamlMap& map : yaml.maps("phases")) {
+    Phase phase;
+    phase.light = map.choice<Light>("light", {{"red", Light::kRed},
+                                              {"red_yellow", Light::kRedYellow},
+                                              {"green", Light::kGreen},
+                                              {"yellow", Light::kYellow},
+                                              {"off", Light::kOff}});
+    phase.duration = map.duration("duration", {Duration::milliseconds(100), Duration::milliseconds(3'600'000)});
+    map.finish();
+    light.phases.push_back(phase);
+  }
+  if (light.phases.empty()) yaml.fail("phases", "must have one phase or more");
+  yaml.finish();
+  return light;
+}
+
+Light shown_at(const LightConfig& light, TrueTime since_start) {
+  Duration round{};
+  for (const Phase& phase : light.phases) round = round + phase.duration;
+  if (round.ns <= 0) return Light::kOff;
+  std::int64_t within = since_start.ns < 0 ? 0 : since_start.ns % round.ns;
+  for (const Phase& phase : light.phases) {
+    if (within < phase.duration.ns) return phase.light;
+    within -= phase.duration.ns;
+  }
+  return Light::kOff;
+}
+
+bool stops(Light light) {
+  switch (light) {
+    case Light::kRed:
+    case Light::kRedYellow:
+    case Light::kYellow: return true;
+    case Light::kOff:
+    case Light::kGreen: break;
+  }
+  return false;
+}
+
+}  // namespace ttf::sim::world::traffic
