@@ -15,7 +15,8 @@ namespace {
 using schedules::model::SensorKind;
 
 // The kinds that the world can emulate. A kind's name is also that of its usual entry.
-const Choices<SensorKind> kKinds{{"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}};
+const Choices<SensorKind> kKinds{
+    {"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}, {"odometry", SensorKind::kOdometry}};
 
 // They are also the names of entries that need no kind.
 std::vector<std::string> kind_names() {
@@ -37,11 +38,15 @@ std::string_view name_of(SensorKind kind) {
 
 void load(YamlMap& yaml, sim::world::LaserConfig& laser) { laser = sim::world::load_laser(yaml); }
 void load(YamlMap& yaml, sim::world::CameraConfig& camera) { camera = sim::world::load_camera(yaml); }
+void load(YamlMap& yaml, sim::world::OdometryConfig& odometry) { odometry = sim::world::load_odometry(yaml); }
 void load(YamlMap& yaml, nodes::laser::LaserPreprocessingConfig& preprocessing) {
   preprocessing = nodes::laser::load_laser_preprocessing(yaml);
 }
 void load(YamlMap& yaml, nodes::camera::CameraCalibration& preprocessing) {
   preprocessing = nodes::camera::load_camera_calibration(yaml);
+}
+void load(YamlMap& yaml, nodes::sensing::OdometryPreprocessingConfig& preprocessing) {
+  preprocessing = nodes::sensing::load_odometry_preprocessing(yaml);
 }
 
 template <std::size_t kCount>
@@ -147,6 +152,7 @@ Sensors load_sensors(YamlMap& yaml) {
   Sensors sensors;
   load_usual(yaml, SensorKind::kLaser, sensors.lasers);
   load_usual(yaml, SensorKind::kCamera, sensors.cameras);
+  load_usual(yaml, SensorKind::kOdometry, sensors.odometries);
   for (auto& [name, entry] : yaml.other_maps()) {
     if (entry.lacks("kind")) {  // it decides which other keys there are
       const std::vector<std::string> names = kind_names();
@@ -156,8 +162,10 @@ Sensors load_sensors(YamlMap& yaml) {
     const SensorKind kind = entry.choice("kind", kKinds);
     if (kind == SensorKind::kLaser)
       load_own(entry, kind, name, sensors.lasers);
-    else
+    else if (kind == SensorKind::kCamera)
       load_own(entry, kind, name, sensors.cameras);
+    else
+      load_own(entry, kind, name, sensors.odometries);
   }
   return sensors;
 }
@@ -171,12 +179,14 @@ void load_preprocessing(YamlMap& yaml, Sensors& sensors) {
   };
   load_of(SensorKind::kLaser, sensors.lasers);
   load_of(SensorKind::kCamera, sensors.cameras);
+  load_of(SensorKind::kOdometry, sensors.odometries);
 }
 
 void check_sensors(const Scenario& scenario, const schedules::model::Cluster& cluster) {
   Check check(scenario, cluster);
   check.check(SensorKind::kLaser, scenario.sensors.lasers);
   check.check(SensorKind::kCamera, scenario.sensors.cameras);
+  check.check(SensorKind::kOdometry, scenario.sensors.odometries);
   check.finish();
 }
 
@@ -187,6 +197,7 @@ std::vector<recording::log::SensorStyle> sensor_styles(const Sensors& sensors,
     styles.emplace_back();
     if (sensor.kind == SensorKind::kLaser) styles.back() = sensors.lasers.of(sensor.name).style;
     if (sensor.kind == SensorKind::kCamera) styles.back() = sensors.cameras.of(sensor.name).style;
+    if (sensor.kind == SensorKind::kOdometry) styles.back() = sensors.odometries.of(sensor.name).style;
   }
   while (!styles.empty() && styles.back() == recording::log::SensorStyle{}) styles.pop_back();
   return styles;

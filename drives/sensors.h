@@ -20,10 +20,12 @@
 #include "core/time.h"
 #include "nodes/camera/triangulation.h"
 #include "nodes/laser/laser_preprocessor.h"
+#include "nodes/sensing/odometry.h"
 #include "recording/log/sensor_style.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
+#include "sim/world/odometry.h"
 
 namespace ttf::drives {
 
@@ -59,6 +61,7 @@ template <class Model, class Preprocessing> struct SensorsOfKind {
 struct Sensors {
   SensorsOfKind<sim::world::LaserConfig, nodes::laser::LaserPreprocessingConfig> lasers;
   SensorsOfKind<sim::world::CameraConfig, nodes::camera::CameraCalibration> cameras;
+  SensorsOfKind<sim::world::OdometryConfig, nodes::sensing::OdometryPreprocessingConfig> odometries;
 };
 
 // Reads `sensors`, and into the result `preprocessing`.

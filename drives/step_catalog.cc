@@ -11,6 +11,7 @@
 #include "nodes/host/signals.h"
 #include "nodes/sensing/emulators.h"
 #include "nodes/sensing/gateway.h"
+#include "nodes/sensing/odometry.h"
 #include "nodes/sensing/preprocessing.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
@@ -32,9 +33,11 @@ std::span<const schedules::model::StepPorts> step_ports() {
   static const std::vector<schedules::model::StepPorts> kPorts{
       {"laser_emulator", {}, {"raw"}, false},
       {"camera_emulator", {}, {"raw"}, false},
+      {"odometry_emulator", {}, {"raw"}, false},
       {"recorded_source", {}, {"raw"}, false},
       {"laser_preprocessing", {"raw"}, {"objects"}, false},
       {"camera_preprocessing", {"raw"}, {"objects"}, false},
+      {"odometry_preprocessing", {"raw"}, {"odometry"}, false},
       {"recorded_preprocessing", {"raw"}, {"objects"}, false},
       {"gateway", {"in"}, {"out"}, false},
       {"fusion", {}, {}, true},
@@ -71,6 +74,9 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "camera_emulator") {
       steps.push_back(std::make_shared<nodes::sensing::CameraEmulator>(
           emulator, scenario.sensors.cameras.of(name_of(cluster, emulator.sensor)).model));
+    } else if (task.step == "odometry_emulator") {
+      steps.push_back(std::make_shared<nodes::sensing::OdometryEmulator>(
+          emulator, scenario.sensors.odometries.of(name_of(cluster, emulator.sensor)).model));
     } else if (task.step == "recorded_source") {
       if (!config.recorded)
         throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
@@ -84,6 +90,9 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "camera_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::CameraPreprocessing>(
           cluster, task, scenario.sensors.cameras.preprocessing_of(name_read(cluster, task))));
+    } else if (task.step == "odometry_preprocessing") {
+      steps.push_back(std::make_shared<nodes::sensing::OdometryPreprocessing>(
+          cluster, task, scenario.sensors.odometries.preprocessing_of(name_read(cluster, task))));
     } else if (task.step == "recorded_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(
           cluster, task, scenario.recorded_noises.of(name_read(cluster, task))));

@@ -27,7 +27,9 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "thousand_unsynchronised",
                                                "thousand_synchronised",
                                                "two_lasers_synchronised",
-                                               "two_lasers_unsynchronised"};
+                                               "two_lasers_unsynchronised",
+                                               "moving_unsynchronised",
+                                               "moving_synchronised"};
   return kNames;
 }
 
