@@ -59,6 +59,7 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
   std::vector<ttf::fusion::strategies::SensorTiming> timings;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     const schedules::model::Sensor& sensor = cluster.sensor(path.sensor);
+    if (sensor.kind == schedules::model::SensorKind::kOdometry) continue;  // it sees no objects
     const GlobalTime first = sensor.scheduled
                                  ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
                                  : GlobalTime{};
@@ -113,7 +114,10 @@ FusionStep::FusionStep(const schedules::model::Cluster& cluster, const schedules
                         std::to_string(layout.max_elements),
                         "must be at most " + std::to_string(host_->most_observations) +
                             " for a list that is fused (max_observations of the scenario's tracker)"});
-    codecs_.emplace_back(cluster, binding.pdu);
+    codecs_.emplace_back();
+    const bool of_sensor = layout.sensor != kNoSensor;
+    if (!of_sensor || cluster.sensor(layout.sensor).kind != schedules::model::SensorKind::kOdometry)
+      codecs_.back().emplace(cluster, binding.pdu);
     most = std::max(most, static_cast<std::size_t>(cluster.pdu(binding.pdu).max_elements));
   }
   observations_.reserve(most);
@@ -132,11 +136,11 @@ void FusionStep::run(host::StepContext& context) {
   const GlobalTime about = now - Duration{round_.ns / 8 * 3};
   for (std::size_t i = 0; i < context.inputs.size(); ++i) {
     host::Input& input = context.inputs[i];
-    if (!input.fresh || !input.list) continue;  // each list is taken exactly once
+    if (!input.fresh || !input.list || !codecs_[i]) continue;  // each list is taken exactly once
     const GlobalTime measured = host::time_stamp(*input.layout, *input.list, about, round_);
     input.discarded = !rounds_[i].believed(rounds_between(*input.layout, *input.list, about, measured, round_));
     if (input.discarded) continue;
-    codecs_[i].decode(*input.list, observations_);
+    codecs_[i]->decode(*input.list, observations_);
     const SensorId id = input.layout->sensor;
     if (const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, id))
       for (ttf::fusion::sensors::Observation& observation : observations_)

@@ -71,9 +71,9 @@ class FusionStep final : public host::Step {
   void record_result(const host::StepContext& context) const;
 
   std::shared_ptr<FusionHost> host_;
-  Duration round_;                                 // the schedule's round
-  std::vector<sensing::ObservationCodec> codecs_;  // per port
-  std::vector<RoundsBelieved> rounds_;             // per port
+  Duration round_;                                                // the schedule's round
+  std::vector<std::optional<sensing::ObservationCodec>> codecs_;  // per port; none for odometry
+  std::vector<RoundsBelieved> rounds_;                            // per port
   std::vector<ttf::fusion::sensors::Observation> observations_;
 };
 
