@@ -49,6 +49,20 @@ constexpr Description kCamera[] = {
     {"disparity_bias_sigma", "Each drive draws a further bias of the disparity with this standard deviation."},
 };
 
+constexpr Description kOdometry[] = {
+    {"speed_sigma", "A speed has this standard deviation."},
+    {"yaw_rate_sigma", "A yaw rate has this standard deviation."},
+    {"speed_scale", "All speeds are too large by this share."},
+    {"speed_scale_sigma", "Each drive draws a further share of the speed with this standard deviation."},
+    {"yaw_rate_bias", "All yaw rates are too large by this."},
+    {"yaw_rate_bias_sigma", "Each drive draws a further bias of the yaw rate with this standard deviation."},
+};
+
+constexpr Description kOdometryPreprocessing[] = {
+    {"speed_sigma", "A speed is assumed to have this standard deviation."},
+    {"yaw_rate_sigma", "A yaw rate is assumed to have this standard deviation."},
+};
+
 constexpr Description kLaserPreprocessing[] = {
     {"range_noise", "A range is assumed to have this standard deviation."},
     {"azimuth_step", "Neighbouring beams are assumed to be this far apart."},
@@ -104,6 +118,8 @@ constexpr Description kKnownSensor[] = {
 Descriptions sensor_descriptions() { return kSensor; }
 Descriptions laser_descriptions() { return kLaser; }
 Descriptions camera_descriptions() { return kCamera; }
+Descriptions odometry_descriptions() { return kOdometry; }
+Descriptions odometry_preprocessing_descriptions() { return kOdometryPreprocessing; }
 Descriptions laser_preprocessing_descriptions() { return kLaserPreprocessing; }
 Descriptions camera_preprocessing_descriptions() { return kCameraPreprocessing; }
 Descriptions known_sensor_descriptions() { return kKnownSensor; }

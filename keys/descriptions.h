@@ -19,8 +19,13 @@ Descriptions scenario_descriptions();
 Descriptions sensor_descriptions();  // below a sensor of a scenario, whatever its kind
 Descriptions laser_descriptions();
 Descriptions camera_descriptions();
+Descriptions odometry_descriptions();
 Descriptions laser_preprocessing_descriptions();
 Descriptions camera_preprocessing_descriptions();
+Descriptions odometry_preprocessing_descriptions();
+Descriptions ego_descriptions();            // below `world.ego`
+Descriptions road_descriptions();           // below `world.road`
+Descriptions traffic_light_descriptions();  // below `world.traffic_lights[]`
 Descriptions size_descriptions();
 Descriptions mounting_descriptions();
 Descriptions tracker_descriptions();

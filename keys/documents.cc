@@ -39,12 +39,16 @@ std::vector<Chapter> scenario_chapters() {
   std::vector<Chapter> chapters{{"", scenario_descriptions()},
                                 {"preprocessing.laser", laser_preprocessing_descriptions()},
                                 {"preprocessing.camera", camera_preprocessing_descriptions()},
+                                {"preprocessing.odometry", odometry_preprocessing_descriptions()},
+                                {"world.ego", ego_descriptions()},
+                                {"world.road", road_descriptions()},
+                                {"world.traffic_lights[]", traffic_light_descriptions()},
                                 {"tracker", tracker_descriptions()},
                                 {"tracker.sensors.NAME", known_sensor_descriptions()},
                                 {"tracker.sensors.NAME.mounting", mounting_descriptions()},
                                 {"faults[]", fault_descriptions()}};
   for (const char* place : {"world.size", "world.objects[].size"}) chapters.push_back({place, size_descriptions()});
-  const auto add_sensor = [&](const std::string& name, bool laser, bool camera, bool any) {
+  const auto add_sensor = [&](const std::string& name, bool laser, bool camera, bool odometry, bool any) {
     const std::string place = "sensors." + name;
     chapters.push_back({place, sensor_descriptions()});
     chapters.push_back({place + ".mounting", mounting_descriptions()});
@@ -54,10 +58,14 @@ std::vector<Chapter> scenario_chapters() {
     if (laser) chapters.push_back({place, laser_descriptions(), any ? "kind=laser" : ""});
     if (laser)
       chapters.push_back({place + ".preprocessing", laser_preprocessing_descriptions(), any ? "kind=laser" : ""});
+    if (odometry) chapters.push_back({place, odometry_descriptions(), any ? "kind=odometry" : ""});
+    if (odometry)
+      chapters.push_back({place + ".preprocessing", odometry_preprocessing_descriptions(), any ? "kind=odometry" : ""});
   };
-  add_sensor("laser", true, false, false);
-  add_sensor("camera", false, true, false);
-  add_sensor(kAnyName, true, true, true);
+  add_sensor("laser", true, false, false, false);
+  add_sensor("camera", false, true, false, false);
+  add_sensor("odometry", false, false, true, false);
+  add_sensor(kAnyName, true, true, true, true);
   return chapters;
 }
 
