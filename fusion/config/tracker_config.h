@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/time.h"
+#include "fusion/ego/odometry.h"
 #include "fusion/oosm/kind.h"
 #include "fusion/sensors/known_sensor.h"
 
@@ -53,7 +54,8 @@ struct TrackerConfig {
   // acceleration [m^2/s^3], or jerk [m^2/s^5] for constant acceleration and CTRA. 3 m^2/s^3 lets the velocity
   // wander by 1.7 m/s within a second: a car brakes or accelerates moderately.
   double process_noise = 3.0;
-  // The same for the noise across the vehicle's x axis, of constant velocity and acceleration alone. Absent: as along it.
+  // The same for the noise across the vehicle's x axis, of constant velocity and acceleration alone. Absent: as along it. A
+  // vehicle with odometry turns its axes, so that it has none.
   // Cars on a straight road ahead brake harder than they leave their lane.
   std::optional<double> cross_noise;
   double noise_across() const { return cross_noise.value_or(process_noise); }
@@ -91,6 +93,10 @@ struct TrackerConfig {
   double heading_noise = 0.005;
   Sizes sizes;
   double extent_noise = 0.0;  // spectral density of a random walk of length and width [m^2/s]
+  // The sensors' vehicle moves, and its odometry has these errors: tracks live in the odometry frame (fusion/ego/ego_path.h).
+  // Absent: tracks live in the vehicle's axes.
+  std::optional<ego::OdometryErrors> odometry;
+  double drift_density() const { return odometry ? odometry->drift_density() : 0.0; }
 
   // kConsidered requires constant velocity or acceleration and the extended filter.
   SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;

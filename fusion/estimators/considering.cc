@@ -12,7 +12,6 @@ AllBiases::AllBiases(std::span<const sensors::KnownSensor> sensors) {
     const sensors::SystematicErrors& errors = sensor.errors;
     sensors::OwnBiases& own = own_.emplace_back();
     own.axes = errors.axes;
-    own.mounting = sensor.mounting;
     own.time_variance = errors.sigma(3) * errors.sigma(3);
     for (int i = 0; i < 4; ++i) {
       if (!(errors.sigma(i) > 0.0)) continue;
@@ -22,16 +21,22 @@ AllBiases::AllBiases(std::span<const sensors::KnownSensor> sensors) {
   }
 }
 
-linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation, const sensors::Mounting& mounting) {
+linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation) {
   linear::Matrix<4, 3> j = linear::Matrix<4, 3>::Zero();
   if (observation.kind == sensors::ObservationKind::kPosition) {
     j(0, 0) = j(1, 1) = 1.0;
     return j;
   }
-  const double range = observation.z(0), rate = observation.z(2), bearing = observation.z(1) + mounting.yaw;
+  const double range = observation.z(0), rate = observation.z(2);
+  const sensors::Mounting& from = observation.from;
+  const double bearing = observation.z(1) + from.yaw;
   const double c = std::cos(bearing), s = std::sin(bearing);
   j.col(0) << c, s, 0.0, 0.0;
   j.col(1) << -range * s, range * c, -rate * s, rate * c;
+  if (from.velocity.x() != 0.0 || from.velocity.y() != 0.0) {
+    const linear::Vector<2> sight(c, s), left(-s, c);
+    j.col(1).tail<2>() += left.dot(from.velocity) * sight + sight.dot(from.velocity) * left;
+  }
   j.col(2) << 0.0, 0.0, c, s;
   return j;
 }
@@ -39,8 +44,9 @@ linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation, con
 std::shared_ptr<const Estimator> make_considering(const config::TrackerConfig& config) {
   TTF_CHECK(config.filter == config::FilterKind::kExtended, "considered under filter {}",
             static_cast<int>(config.filter));
-  const auto make = [&](const auto& model) -> std::shared_ptr<const Estimator> {
-    using M = std::remove_cvref_t<decltype(model)>;
+  const auto make = [&](auto model) -> std::shared_ptr<const Estimator> {
+    using M = decltype(model);
+    model.drift_density = config.drift_density();
     return std::make_shared<ConsideringEstimator<M>>(config, model, prior_of<M>(config));
   };
   if (config.motion == config::MotionModel::kConstantAcceleration)

@@ -39,8 +39,8 @@ class AllBiases {
   linear::Matrix<sensors::kMostBiases> covariance_ = linear::Matrix<sensors::kMostBiases>::Zero();
 };
 
-// Returns d (x, y, vx, vy) / d measurement of first_estimate(), in the vehicle's axes.
-linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation, const sensors::Mounting& mounting);
+// Returns d (x, y, vx, vy) / d measurement of first_estimate(), in the tracks' axes.
+linear::Matrix<4, 3> first_jacobian(const sensors::Observation& observation);
 
 template <motion::Model M>
 requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
@@ -49,12 +49,11 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
   using Own = WithBiases<kN>;
 
   ConsideringEstimator(const config::TrackerConfig& config, const M& model, const linear::Gaussian<kN>& prior)
-      : model_(model), prior_(prior), sensors_(config.sensors),
-        biases_(config.sensors), filter_{.bias = biases_.covariance()},
+      : model_(model), prior_(prior), biases_(config.sensors), filter_{.bias = biases_.covariance()},
         velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma) {}
 
   Estimate initial(const sensors::Observation& o) const override {
-    const linear::Gaussian<4> first = first_estimate(o, velocity_variance_, known(sensors_, o.sensor));
+    const linear::Gaussian<4> first = first_estimate(o, velocity_variance_);
     const sensors::OwnBiases& biases = biases_.of(o.sensor);
     Own own{.state = prior_};
     own.state.x.template head<4>() = first.x;
@@ -64,7 +63,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     through_sensor(o, [&](const auto& sensor, const auto&) {
       constexpr int kM = std::remove_cvref_t<decltype(sensor)>::kDimension;
       if (!sensor.sees(k)) return;
-      const linear::Matrix<4, kM> j = first_jacobian(o, biases.mounting).template leftCols<kM>();
+      const linear::Matrix<4, kM> j = first_jacobian(o).template leftCols<kM>();
       const linear::Matrix<4, sensors::kMostBiases> jd =
           motion::times<4, kM, sensors::kMostBiases>(j, sensor.bias_jacobian(k));
       own.cross.template topRows<4>() = -motion::times<4, sensors::kMostBiases, sensors::kMostBiases>(jd, filter_.bias);
@@ -132,9 +131,10 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     return own_of(estimate).state.x.template segment<2>(2);
   }
 
-  linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId id) const override {
+  linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId id,
+                                    const sensors::Mounting& from) const override {
     const Own& own = own_of(estimate);
-    const sensors::AmongBiases<sensors::Position> sensor{{}, biases_.of(id)};
+    const sensors::AmongBiases<sensors::Position> sensor{{}, biases_.of(id), from};
     sensors::Measurement<2> z{own.state.x.template head<2>(), linear::Matrix<2>::Zero()};
     blur(own, sensor, z);
     return {z.z, filter_.spread(model_, sensor, z, own)};
@@ -158,10 +158,10 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
     using sensors::AmongBiases, sensors::Measurement;
     const sensors::OwnBiases& own = biases_.of(o.sensor);
     if (o.kind == sensors::ObservationKind::kPosition)
-      return body(sensors::AmongBiases<sensors::Position>{{}, own},
+      return body(sensors::AmongBiases<sensors::Position>{{}, own, o.from},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
     using Radar = sensors::Mounted<sensors::RangeBearingRate>;
-    return body(sensors::AmongBiases<Radar>{Radar(own.mounting), own}, sensors::Measurement<3>{o.z, o.r});
+    return body(sensors::AmongBiases<Radar>{Radar(o.from), own, o.from}, sensors::Measurement<3>{o.z, o.r});
   }
 
   // Adds the noise of the time stamp's error that comes from the uncertain velocity.
@@ -177,7 +177,6 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
 
   M model_;
   linear::Gaussian<kN> prior_;
-  std::vector<sensors::KnownSensor> sensors_;
   AllBiases biases_;
   filters::Consider<sensors::kMostBiases> filter_;
   double velocity_variance_;

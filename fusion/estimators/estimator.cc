@@ -8,13 +8,18 @@
 namespace ttf::fusion::estimators {
 namespace {
 
-// Converts an estimate from the sensor's mounting and axes to the vehicle's axes.
+// Converts an estimate from the sensor's place and axes to those of the tracks. Along the line of sight the sensor's own
+// velocity adds to the measured one; across it nothing is measured.
 void carry_over(linear::Gaussian<4>& estimate, const sensors::Mounting& mounting) {
   const double c = std::cos(mounting.yaw), s = std::sin(mounting.yaw);
   linear::Matrix<4> j = linear::Matrix<4>::Zero();
   j.topLeftCorner<2, 2>() << c, -s, s, c;
   j.bottomRightCorner<2, 2>() = j.topLeftCorner<2, 2>();
   estimate.x = (j * estimate.x).eval();
+  if (mounting.velocity.x() != 0.0 || mounting.velocity.y() != 0.0) {
+    const linear::Vector<2> sight = estimate.x.head<2>().normalized();
+    estimate.x.tail<2>() += sight.dot(mounting.velocity) * sight;
+  }
   estimate.x.head<2>() += mounting.position;
   estimate.p = motion::sandwich<4, 4>(j, estimate.p);
 }
@@ -34,8 +39,7 @@ void displace(Estimate& estimate, const Displacement& d) {
   std::visit([&](auto& own) { shift(own, d); }, estimate);
 }
 
-linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance,
-                                   const sensors::KnownSensor* sensor) {
+linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance) {
   linear::Gaussian<4> estimate;
   if (observation.kind == sensors::ObservationKind::kPosition) {
     estimate.x.head<2>() = observation.z.head<2>();
@@ -53,7 +57,7 @@ linear::Gaussian<4> first_estimate(const sensors::Observation& observation, doub
   estimate.p.topLeftCorner<2, 2>() = rotation * position.asDiagonal() * rotation.transpose();
   estimate.p.bottomRightCorner<2, 2>() = rotation * velocity.asDiagonal() * rotation.transpose();
   linear::symmetrise<4>(estimate.p);
-  if (sensor != nullptr && !at_the_origin(sensor->mounting)) carry_over(estimate, sensor->mounting);
+  if (!at_the_origin(observation.from)) carry_over(estimate, observation.from);
   return estimate;
 }
 

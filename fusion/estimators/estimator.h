@@ -60,10 +60,12 @@ class Estimator {
   virtual linear::Gaussian<2> position(const Estimate& estimate) const = 0;  // (x, y) [m]
   virtual Cartesian cartesian(const Estimate& estimate) const = 0;
   virtual linear::Vector<2> velocity(const Estimate& estimate) const = 0;  // cartesian()'s, to the bit, for less work
-  // Returns the position that a sensor without noise is expected to measure: position(), unless systematic
+  // Returns the position that a sensor without noise is expected to measure from there: position(), unless systematic
   // errors are considered. With the noise of a position observation added, it is the distribution behind that
   // observation's distance.
-  virtual linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId) const { return position(estimate); }
+  virtual linear::Gaussian<2> seen_position(const Estimate& estimate, SensorId, const sensors::Mounting&) const {
+    return position(estimate);
+  }
 };
 
 // Moves an estimate to another point of its object: shifts the position and adds the covariance of the shift.

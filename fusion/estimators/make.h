@@ -40,7 +40,8 @@ template <motion::Model M> linear::Gaussian<M::kStates> prior_of(const config::T
   return prior;
 }
 
-template <class F, motion::Model M> Single<F, M> single(const config::TrackerConfig& config, const M& model) {
+template <class F, motion::Model M> Single<F, M> single(const config::TrackerConfig& config, M model) {
+  model.drift_density = config.drift_density();
   return {.model = model, .prior = prior_of<M>(config), .filter = {}};
 }
 

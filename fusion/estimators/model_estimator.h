@@ -15,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <variant>
-#include <vector>
 
 #include "core/check.h"
 #include "fusion/estimators/estimator.h"
@@ -28,13 +27,9 @@ namespace ttf::fusion::estimators {
 
 inline constexpr double kKnown = 0.25;
 
-inline bool at_the_origin(const sensors::Mounting& mounting) {
-  return mounting.position.x() == 0.0 && mounting.position.y() == 0.0 && mounting.yaw == 0.0;
-}
-// Returns position and velocity from one observation, with `velocity_variance` in every unobserved direction. A
-// null `sensor` stands at the origin.
-linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance,
-                                   const sensors::KnownSensor* sensor);
+// Returns position and velocity from one observation, with `velocity_variance` in every unobserved direction, where the mean
+// is that of an object which stands.
+linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance);
 // Returns whether the object is known to move, and in which direction.
 bool knows_course(const linear::Gaussian<4>& state);
 
@@ -42,12 +37,13 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
  public:
   ModelEstimator(const config::TrackerConfig& config, const Kernel& kernel)
       : kernel_(kernel), velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma),
-        sensors_(config.sensors), young_{.model = motion::ConstantVelocity(config.initial_acceleration_sigma *
-                                                                           config.initial_acceleration_sigma)} {}
+        young_{.model =
+                   motion::ConstantVelocity(config.initial_acceleration_sigma * config.initial_acceleration_sigma)} {
+    young_.model.drift_density = config.drift_density();
+  }
 
   Estimate initial(const sensors::Observation& observation) const override {
-    const linear::Gaussian<4> first =
-        first_estimate(observation, velocity_variance_, known(sensors_, observation.sensor));
+    const linear::Gaussian<4> first = first_estimate(observation, velocity_variance_);
     if constexpr (Kernel::kNeedsCourse)
       return first;
     else
@@ -145,22 +141,19 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
-  // Calls the body with the sensor's model and the measurement. Positions are already in the vehicle's axes
+  // Calls the body with the sensor's model and the measurement. Positions are already in the tracks' axes
   // (fusion/sensors/known_sensor.h).
   template <class Body> auto through_sensor(const sensors::Observation& o, const Body& body) const {
     if (o.kind == sensors::ObservationKind::kPosition)
       return body(sensors::Position{},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
     const sensors::Measurement<3> z{o.z, o.r};
-    if (const sensors::KnownSensor* sensor = known(sensors_, o.sensor);
-        sensor != nullptr && !at_the_origin(sensor->mounting))
-      return body(sensors::Mounted<sensors::RangeBearingRate>(sensor->mounting), z);
+    if (!at_the_origin(o.from)) return body(sensors::Mounted<sensors::RangeBearingRate>(o.from), z);
     return body(sensors::RangeBearingRate{}, z);
   }
 
   Kernel kernel_;
   double velocity_variance_;
-  std::vector<sensors::KnownSensor> sensors_;
   Single<F, motion::ConstantVelocity> young_;
 };
 

@@ -67,6 +67,24 @@ Sizes load_sizes(YamlMap yaml) {
   return s;
 }
 
+// The noise is that of the samples, and the constant errors are those of a drive (fusion/ego/odometry.h).
+ego::OdometryErrors load_odometry(YamlMap yaml) {
+  ego::OdometryErrors e;
+  e.speed_sigma = yaml.number_or("speed_sigma", e.speed_sigma, {0.0, 5.0}, "m/s");
+  e.yaw_rate_sigma = yaml.number_or("yaw_rate_sigma", e.yaw_rate_sigma, {0.0, 1.0}, "rad/s");
+  e.speed_scale = yaml.number_or("speed_scale", e.speed_scale, {-0.2, 0.2});
+  e.speed_scale_sigma = yaml.number_or("speed_scale_sigma", e.speed_scale_sigma, {0.0, 0.2});
+  e.yaw_rate_bias = yaml.number_or("yaw_rate_bias", e.yaw_rate_bias, {-0.5, 0.5}, "rad/s");
+  e.yaw_rate_bias_sigma = yaml.number_or("yaw_rate_bias_sigma", e.yaw_rate_bias_sigma, {0.0, 0.5}, "rad/s");
+  e.acceleration_sigma = yaml.number_or("acceleration_sigma", e.acceleration_sigma, {0.0, 50.0}, "m/s^2");
+  e.yaw_acceleration_sigma = yaml.number_or("yaw_acceleration_sigma", e.yaw_acceleration_sigma, {0.0, 50.0}, "rad/s^2");
+  e.lever = yaml.number_or("lever", e.lever, {0.0, 1000.0}, "m");
+  e.longest_age =
+      yaml.duration_or("longest_age", e.longest_age, {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+  yaml.finish();
+  return e;
+}
+
 // Runs last: the allowed methods depend on the other keys.
 void load_late(YamlMap& yaml, TrackerConfig& c) {
   Choices<oosm::Kind> methods;
@@ -139,6 +157,8 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   if (yaml.has("sizes")) c.sizes = load_sizes(yaml.map("sizes"));
+  if (yaml.has("odometry")) c.odometry = load_odometry(yaml.map("odometry"));
+  if (c.odometry && c.cross_noise) yaml.fail("cross_noise", "must be absent with odometry: the vehicle's axes turn");
   load_systematic(yaml, c, sensors);
   load_association(yaml, c);
   load_late(yaml, c);

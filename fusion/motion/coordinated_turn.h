@@ -33,6 +33,7 @@ template <int N> struct CoordinatedTurn : Polar<N> {
 
   double turn_density = 1.0;   // spectral density of the turn acceleration [rad^2/s^3], >= 0
   double along_density = 1.0;  // spectral density of the acceleration [m^2/s^3] or the jerk [m^2/s^5], >= 0
+  double drift_density = 0.0;  // spectral density of a walk of the position beside it [m^2/s], >= 0
 
   linear::Vector<N> move(const linear::Vector<N>& x, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
@@ -92,6 +93,10 @@ template <int N> struct CoordinatedTurn : Polar<N> {
       });
     }
     mirror<N>(q);
+    if (drift_density > 0.0) {
+      q(0, 0) += drift_density * dt;
+      q(1, 1) += drift_density * dt;
+    }
     return q;
   }
 

@@ -18,6 +18,7 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
 
   double spectral_density = 1.0;  // of the noise that drives x [m^2/s^(2K-1)], >= 0
   double cross_density = 1.0;     // the same for y
+  double drift_density = 0.0;     // spectral density of a walk of the position beside it [m^2/s], >= 0
 
   linear::Vector<kStates> move(const linear::Vector<kStates>& x, double dt) const {
     linear::Vector<kStates> moved = x;
@@ -81,6 +82,10 @@ template <int K> struct IntegratorChain : Cartesian<2 * K> {
         p(2 * i + 1, 2 * j + 1) += cross_density * power(dt, a + b + 1) * kShare;
       });
     });
+    if (drift_density > 0.0) {
+      p(0, 0) += drift_density * dt;
+      p(1, 1) += drift_density * dt;
+    }
   }
 };
 

@@ -9,11 +9,6 @@
 namespace ttf::fusion::sensors {
 namespace {
 
-linear::Vector<2> rotated(const linear::Vector<2>& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
 void turn(Observation& o, double angle) {
   linear::Matrix<2> rotation;
   const double c = std::cos(angle), s = std::sin(angle);
@@ -42,7 +37,7 @@ void correct_polar(Observation& o, const SystematicErrors& errors) {
     o.z(0) = std::max(o.z(0), sensors::kNearest);
     return;
   }
-  const linear::Vector<2> at = rotated({o.z(0), 0.0}, o.z(1)) - errors.known.head<2>();
+  const linear::Vector<2> at = turned({o.z(0), 0.0}, o.z(1)) - errors.known.head<2>();
   o.z(0) = std::max(at.norm(), sensors::kNearest);
   o.z(1) = std::atan2(at.y(), at.x());
 }
@@ -62,6 +57,7 @@ int count_biases(std::span<const KnownSensor> sensors) {
 void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   observation.sensor = id;
   if (sensor.plain()) return;
+  observation.from = sensor.mounting;
   const bool position = observation.kind == ObservationKind::kPosition;
   if (!position) {
     correct_polar(observation, sensor.errors);
@@ -71,6 +67,16 @@ void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   correct_position(observation, sensor.errors);
   if (sensor.mounting.yaw != 0.0) turn(observation, sensor.mounting.yaw);
   observation.z.head<2>() += sensor.mounting.position;
+}
+
+void carry(Observation& observation, const Mounting& vehicle) {
+  observation.from = placed_on(vehicle, observation.from);
+  if (observation.kind == ObservationKind::kPosition) {
+    turn(observation, vehicle.yaw);
+    observation.z.head<2>() += vehicle.position;
+  } else if (observation.has_heading) {
+    observation.heading = motion::to_half_turn(observation.heading + vehicle.yaw);
+  }
 }
 
 }  // namespace ttf::fusion::sensors

@@ -20,7 +20,7 @@
 #include "core/ids.h"
 #include "fusion/linear/gaussian.h"
 #include "fusion/sensors/field.h"
-#include "fusion/sensors/mounted.h"
+#include "fusion/sensors/mounting.h"
 #include "fusion/sensors/observation.h"
 
 namespace ttf::fusion::sensors {
@@ -53,23 +53,15 @@ int count_biases(std::span<const KnownSensor> sensors);
 
 // Converts an observation of sensor `id` from the sensor's axes to the vehicle's and subtracts the known
 // biases. Positions and headings convert completely. Range, bearing and range rate lose only their bias: they
-// stay relative to the mounting.
+// stay relative to the mounting, which the observation then has.
 void place(Observation& observation, SensorId id, const KnownSensor& sensor);
+
+// Takes a placed observation from the vehicle's axes to those in which the vehicle has the place `vehicle`.
+void carry(Observation& observation, const Mounting& vehicle);
 
 // Returns sensor `id` of a table by SensorId, or null if the table is shorter.
 inline const KnownSensor* known(std::span<const KnownSensor> sensors, SensorId id) {
   return index_of(id) < sensors.size() ? &sensors[index_of(id)] : nullptr;
-}
-// Returns the sensor's position [m] in the vehicle's axes.
-inline linear::Vector<2> place_of(std::span<const KnownSensor> sensors, SensorId id) {
-  const KnownSensor* sensor = known(sensors, id);
-  return sensor != nullptr ? sensor->mounting.position : linear::Vector<2>(0.0, 0.0);
-}
-
-// Returns the sensor's mounting; the origin for an unknown sensor.
-inline Mounting mounting_of(std::span<const KnownSensor> sensors, SensorId id) {
-  const KnownSensor* sensor = known(sensors, id);
-  return sensor != nullptr ? sensor->mounting : Mounting{};
 }
 
 }  // namespace ttf::fusion::sensors

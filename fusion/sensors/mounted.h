@@ -8,22 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/sensors/mounting.h"
 #include "fusion/sensors/sensor_model.h"
 
 namespace ttf::fusion::sensors {
-
-struct Mounting {
-  linear::Vector<2> position = linear::Vector<2>::Zero();  // [m] in the vehicle's axes
-  double yaw = 0.0;                                        // [rad] from the vehicle's x axis to the sensor's
-  linear::Vector<2> velocity = linear::Vector<2>::Zero();  // [m/s], zero on a standing vehicle: see carried()
-};
-
-// Returns the mounting on a moving vehicle, from the velocity of its origin over ground, in its own axes, and
-// its yaw rate [rad/s].
-inline Mounting carried(Mounting mounting, const linear::Vector<2>& velocity, double yaw_rate) {
-  mounting.velocity = velocity + yaw_rate * linear::Vector<2>(-mounting.position.y(), mounting.position.x());
-  return mounting;
-}
 
 template <class S> struct BiasesOf {};
 template <Biased S> struct BiasesOf<S> { static constexpr int kBiases = S::kBiases; };

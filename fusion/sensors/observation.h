@@ -4,15 +4,17 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "fusion/sensors/mounting.h"
 
 namespace ttf::fusion::sensors {
 
 // Observations are in the sensor's axes until they are placed (fusion/sensors/known_sensor.h). A placed
-// position is in the sensor car's frame (ISO 8855).
+// position is in the axes of the tracks (ISO 8855): those of the vehicle, or of the odometry frame if it moves.
 enum class ObservationKind : std::uint8_t {
   kPosition,          // z = (x, y) [m]
   kRangeBearingRate,  // z = (range [m], bearing [rad], range rate [m/s])
@@ -47,7 +49,8 @@ enum class SeenPoint : std::uint8_t {
 struct Observation {
   ObservationKind kind = ObservationKind::kPosition;
   SeenPoint seen = SeenPoint::kCentre;
-  SensorId sensor = kNoSensor;  // gives mounting and errors (fusion/sensors/known_sensor.h); kNoSensor: none known
+  SensorId sensor = kNoSensor;  // gives the errors (fusion/sensors/known_sensor.h); kNoSensor: none known
+  Mounting from{};              // the sensor's place in the axes of the tracks, once placed
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
   bool has_heading = false, has_length = false, has_width = false, has_span = false;
@@ -72,6 +75,8 @@ struct ObservationList {
   MeasurementId id;
   GlobalTime measured{};
   std::span<const Observation> observations;
+  // The vehicle's place in the axes of the tracks, and its motion; absent if these are its own axes.
+  std::optional<Mounting> vehicle{};
 };
 
 }  // namespace ttf::fusion::sensors

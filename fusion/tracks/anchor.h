@@ -16,6 +16,7 @@
 
 #include <optional>
 
+#include "core/ids.h"
 #include "fusion/linear/gaussian.h"
 #include "fusion/sensors/observation.h"
 
@@ -24,8 +25,13 @@ namespace ttf::fusion::tracks {
 struct Anchor {
   sensors::SeenPoint point = sensors::SeenPoint::kCentre;
   signed char along = 0, across = 0;                   // a and b above; 0 for the centre and for a silhouette
-  linear::Vector<2> from = linear::Vector<2>::Zero();  // silhouette: the sensor's place q [m], in the vehicle's axes
-  bool operator==(const Anchor&) const = default;
+  SensorId sensor = kNoSensor;                         // silhouette: whose; on a moving vehicle q is its newest place
+  linear::Vector<2> from = linear::Vector<2>::Zero();  // silhouette: the sensor's place q [m], in the tracks' axes
+  // A sensor's silhouettes are one point, also while its vehicle moves.
+  bool operator==(const Anchor& other) const {
+    return point == other.point && along == other.along && across == other.across &&
+           (from == other.from || (sensor == other.sensor && sensor != kNoSensor));
+  }
 };
 
 // Returns the same anchor in axes that are turned by half a turn.

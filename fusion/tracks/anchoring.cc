@@ -328,6 +328,7 @@ std::optional<Distance> distance_to(const Track& track, const estimators::Estima
   Direction direction{z.heading, z.sigma_heading};
   if (has_sides && track.heading.known) direction.heading = track.heading.value;
   distance.to = anchor_of(z.seen, place_of(z, mounting), direction.heading, mounting.position);
+  if (z.seen == SeenPoint::kSilhouette) distance.to.sensor = z.sensor;
   if (distance.to == anchor) return std::nullopt;
 
   const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
@@ -389,7 +390,9 @@ void learn_size(Extent& extent, const sensors::Observation& z, const Distance& d
 }
 
 Anchor first_anchor(const sensors::Observation& z, const sensors::Mounting& mounting) {
-  return anchor_of(z.seen, place_of(z, mounting), z.heading, mounting.position);
+  Anchor anchor = anchor_of(z.seen, place_of(z, mounting), z.heading, mounting.position);
+  if (z.seen == SeenPoint::kSilhouette) anchor.sensor = z.sensor;
+  return anchor;
 }
 
 Centre centred(const Anchor& anchor, const Extent& extent, const Heading& axis, const Scalar& shown,

@@ -32,7 +32,8 @@ const Distance* Distances::computed(std::size_t index, const Track& track, const
     known.axis << std::cos(track.heading.value), std::sin(track.heading.value);
     knows_[index].axis = true;
   }
-  const Anchor to = anchor_of(z.seen, z.z.head<2>(), known.axis, mounting.position);
+  Anchor to = anchor_of(z.seen, z.z.head<2>(), known.axis, mounting.position);
+  if (z.seen == SeenPoint::kSilhouette) to.sensor = z.sensor;
   if (to == track.anchor) return nullptr;
   if (!knows_[index].distance || !(to == known.distance.to)) {
     known.distance = *distance_to(track, estimator, z, mounting);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/ids.h"
@@ -26,14 +27,16 @@ struct StoredList {
   MeasurementId id;
   GlobalTime measured{};
   std::vector<sensors::Observation> observations;
+  std::optional<sensors::Mounting> vehicle;
 
   explicit StoredList(std::size_t most_observations) { observations.reserve(most_observations); }
   void assign(const sensors::ObservationList& list) {
     id = list.id;
     measured = list.measured;
     observations.assign(list.observations.begin(), list.observations.end());
+    vehicle = list.vehicle;
   }
-  sensors::ObservationList view() const { return {id, measured, observations}; }
+  sensors::ObservationList view() const { return {id, measured, observations, vehicle}; }
 };
 
 class TrackHistory {

@@ -158,13 +158,14 @@ void Tracker::predict(Track& track, const HeadingStep& turn, double dt) const {
 }
 
 void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
-  const SensorId seen_by = list.observations.empty() ? kNoSensor : list.observations.front().sensor;
+  const sensors::Observation* any = list.observations.empty() ? nullptr : &list.observations.front();
   const bool centres = std::all_of(list.observations.begin(), list.observations.end(),
                                    [](const auto& z) { return z.seen == sensors::SeenPoint::kCentre; });
   places_.clear();
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     const Track& track = set.tracks[t];
-    const linear::Gaussian<2> at = estimator_->seen_position(track.estimate, seen_by);
+    const linear::Gaussian<2> at =
+        any ? estimator_->seen_position(track.estimate, any->sensor, any->from) : estimator_->position(track.estimate);
     const bool same = centres && track.anchor.point == sensors::SeenPoint::kCentre;
     const double reach = same ? 0.0 : reach_of(track.extent, gate_[2]);
     places_.add({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach, t});
@@ -234,13 +235,12 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
   std::fill(near_track_.begin(), near_track_.end(), 0);
   const bool joint = config_.association == config::Association::kJpda;
   const bool weighs_all = joint || config_.birth == config::Birth::kExistence;
-  if (weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor);
+  if (weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor, {}, list.vehicle);
   place(set, list);
   distances_.begin(set.tracks.size());
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
-    const sensors::Mounting mounting = mounting_of(z);
-    const auto try_one = [&](const association::Place& placed) { try_pair(set, z, mounting, o, placed); };
+    const auto try_one = [&](const association::Place& placed) { try_pair(set, z, z.from, o, placed); };
     if (z.kind == sensors::ObservationKind::kPosition)
       places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, gate_[dimension_of(z.kind)], try_one);
     else
@@ -252,7 +252,7 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
-  if (!weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor, observation_of_);
+  if (!weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor, observation_of_, list.vehicle);
   sum_innovations(set, list);
 }
 
@@ -277,19 +277,19 @@ void Tracker::judge_existence(Track& track, std::size_t column, const sensors::O
   if (z) {
     const Distance* distance = distance_of(track, column, *z);
     const std::optional<estimators::Fit> fit =
-        estimator_->fit(track.estimate, distance ? expected(*z, *distance, mounting_of(*z)) : *z);
+        estimator_->fit(track.estimate, distance ? expected(*z, *distance, z->from) : *z);
     if (fit) ratio = likelihood_ratio(*z, fit->density, config_, visible);
   }
   track.existence = after_list(track.existence, ratio, config_, visible);
 }
 
 const Distance* Tracker::distance_of(const Track& track, std::size_t column, const sensors::Observation& z) {
-  return distances_.of(column, track, *estimator_, z, mounting_of(z));
+  return distances_.of(column, track, *estimator_, z, z.from);
 }
 
 sensors::Observation Tracker::referred(const Track& track, const sensors::Observation& z) const {
   const std::optional<Distance> distance = distance_of(track, z);
-  return distance ? counted(z, *distance, mounting_of(z), estimator_->position(track.estimate).p) : z;
+  return distance ? counted(z, *distance, z.from, estimator_->position(track.estimate).p) : z;
 }
 
 void Tracker::count_elsewhere(Track& track, const sensors::Observation& z, const Distance& distance, bool moves,
@@ -305,7 +305,7 @@ void Tracker::count_elsewhere(Track& track, const sensors::Observation& z, const
   }
   const linear::Gaussian<2> at = estimator_->position(track.estimate);
   learn_size(track.extent, z, distance, at);
-  taken.counted = counted(z, distance, mounting_of(z), at.p);
+  taken.counted = counted(z, distance, z.from, at.p);
 }
 
 Tracker::Referred Tracker::referred_late(Track& then, const sensors::Observation& z, bool may_move) const {
@@ -327,6 +327,8 @@ const sensors::Observation& Tracker::refer(Track& track, std::size_t column, con
   if (distance)
     count_elsewhere(track, z, *distance,
                     gives_way(track.anchor, z.seen) || track.lists_elsewhere >= lists_elsewhere_before(z.seen), taken);
+  else if (z.seen == sensors::SeenPoint::kSilhouette)
+    track.anchor.from = z.from.position;
   return taken.of(z);
 }
 
@@ -358,11 +360,11 @@ void Tracker::correct_extent(Track& track, const sensors::Observation& z) const 
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
   if (!z.has_span) return;
-  const double seen_from = (z.z.head<2>() - place_of(config_.sensors, z.sensor)).norm();
+  const double seen_from = (z.z.head<2>() - z.from.position).norm();
   const double shown = z.span * seen_from;
   correct_scalar(track.shown, shown - track.shown.value, shown, z.sigma_span * seen_from);
   const CentrePosition now = centre_position(track, estimator_->cartesian(track.estimate));
-  const linear::Vector<2> from = place_of(config_.sensors, z.sensor);
+  const linear::Vector<2>& from = z.from.position;
   const double x = now.estimate.x(0) - from.x(), y = now.estimate.x(1) - from.y(), range = std::hypot(x, y);
   if (range <= 0.0) return;
   const Facing& facing = now.facing;
@@ -386,7 +388,7 @@ void Tracker::give_birth(TrackSet& set, const sensors::ObservationList& list) {
     Track track;
     track.birth = track.newest = {list.id, static_cast<std::uint16_t>(o), list.measured};
     track.estimate = estimator_->initial(z);
-    track.anchor = first_anchor(z, mounting_of(z));
+    track.anchor = first_anchor(z, z.from);
     track.extent = Extent(config_.sizes);
     track.heading = unknown_heading(config_);
     if (z.has_heading) correct(track.heading, z.heading, z.sigma_heading, z.heading);

@@ -32,7 +32,7 @@
 #include "fusion/association/near_places.h"
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
-#include "fusion/sensors/mounted.h"
+#include "fusion/sensors/mounting.h"
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/anchoring.h"
 #include "fusion/tracks/distances.h"
@@ -118,9 +118,6 @@ class Tracker {
   void offer(const Track& track, const sensors::Observation& observation, int row, int column);
   void judge_existence(Track& track, std::size_t column, const sensors::Observation* observation, double visible);
   void take_in_all(Track& track, std::size_t column, const sensors::ObservationList& list);
-  sensors::Mounting mounting_of(const sensors::Observation& observation) const {
-    return sensors::mounting_of(config_.sensors, observation.sensor);
-  }
   sensors::Observation referred(const Track& track, const sensors::Observation& observation) const;
   void count_elsewhere(Track& track, const sensors::Observation& observation, const Distance& distance, bool moves,
                        Referred& taken) const;
@@ -128,7 +125,7 @@ class Tracker {
                                     std::size_t row);
   const Distance* distance_of(const Track& track, std::size_t column, const sensors::Observation& observation);
   std::optional<Distance> distance_of(const Track& track, const sensors::Observation& observation) const {
-    return distance_to(track, *estimator_, observation, mounting_of(observation));
+    return distance_to(track, *estimator_, observation, observation.from);
   }
   void give_birth(TrackSet& set, const sensors::ObservationList& list);
 

@@ -74,10 +74,11 @@ Visibility::Visibility(const config::TrackerConfig& config, std::size_t max_trac
 }
 
 void Visibility::judge(const std::vector<Track>& tracks, const estimators::Estimator& estimator, SensorId sensor,
-                       std::span<const int> observation_of) {
+                       std::span<const int> observation_of, const std::optional<sensors::Mounting>& vehicle) {
   sensor_ = known(sensors_, sensor);
   sees_all_ = sensor_ == nullptr || !sensor_->field;
   if (sees_all_) return;
+  from_ = vehicle ? placed_on(*vehicle, sensor_->mounting) : sensor_->mounting;
   visible_.assign(tracks.size(), 1.0);
   sights_.clear();
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -95,7 +96,7 @@ void Visibility::judge(const std::vector<Track>& tracks, const estimators::Estim
 // Judges the field, and keeps the line of sight if the track may be in it.
 void Visibility::add_sight(const Track& track, std::size_t index, const estimators::Estimator& estimator) {
   const sensors::Field& field = *sensor_->field;
-  const Seen seen = seen_from(track, estimator.cartesian(track.estimate), sensor_->mounting.position);
+  const Seen seen = seen_from(track, estimator.cartesian(track.estimate), from_.position);
   if (!(seen.range > 0.0)) return;
   const linear::Vector<2> along = seen.centre / seen.range, across = left_of(along);
   const double squared_range = seen.range * seen.range;
@@ -103,15 +104,14 @@ void Visibility::add_sight(const Track& track, std::size_t index, const estimato
   double visible = between(field.min_range, field.max_range, seen.range - 0.5 * seen.depth,
                            along.dot(seen.p * along) + seen.depth * seen.depth / 12.0);
   if (!field.all_around())
-    visible *= between(-field.half_angle, field.half_angle, motion::to_half_turn(seen.bearing - sensor_->mounting.yaw),
-                       variance);
+    visible *= between(-field.half_angle, field.half_angle, motion::to_half_turn(seen.bearing - from_.yaw), variance);
   visible_[index] = visible;
   if (visible > kHardly) sights_.push_back({seen.bearing, seen.range, variance, index});
 }
 
 // An outline around the sensor hides nothing. One across the bearing of half a turn is met from both of its sides.
 void Visibility::add_outline(const Track& track, std::size_t index, const estimators::Estimator& estimator) {
-  const Seen seen = seen_from(track, estimator.cartesian(track.estimate), sensor_->mounting.position);
+  const Seen seen = seen_from(track, estimator.cartesian(track.estimate), from_.position);
   if (!(seen.range > 0.0)) return;
   const linear::Vector<2> along = seen.centre / seen.range, across = left_of(along);
   Outline outline{.range = seen.range,

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,14 +38,14 @@ class Visibility {
   Visibility(const config::TrackerConfig& config, std::size_t max_tracks);
 
   // Judges the tracks, predicted to a list of this sensor. With observation_of (by track, -1 for none), only tracks without
-  // an observation are judged; any other is visible.
+  // an observation are judged; any other is visible. `vehicle` is the list's (fusion/sensors/observation.h).
   void judge(const std::vector<Track>& tracks, const estimators::Estimator& estimator, SensorId sensor,
-             std::span<const int> observation_of = {});
+             std::span<const int> observation_of = {}, const std::optional<sensors::Mounting>& vehicle = {});
   // Returns the visibility of a track that was judged last.
   double of(std::size_t track) const { return sees_all_ ? 1.0 : visible_[track]; }
 
  private:
-  // A line of sight to the middle of an object, from the sensor in the vehicle's axes.
+  // A line of sight to the middle of an object, from the sensor in the axes of the tracks.
   struct Sight {
     double bearing = 0.0;   // [rad], -pi..pi
     double range = 0.0;     // [m], to the centre
@@ -68,6 +69,7 @@ class Visibility {
   std::vector<sensors::KnownSensor> sensors_;
   bool by_existence_;
   const sensors::KnownSensor* sensor_ = nullptr;  // the present one
+  sensors::Mounting from_;                        // its place at the list's instant
   bool sees_all_ = true;
   std::vector<double> visible_;      // by track
   std::vector<Sight> sights_;        // to tracks in the field, by bearing

@@ -5,7 +5,9 @@
 namespace ttf::fusion::strategies::late {
 
 std::unique_ptr<Pasts> make_at_constant_acceleration(const config::TrackerConfig& config, std::size_t slots) {
-  return make_pasts_of(motion::ConstantAcceleration(config.process_noise, config.noise_across()), config.late, slots);
+  motion::ConstantAcceleration model(config.process_noise, config.noise_across());
+  model.drift_density = config.drift_density();
+  return make_pasts_of(model, config.late, slots);
 }
 
 }  // namespace ttf::fusion::strategies::late

@@ -187,7 +187,7 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
             static_cast<int>(taken));
   track.estimate = pasts_->newest(object.slot, set_.time);
 
-  const double range = (z.z.head<2>() - place_of(tracker_.config().sensors, z.sensor)).norm();
+  const double range = (z.z.head<2>() - z.from.position).norm();
   const double walked = tracker_.config().extent_noise * age;
   now.sigma_length = widened(z.sigma_length, walked);
   now.sigma_width = widened(z.sigma_width, walked);

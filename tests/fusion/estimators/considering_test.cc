@@ -162,13 +162,14 @@ TEST(Considering, ABirthIsAnUpdateOfAlmostNothing) {
       vague.state.x = born.state.x;
       vague.state.p.diagonal() << 1e7, 1e7, 16.0, 16.0;
       if (sensor == kLaser)
-        filter.update(M{}, sensors::AmongBiases<sensors::Position>{{}, biases.of(z.sensor)},
+        filter.update(M{}, sensors::AmongBiases<sensors::Position>{{}, biases.of(z.sensor), z.from},
                       sensors::Measurement<2>{z.z.head<2>(), z.r.topLeftCorner<2, 2>()}, vague);
       else
-        filter.update(M{},
-                      sensors::AmongBiases<sensors::Mounted<sensors::RangeBearingRate>>{
-                          sensors::Mounted<sensors::RangeBearingRate>(sensors[kRadar].mounting), biases.of(z.sensor)},
-                      sensors::Measurement<3>{z.z, z.r}, vague);
+        filter.update(
+            M{},
+            sensors::AmongBiases<sensors::Mounted<sensors::RangeBearingRate>>{
+                sensors::Mounted<sensors::RangeBearingRate>(sensors[kRadar].mounting), biases.of(z.sensor), z.from},
+            sensors::Measurement<3>{z.z, z.r}, vague);
       EXPECT_LT((vague.state.x - born.state.x).norm(), 1e-6);
       const linear::Matrix<2> p = vague.state.p.topLeftCorner<2, 2>() - born.state.p.topLeftCorner<2, 2>();
       EXPECT_LT(p.norm(), 1e-5) << "sensor " << sensor;
@@ -228,7 +229,7 @@ TEST(Considering, TheExpectedPositionIsThatOfTheGate) {
     estimator->predict(estimate, 0.04);
     const sensors::Observation& z = drive.lists[k].observations[0];
     if (z.kind == sensors::ObservationKind::kPosition) {
-      const linear::Gaussian<2> expected = estimator->seen_position(estimate, z.sensor);
+      const linear::Gaussian<2> expected = estimator->seen_position(estimate, z.sensor, z.from);
       const linear::Matrix<2> s = expected.p + z.r.topLeftCorner<2, 2>();
       const double squared = metrics::normalised_squared<2>(z.z.head<2>() - expected.x, s);
       EXPECT_NEAR(estimator->distance_squared(estimate, z).value() / squared, 1.0, 1e-9);

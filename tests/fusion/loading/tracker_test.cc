@@ -128,6 +128,28 @@ TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
   EXPECT_NE(sentences[4].find("t.yaml:5: initial_turn_rate_sigma"), std::string::npos) << sentences[4];
 }
 
+TEST(TrackerConfig, OdometryHasErrors) {
+  EXPECT_FALSE(load("{}").odometry);
+  EXPECT_EQ(load("{}").drift_density(), 0.0);
+  const TrackerConfig c = load(
+      "odometry: {speed_sigma: 0.1, yaw_rate_sigma: 0.01, speed_scale: 0.02, speed_scale_sigma: 0.03, "
+      "yaw_rate_bias: -0.1,\n  yaw_rate_bias_sigma: 0.2, acceleration_sigma: 4, yaw_acceleration_sigma: 5, lever: 20, "
+      "longest_age: 70 ms}\n");
+  ASSERT_TRUE(c.odometry);
+  EXPECT_EQ(c.odometry->speed_scale, 0.02);
+  EXPECT_EQ(c.odometry->speed_scale_sigma, 0.03);
+  EXPECT_EQ(c.odometry->yaw_rate_bias, -0.1);
+  EXPECT_EQ(c.odometry->yaw_rate_bias_sigma, 0.2);
+  EXPECT_EQ(c.odometry->acceleration_sigma, 4.0);
+  EXPECT_EQ(c.odometry->yaw_acceleration_sigma, 5.0);
+  EXPECT_EQ(c.odometry->longest_age, Duration::milliseconds(70));
+  EXPECT_NEAR(c.drift_density(), (0.01 + 0.04) * 0.02, 1e-12) << "samples every 20 ms, unless a schedule says another";
+  std::vector<std::string> sentences;
+  load("cross_noise: 0.1\nodometry: {}\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_EQ(sentences[0], "t.yaml:1: cross_noise = 0.1: must be absent with odometry: the vehicle's axes turn");
+}
+
 TEST(TrackerConfig, SystematicErrorsAreIgnoredUnlessSaid) {
   EXPECT_EQ(load("{}").systematic, SystematicErrorsAre::kIgnored);
   EXPECT_TRUE(load("{}").sensors.empty());

@@ -78,6 +78,7 @@ Errors follow(const config::TrackerConfig& config, int lists, const std::functio
         if (sensors[i].mounting.position == at.from) id = static_cast<std::uint8_t>(i);
       sensors::Observation z = seen(car, at.point, at.from, 0.05, draw);
       z.sensor = static_cast<SensorId>(id);
+      if (id < sensors.size()) z.from = sensors[id].mounting;
       tracker.step(set, list_of(id, static_cast<std::uint32_t>(k), at_ms(50 * k), {z}).view());
       if (k + 1 < lists) car.centre += 0.05 * car.velocity;
     }
