@@ -130,6 +130,7 @@ const Row kRows[] = {
      [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); }, true},
     {"    discarded: no time measured",
      [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); }, true},
+    {"times that odometry stopped", [](const StrategyResult& r) { return number(r.summary.odometry_stops); }, true},
     {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
     {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
     {"  refused for its age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }, true},
@@ -347,6 +348,8 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
                            {"overwritten", result.outcome.counts.overwritten_lists},
                            {"discarded", result.outcome.counts.discarded_lists},
                            {"lost", lost_lists(result)}};
+    if (s.odometry_samples + s.odometry_stops > 0)
+      one["odometry"] = {{"samples", s.odometry_samples}, {"stops", s.odometry_stops}};
     one["held_back_for"] = ages(s.held_for);
     one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
     one["uses"] = s.uses;

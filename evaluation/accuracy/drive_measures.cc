@@ -31,6 +31,10 @@ void DriveMeasures::on(const recording::records::FusionInput& input) {
   newest_received_ = newest_received_ ? std::max(*newest_received_, input.measured) : input.measured;
 }
 
+void DriveMeasures::on(const recording::records::OdometryTaken& odometry) {
+  ++(odometry.stopped ? summary_.odometry_stops : summary_.odometry_samples);
+}
+
 // Keeps a held list until its fate is known. A restarted fusion node has forgotten its held lists.
 void DriveMeasures::note_held(const recording::records::ListFused& list) {
   const auto known = std::find_if(held_.begin(), held_.end(), [&](const Held& held) {

@@ -97,7 +97,8 @@ struct DriveSummary {
   AgeStatistics held_for;        // per such list: from its first hold until it was fused
   std::uint64_t dropped = 0;     // too old for the history
   std::uint64_t duplicates = 0;
-  std::uint64_t warnings = 0;  // uses with a warning about an object
+  std::uint64_t odometry_samples = 0, odometry_stops = 0;  // samples taken in; times that no newer one came
+  std::uint64_t warnings = 0;                              // uses with a warning about an object
   // Measures that need the scenario; other rooms fill them in.
   double position_mse_reference_corrected =
       kNotMeasured;  // without the DGPS' own error (evaluation/accuracy/reference_judge.h)
@@ -118,6 +119,7 @@ class DriveMeasures final : public ImageUses {
   bool wants_frames() const override { return false; }
   using ImageUses::on;
   void on(const recording::records::FusionInput&) override;
+  void on(const recording::records::OdometryTaken&) override;
   void on(const recording::records::ListFused&) override;
   void on(const recording::records::ReferenceFix&) override;
 

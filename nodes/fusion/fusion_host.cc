@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/counted.h"
 #include "fusion/sensors/converted_position.h"
+#include "fusion/tracks/own_axes.h"
 #include "nodes/host/signals.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/settled.h"
@@ -45,6 +46,30 @@ recording::records::BelievedBox box_of(const ttf::fusion::tracks::TrackView& vie
           {view.width, view.sigma_width}};
 }
 
+// Returns the period at which a sensor measures.
+Duration period_of(const schedules::model::Cluster& cluster, const schedules::model::Sensor& sensor) {
+  return sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
+}
+
+// Gives the tracker the cluster's odometry.
+void set_odometry(const schedules::model::Cluster& cluster, ttf::fusion::config::TrackerConfig& tracker,
+                  const std::string& scenario_file) {
+  const auto found = std::find_if(cluster.sensors.begin(), cluster.sensors.end(), [](const auto& sensor) {
+    return sensor.kind == schedules::model::SensorKind::kOdometry;
+  });
+  if (found == cluster.sensors.end()) {
+    if (tracker.odometry)
+      throw InputError({scenario_file, 0, "tracker.odometry", "",
+                        "must be absent: " + cluster.file + " has no sensor of the kind odometry"});
+    return;
+  }
+  if (tracker.cross_noise)
+    throw InputError({scenario_file, 0, "tracker.cross_noise", "",
+                      "must be absent with the odometry of " + cluster.file + ": the vehicle's axes turn"});
+  if (!tracker.odometry) tracker.odometry.emplace();
+  tracker.odometry->period = std::max(period_of(cluster, *found), found->longest);
+}
+
 // Returns the number of rounds between the sender's stamp and `measured`.
 std::int64_t rounds_between(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
                             GlobalTime measured, Duration round) {
@@ -63,8 +88,7 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
     const GlobalTime first = sensor.scheduled
                                  ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
                                  : GlobalTime{};
-    const Duration period = sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
-    timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period});
+    timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period_of(cluster, sensor)});
   }
   return timings;
 }
@@ -72,6 +96,7 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
 ttf::fusion::config::TrackerConfig tracker_in(const schedules::model::Cluster& cluster,
                                               ttf::fusion::config::TrackerConfig tracker,
                                               const std::string& scenario_file) {
+  set_odometry(cluster, tracker, scenario_file);
   if (tracker.sensors.empty()) return tracker;
   std::vector<ttf::fusion::sensors::KnownSensor> by_id(cluster.sensors.size());
   std::vector<std::string> names;
@@ -91,7 +116,14 @@ FusionHost::FusionHost(const schedules::model::Cluster& cluster, ttf::fusion::st
                        const ttf::fusion::config::TrackerConfig& tracker)
     : strategy(ttf::fusion::strategies::make_strategy(kind, tracker, sensor_timings(cluster))),
       sensors(tracker.sensors), most_objects(static_cast<std::size_t>(tracker.max_objects)),
-      most_observations(tracker.max_observations) {}
+      most_observations(tracker.max_observations) {
+  if (tracker.odometry) ego.emplace(*tracker.odometry);
+}
+
+void FusionHost::to_own_axes(ttf::fusion::tracks::TrackView& view) const {
+  if (!ego) return;
+  if (const auto state = ego->at(view.valid_at)) ttf::fusion::tracks::to_own_axes(view, *state, ego->errors());
+}
 
 bool RoundsBelieved::believed(std::int64_t rounds) {
   if (rounds != rounds_ && claimed_ != rounds) {
@@ -114,10 +146,11 @@ FusionStep::FusionStep(const schedules::model::Cluster& cluster, const schedules
                         std::to_string(layout.max_elements),
                         "must be at most " + std::to_string(host_->most_observations) +
                             " for a list that is fused (max_observations of the scenario's tracker)"});
-    codecs_.emplace_back();
-    const bool of_sensor = layout.sensor != kNoSensor;
-    if (!of_sensor || cluster.sensor(layout.sensor).kind != schedules::model::SensorKind::kOdometry)
-      codecs_.back().emplace(cluster, binding.pdu);
+    std::optional<sensing::ObservationCodec>& codec = codecs_.emplace_back();
+    if (layout.sensor != kNoSensor && cluster.sensor(layout.sensor).kind == schedules::model::SensorKind::kOdometry)
+      odometry_ = host::bind_element<4>(cluster, layout, {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"});
+    else
+      codec.emplace(cluster, binding.pdu);
     most = std::max(most, static_cast<std::size_t>(cluster.pdu(binding.pdu).max_elements));
   }
   observations_.reserve(most);
@@ -132,26 +165,78 @@ void FusionStep::run(host::StepContext& context) {
   }
   ++host_->step;
   const GlobalTime now = context.stamp.global;
-  // Measurements lie in the past: up to seven eighths of a round, the rest allows for clocks ahead of this one.
-  const GlobalTime about = now - Duration{round_.ns / 8 * 3};
-  for (std::size_t i = 0; i < context.inputs.size(); ++i) {
-    host::Input& input = context.inputs[i];
-    if (!input.fresh || !input.list || !codecs_[i]) continue;  // each list is taken exactly once
-    const GlobalTime measured = host::time_stamp(*input.layout, *input.list, about, round_);
-    input.discarded = !rounds_[i].believed(rounds_between(*input.layout, *input.list, about, measured, round_));
-    if (input.discarded) continue;
-    codecs_[i]->decode(*input.list, observations_);
-    const SensorId id = input.layout->sensor;
-    if (const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, id))
-      for (ttf::fusion::sensors::Observation& observation : observations_)
-        ttf::fusion::sensors::place(observation, id, *sensor);
-    record(context, input, measured);
-    host_->strategy->accept({{input.layout->sensor, input.list->sequence}, measured, observations_});
-  }
+  for (const bool objects : {false, true})
+    for (std::size_t i = 0; i < context.inputs.size(); ++i) {
+      host::Input& input = context.inputs[i];
+      if (!input.fresh || !input.list || codecs_[i].has_value() != objects)
+        continue;  // each list is taken exactly once
+      const std::optional<GlobalTime> measured = instant_of(i, input, now);
+      input.discarded = !measured || !(objects ? take_objects(context, i, input, *measured)
+                                               : take_odometry(context, input, *measured));
+    }
+  record_stop(context);
   host_->strategy->fuse(now);
   context.unlisted = host_->strategy->unlisted() - host_->unlisted;
   host_->unlisted += context.unlisted;
   record_result(context);
+}
+
+std::optional<GlobalTime> FusionStep::instant_of(std::size_t port, host::Input& input, GlobalTime now) {
+  // Measurements lie in the past: up to seven eighths of a round, the rest allows for clocks ahead of this one.
+  const GlobalTime about = now - Duration{round_.ns / 8 * 3};
+  const GlobalTime measured = host::time_stamp(*input.layout, *input.list, about, round_);
+  if (!rounds_[port].believed(rounds_between(*input.layout, *input.list, about, measured, round_))) return std::nullopt;
+  return measured;
+}
+
+bool FusionStep::take_odometry(const host::StepContext& context, const host::Input& input, GlobalTime measured) {
+  if (!host_->ego || measured > context.stamp.global || host::element_count(*input.layout, *input.list) == 0)
+    return false;
+  const auto value = [&](std::size_t s) { return host::element_value(*input.layout, *input.list, 0, odometry_[s]); };
+  const ttf::fusion::ego::OdometrySample sample{measured, value(0), value(1), value(2), value(3)};
+  if (!host_->ego->accept(sample)) return false;
+  host_->odometry_stopped = false;
+  host_->odometry = {input.layout->sensor, input.list->sequence};
+  context.sink->on(recording::records::OdometryTaken{context.stamp, host_->step, host_->odometry, measured,
+                                                     sample.speed, sample.yaw_rate, sample.speed_sigma,
+                                                     sample.yaw_rate_sigma});
+  return true;
+}
+
+// Says once that the odometry has stopped. Before its first sample it has not begun.
+void FusionStep::record_stop(const host::StepContext& context) const {
+  if (!host_->ego || !host_->ego->started() || host_->odometry_stopped) return;
+  if (!host_->ego->has_stopped(context.stamp.global)) return;
+  host_->odometry_stopped = true;
+  recording::records::OdometryTaken said;
+  said.stamp = context.stamp;
+  said.step = host_->step;
+  said.id = host_->odometry;
+  said.measured = host_->ego->newest().at;
+  said.stopped = true;
+  context.sink->on(said);
+}
+
+bool FusionStep::take_objects(const host::StepContext& context, std::size_t port, const host::Input& input,
+                              GlobalTime measured) {
+  using namespace ttf::fusion;
+  const std::optional<ego::EgoState> then = host_->ego ? host_->ego->at(measured) : std::nullopt;
+  if (host_->ego && !then) return false;
+  codecs_[port]->decode(*input.list, observations_);
+  const SensorId id = input.layout->sensor;
+  if (const sensors::KnownSensor* sensor = sensors::known(host_->sensors, id))
+    for (sensors::Observation& observation : observations_) sensors::place(observation, id, *sensor);
+  record(context, input, measured);
+  if (!then) {
+    host_->strategy->accept({{id, input.list->sequence}, measured, observations_});
+    return true;
+  }
+  for (sensors::Observation& observation : observations_) {
+    observation.sensor = id;
+    ego::carry(observation, *then);
+  }
+  host_->strategy->accept({{id, input.list->sequence}, measured, observations_, then->vehicle});
+  return true;
 }
 
 void FusionStep::record(const host::StepContext& context, const host::Input& input, GlobalTime measured) const {
@@ -172,9 +257,7 @@ void FusionStep::record(const host::StepContext& context, const host::Input& inp
     seen.id = {input.layout->sensor, input.list->sequence};
     seen.measured = measured;
     seen.index = static_cast<std::uint16_t>(i);
-    const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, observation.sensor);
-    const ttf::fusion::sensors::PlanePosition plane =
-        plane_position(observation, sensor != nullptr ? sensor->mounting : ttf::fusion::sensors::Mounting{});
+    const ttf::fusion::sensors::PlanePosition plane = plane_position(observation, observation.from);
     seen.x = plane.x;
     seen.y = plane.y;
     seen.sxx = plane.sxx;
@@ -190,8 +273,9 @@ void FusionStep::record_result(const host::StepContext& context) const {
     context.sink->on(recording::records::ListFused{context.stamp, host_->step, list.id, list.measured,
                                                    static_cast<recording::records::Disposition>(list.disposition),
                                                    list.innovations.squares, list.innovations.degrees});
-  for (const ttf::fusion::tracks::TrackView& track : strategy.tracks()) {
+  for (ttf::fusion::tracks::TrackView track : strategy.tracks()) {
     if (!track.confirmed) continue;
+    host_->to_own_axes(track);
     recording::records::TrackState state{context.stamp,
                                          host_->step,
                                          track.id,
@@ -220,6 +304,7 @@ ImageOutput::ImageOutput(const schedules::model::Cluster& cluster, const schedul
 void ImageOutput::run(host::StepContext& context) {
   const GlobalTime use = schedules::model::next_occurrence(cluster_.flexray, use_, context.stamp.global).time;
   host_->strategy->image(use, views_);
+  for (ttf::fusion::tracks::TrackView& view : views_) host_->to_own_axes(view);
   // The list holds the nearest objects, in the order of their distance: it never depends on how tracks are stored.
   std::sort(views_.begin(), views_.end(),
             [](const ttf::fusion::tracks::TrackView& a, const ttf::fusion::tracks::TrackView& b) {

@@ -7,6 +7,8 @@
 // prediction leaves the filter state unchanged.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "fusion/config/tracker_config.h"
+#include "fusion/ego/ego_path.h"
 #include "fusion/strategies/strategy.h"
 #include "nodes/fusion/image_codec.h"
 #include "nodes/host/step.h"
@@ -26,8 +29,9 @@ namespace ttf::nodes::fusion {
 // how long to wait for a list).
 std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedules::model::Cluster& cluster);
 
-// Returns the tracker of a scenario with its sensors by their ids in this cluster. Throws InputError, naming
-// the scenario's file, for a sensor name that the cluster lacks.
+// Returns the tracker of a scenario with its sensors by their ids in this cluster, and with odometry if the cluster has it.
+// Throws InputError, naming the scenario's file, for a sensor name that the cluster lacks, and for keys that its vehicle
+// contradicts.
 ttf::fusion::config::TrackerConfig tracker_in(const schedules::model::Cluster& cluster,
                                               ttf::fusion::config::TrackerConfig tracker,
                                               const std::string& scenario_file);
@@ -36,8 +40,14 @@ ttf::fusion::config::TrackerConfig tracker_in(const schedules::model::Cluster& c
 struct FusionHost {
   FusionHost(const schedules::model::Cluster& cluster, ttf::fusion::strategies::StrategyKind kind,
              const ttf::fusion::config::TrackerConfig& tracker);
+  // Takes a view to the vehicle's axes at its instant. Without odometry, tracks live in these.
+  void to_own_axes(ttf::fusion::tracks::TrackView& view) const;
+
   std::unique_ptr<ttf::fusion::strategies::Strategy> strategy;
   std::vector<ttf::fusion::sensors::KnownSensor> sensors;  // by SensorId
+  std::optional<ttf::fusion::ego::EgoPath> ego;            // with odometry
+  MeasurementId odometry{};                                // the newest sample's
+  bool odometry_stopped = false;                           // said, and no sample has come since
   std::size_t most_objects;                                // the largest number of confirmed tracks
   std::size_t most_observations;                           // in one list
   std::uint32_t step = 0;                                  // the number of the fusion instant, from 1
@@ -60,6 +70,10 @@ class RoundsBelieved {
 };
 
 // Ports: any number, one per sensor list. A list of unknown age is discarded.
+//
+// A list of odometry moves the vehicle on (fusion/ego/ego_path.h), ahead of the other lists of the same instant. These are
+// placed by the pose at their own instants. A list from before the odometry began has no pose, and is discarded, as is a
+// sample that is not the newest one, or is from the future.
 class FusionStep final : public host::Step {
  public:
   FusionStep(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -67,13 +81,19 @@ class FusionStep final : public host::Step {
   void run(host::StepContext& context) override;
 
  private:
+  // Returns the instant of a fresh list, and no value if it is to be discarded.
+  std::optional<GlobalTime> instant_of(std::size_t port, host::Input& input, GlobalTime now);
+  bool take_odometry(const host::StepContext& context, const host::Input& input, GlobalTime measured);
+  bool take_objects(const host::StepContext& context, std::size_t port, const host::Input& input, GlobalTime measured);
   void record(const host::StepContext& context, const host::Input& input, GlobalTime measured) const;
+  void record_stop(const host::StepContext& context) const;
   void record_result(const host::StepContext& context) const;
 
   std::shared_ptr<FusionHost> host_;
   Duration round_;                                                // the schedule's round
   std::vector<std::optional<sensing::ObservationCodec>> codecs_;  // per port; none for odometry
   std::vector<RoundsBelieved> rounds_;                            // per port
+  std::array<std::size_t, 4> odometry_{};                         // the signals of its element
   std::vector<ttf::fusion::sensors::Observation> observations_;
 };
 

@@ -51,6 +51,7 @@ template <> struct PayloadOf<records::LatenessHistogram> : std::type_identity<tt
 template <> struct PayloadOf<records::MediumCounts> : std::type_identity<ttfusion::Medium> {};
 template <> struct PayloadOf<records::CanErrorFrame> : std::type_identity<ttfusion::CanError> {};
 template <> struct PayloadOf<records::CanStateChanged> : std::type_identity<ttfusion::CanState> {};
+template <> struct PayloadOf<records::OdometryTaken> : std::type_identity<ttfusion::Odometry> {};
 template <class Record> using Payload = typename PayloadOf<Record>::type;
 
 // One message per kind, for reuse.

@@ -155,6 +155,12 @@ records::ListFused record_of(const ttfusion::ListFused& in, Reading& read) {
           in.innovation_degrees()};
 }
 
+records::OdometryTaken record_of(const ttfusion::Odometry& in, Reading& read) {
+  return {read.stamp(in.stamp()),    in.step(),           read.measurement(in.id()),
+          GlobalTime{in.measured()}, in.speed(),          in.yaw_rate(),
+          in.sigma_speed(),          in.sigma_yaw_rate(), in.stopped()};
+}
+
 records::FusionStep record_of(const ttfusion::FusionStep& in, Reading& read) {
   return {read.stamp(in.stamp()), in.step(), read.to<std::uint16_t>(in.confirmed()),
           read.to<std::uint16_t>(in.tentative())};

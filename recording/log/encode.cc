@@ -156,6 +156,19 @@ LogTimes encode(const records::ListFused& in, ttfusion::ListFused& out) {
   return times_of(in.stamp);
 }
 
+LogTimes encode(const records::OdometryTaken& in, ttfusion::Odometry& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  fill(*out.mutable_id(), in.id);
+  out.set_measured(in.measured.ns);
+  out.set_speed(in.speed);
+  out.set_yaw_rate(in.yaw_rate);
+  out.set_sigma_speed(in.sigma_speed);
+  out.set_sigma_yaw_rate(in.sigma_yaw_rate);
+  out.set_stopped(in.stopped);
+  return times_of(in.stamp);
+}
+
 LogTimes encode(const records::FusionStep& in, ttfusion::FusionStep& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);

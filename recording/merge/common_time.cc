@@ -72,6 +72,7 @@ void put_on(const CommonTime& time, records::TaskRun& r) { rescale_all(time, r.a
 void put_on(const CommonTime& time, records::ClockCorrected& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::PrecisionSample& r) { rescale_all(time, r.at); }
 void put_on(const CommonTime& time, records::FusionInput& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::OdometryTaken& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::ListFused& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::FusionStep& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::TrackState& r) { rescale_all(time, r.stamp); }

@@ -25,9 +25,9 @@ using CausalOrder =
     Order<records::FaultActivity, records::PowerChanged, records::GuardianIntervention, records::ChannelFrame,
           records::SlotFrameSent, records::SymbolSent, records::CanErrorFrame, records::CanStateChanged,
           records::CanFrameSent, records::TimingProblem, records::SlotProblem, records::ClockCorrected,
-          records::StateChanged, records::ListHop, records::Measured, records::FusionInput, records::ObservationSeen,
-          records::ListFused, records::TrackState, records::FusionStep, records::ReferenceFix, records::ImageWritten,
-          records::FeatureUsed, records::TruthState, records::TaskRun, records::PrecisionSample,
+          records::StateChanged, records::ListHop, records::Measured, records::OdometryTaken, records::FusionInput,
+          records::ObservationSeen, records::ListFused, records::TrackState, records::FusionStep, records::ReferenceFix,
+          records::ImageWritten, records::FeatureUsed, records::TruthState, records::TaskRun, records::PrecisionSample,
           records::LatenessHistogram, records::MediumCounts>;
 static_assert(CausalOrder::kNone == records::kKindCount, "each kind of record has one rank");
 
@@ -62,6 +62,7 @@ RecordPlace place_of(const records::TaskRun& r) { return of_node(r, r.start); }
 RecordPlace place_of(const records::ClockCorrected& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::PrecisionSample& r) { return of_drive(r, r.at, 0); }
 RecordPlace place_of(const records::FusionInput& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::OdometryTaken& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::ListFused& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::FusionStep& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::TrackState& r) { return of_node(r, r.stamp); }

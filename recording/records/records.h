@@ -272,6 +272,17 @@ struct FusionStep {
   std::uint16_t tentative = 0;
 };
 
+// A sample of odometry that the fusion took in, as decoded: speed [m/s] and yaw rate [rad/s], each with the sigma of its noise.
+// Or, with `stopped`, no newer one has come for so long that the fusion says the odometry has stopped.
+struct OdometryTaken {
+  Stamp stamp;
+  std::uint32_t step = 0;
+  MeasurementId id;
+  GlobalTime measured{};
+  double speed = 0.0, yaw_rate = 0.0, sigma_speed = 0.0, sigma_yaw_rate = 0.0;
+  bool stopped = false;
+};
+
 // A quantity beside a track's state, as the track believes it.
 struct Believed {
   double value = 0.0, sigma = 0.0;
@@ -452,6 +463,7 @@ inline constexpr std::tuple kKinds{
     Kind<MediumCounts>{"/medium", kNotInHash},
     Kind<CanErrorFrame>{"/can_error"},
     Kind<CanStateChanged>{"/can_state"},
+    Kind<OdometryTaken>{"/odometry"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

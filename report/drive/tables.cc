@@ -86,6 +86,7 @@ constexpr MeasureRow kMeasureRows[] = {
     {"precision of the time base [us]", "/precision_us", 3},
     {"slot problems", "/slot_problems", 0},
     {"deadlines missed", "/deadlines_missed", 0},
+    {"times that odometry stopped", "/odometry/stops", 0, 1.0, true},
     {"fragments refused", "/refused_fragments", 0, 1.0, true},
     {"CAN frames refused", "/refused_can_frames", 0, 1.0, true},
     {"FlexRay load per channel [%]", "/flexray_load", 1, 100.0},

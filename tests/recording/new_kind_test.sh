@@ -10,7 +10,7 @@ mkdir -p "$work/recording/records" "$work/recording/log"
 
 # The list with one more row, and a payload for it; without the payload, no part of the log compiles.
 sed -e 's|^template <class Record> struct Kind {|struct Unheard {\n  Stamp stamp;\n};\n\n&|' \
-    -e 's|^    Kind<CanStateChanged>.*|&\n    Kind<Unheard>{"/unheard"},|' \
+    -e 's|^    Kind<OdometryTaken>.*|&\n    Kind<Unheard>{"/unheard"},|' \
     "$sources/recording/records/records.h" > "$work/recording/records/records.h"
 sed 's|^template <class Record> using Payload =|template <> struct PayloadOf<records::Unheard> : PayloadOf<records::MediumCounts> {};\n&|' \
     "$sources/recording/log/codec.h" > "$work/recording/log/codec.h"

@@ -185,6 +185,10 @@ std::string text_of(const records::FusionInput& r) {
 std::string text_of(const records::ListFused& r) {
   return line("fused", r.stamp, r.step, r.id, r.measured, r.disposition, r.innovation_squares, r.innovation_degrees);
 }
+std::string text_of(const records::OdometryTaken& r) {
+  return line("odometry", r.stamp, r.step, r.id, r.measured, r.speed, r.yaw_rate, r.sigma_speed, r.sigma_yaw_rate,
+              r.stopped);
+}
 std::string text_of(const records::FusionStep& r) { return line("step", r.stamp, r.step, r.confirmed, r.tentative); }
 std::string text_of(const records::TrackState& r) {
   return line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image, r.box);
@@ -376,6 +380,10 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::CanStateChanged{
           stamp, d.get<U8>(), d.choice(records::kCanErrorActive, records::kCanBusOff),
           d.choice(records::kCanErrorActive, records::kCanBusOff), d.get<U16>(), d.get<U16>()});
+    case 29:
+      return sink.on(records::OdometryTaken{stamp, d.get<U32>(), d.get<MeasurementId>(), d.get<GlobalTime>(),
+                                            d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                            d.get<bool>()});
   }
   TTF_CHECK(false, "nothing to draw of kind {}", kind);
 }
