@@ -42,7 +42,7 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"gateway", {"in"}, {"out"}, false},
       {"fusion", {}, {}, true},
       {"image_output", {}, {"image"}, false},
-      {"feature_service", {"image"}, {}, false},
+      {"feature_service", {"image"}, {}, false, {"odometry"}},
   };
   return kPorts;
 }

@@ -31,16 +31,19 @@ FeatureConfig load_feature(YamlMap& yaml) {
   return config;
 }
 
-recording::records::FeatureObject judge(const recording::records::ImageObject& object, const FeatureConfig& config) {
+recording::records::FeatureObject judge(const recording::records::ImageObject& object, const FeatureConfig& config,
+                                        std::optional<double> measured_speed) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   // A slower approach than walking pace is no collision course: the sign of a speed near zero is noise.
   constexpr double kSlowestClosing_mps = 0.5;
   recording::records::FeatureObject result;
   result.image = object;
   const double range = std::hypot(object.x, object.y), distance = clearance(object, range);
-  const double vx = object.speed * std::cos(object.heading), vy = object.speed * std::sin(object.heading);
+  const double own_speed = measured_speed.value_or(config.own_speed_mps);
+  const double vx = object.speed * std::cos(object.heading) - measured_speed.value_or(0.0);
+  const double vy = object.speed * std::sin(object.heading);
   const double closing = range > 0.0 ? -(vx * object.x + vy * object.y) / range : 0.0;
-  result.time_gap_s = config.own_speed_mps > 0.0 && object.x > 0.0 ? distance / config.own_speed_mps : kNone;
+  result.time_gap_s = own_speed > 0.0 && object.x > 0.0 ? distance / own_speed : kNone;
   result.time_to_collision_s = closing > kSlowestClosing_mps ? distance / closing : kNone;
   result.warning = object.x > 0.0 && std::abs(object.y) <= config.corridor_half_width_m &&
                    result.time_to_collision_s < config.warning_time_s;
@@ -52,19 +55,32 @@ FeatureService::FeatureService(const schedules::model::Cluster& cluster, const s
     : config_(config), round_(cluster.round()) {
   const schedules::model::PduLayout& layout = cluster.pdu(host::binding_of(task.reads, "image").pdu);
   signals_ = fusion::bind_image(cluster, layout);
+  for (std::size_t i = 0; i < task.reads.size(); ++i) {
+    if (task.reads[i].port == "image") image_ = i;
+    if (task.reads[i].port != "odometry") continue;
+    odometry_ = i;
+    speed_ = host::bind_element<4>(cluster, cluster.pdu(task.reads[i].pdu),
+                                   {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})[0];
+  }
   objects_.reserve(static_cast<std::size_t>(layout.max_elements));
 }
 
 void FeatureService::run(host::StepContext& context) {
-  const host::Input& image = context.inputs[0];
+  const host::Input& image = context.inputs[image_];
   if (!image.list) return;  // without an image the service does nothing
   if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
   const Duration age = context.stamp.global - valid_at_;
   const bool stale = age > config_.max_image_age || -age > config_.max_image_age;
   objects_.clear();
-  const int count = stale ? 0 : host::element_count(*image.layout, *image.list);
+  std::optional<double> speed;
+  if (odometry_)
+    if (const host::Input& odometry = context.inputs[*odometry_];
+        odometry.list && host::element_count(*odometry.layout, *odometry.list) > 0)
+      speed = host::element_value(*odometry.layout, *odometry.list, 0, speed_);
+  const bool judges = !stale && (!odometry_ || speed);
+  const int count = judges ? host::element_count(*image.layout, *image.list) : 0;
   for (int i = 0; i < count; ++i)
-    objects_.push_back(judge(fusion::decode_image_object(*image.layout, *image.list, i, signals_), config_));
+    objects_.push_back(judge(fusion::decode_image_object(*image.layout, *image.list, i, signals_), config_, speed));
   recording::records::FeatureUsed used;
   used.stamp = context.stamp;
   used.image_sequence = image.list->sequence;

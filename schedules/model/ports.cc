@@ -17,7 +17,12 @@ struct Direction {
   const std::vector<PortBinding>& bound;
   const std::vector<std::string_view>& needed;
   bool any;  // the names of sensors are ports too
+  std::vector<std::string_view> optional = {};
 };
+
+std::string others(const std::vector<std::string_view>& optional) {
+  return optional.empty() ? std::string() : fmt::format(", and {}", fmt::join(optional, ", "));
+}
 
 void bind_direction(const Cluster& cluster, const std::string& path, const Task& task, const Direction& direction,
                     Findings& findings) {
@@ -27,8 +32,10 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
       findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
                     fmt::format("must bind the port {}: step {} needs it", port, task.step)});
   for (const PortBinding& binding : direction.bound) {
-    const bool known =
-        std::find(direction.needed.begin(), direction.needed.end(), binding.port) != direction.needed.end();
+    const auto is_among = [&](const std::vector<std::string_view>& ports) {
+      return std::find(ports.begin(), ports.end(), binding.port) != ports.end();
+    };
+    const bool known = is_among(direction.needed) || is_among(direction.optional);
     const auto sensor = direction.any ? cluster.find_sensor(binding.port) : std::nullopt;
     const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
     if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
@@ -37,7 +44,7 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
     if (known || sensor) continue;
     findings.add({cluster.file, binding.line, key, "",
                   fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
-                              direction.any ? std::string("the sensors' names") : std::string())});
+                              direction.any ? std::string("the sensors' names") : others(direction.optional))});
   }
   if (direction.any && direction.bound.empty())
     findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
@@ -73,7 +80,8 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
                                   kLibraryEnd)});
         continue;
       }
-      bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads}, findings);
+      bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads, step->may_read},
+                     findings);
       bind_direction(cluster, path, task, {"writes", task.writes, step->writes, false}, findings);
     }
   findings.throw_if_any();

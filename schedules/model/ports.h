@@ -16,8 +16,9 @@ struct StepPorts {
   std::string_view step;
   std::vector<std::string_view> reads;
   std::vector<std::string_view> writes;
-  bool any_reads = false;  // besides `reads`, the step reads at least one sensor's list, by a
-                           // port with that sensor's name
+  bool any_reads = false;                       // besides `reads`, the step reads at least one sensor's list, by a
+                                                // port with that sensor's name
+  std::vector<std::string_view> may_read = {};  // ports that a task may leave out
 };
 
 // Returns whether a step's name is a library's file name, such as distance.so, and not that of the program's own code.

@@ -51,6 +51,19 @@ TEST(FeatureService, TimeGapIsClearanceByOwnSpeed) {
   EXPECT_TRUE(std::isinf(judge(car(-22.0, 0.0, 0.0, 0.0), driving(10.0)).time_gap_s)) << "nor what is behind";
 }
 
+// With odometry the image is over ground: the same cases as above.
+TEST(FeatureService, OdometryMakesVelocitiesRelative) {
+  const auto moving = [](double heading, double speed, double own) {
+    return judge(car(22.0, 0.0, heading, speed), driving(3.0), own);
+  };
+  EXPECT_NEAR(moving(0.0, 0.0, 10.0).time_to_collision_s, 2.0, 1e-12) << "a standing car";
+  EXPECT_NEAR(moving(0.0, 0.0, 10.0).time_gap_s, 2.0, 1e-12);
+  EXPECT_NEAR(moving(kPi, 10.0, 10.0).time_to_collision_s, 1.0, 1e-12) << "an oncoming one";
+  EXPECT_TRUE(std::isinf(moving(0.0, 10.0, 10.0).time_to_collision_s)) << "one ahead, as fast";
+  EXPECT_NEAR(moving(0.0, 10.0, 10.0).time_gap_s, 2.0, 1e-12);
+  EXPECT_NEAR(moving(kPi, 10.0, 0.0).time_to_collision_s, 2.0, 1e-12) << "and a standing car of one's own";
+}
+
 TEST(FeatureService, WhatOpensOrStandsIsNoCollision) {
   EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 5.0), driving(0.0)).time_to_collision_s));
   EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, kPi, 0.4), driving(0.0)).time_to_collision_s)) << "noise about zero";
