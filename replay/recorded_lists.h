@@ -27,8 +27,9 @@ struct RecordedList {
   GlobalTime measured{}, arrival{};
   std::uint32_t copy = 0;  // the number of earlier copies
   std::vector<fusion::sensors::Observation> observations;
+  std::optional<fusion::sensors::Mounting> vehicle{};  // its place, if it moves (replay/recorded_ego.h)
 
-  fusion::sensors::ObservationList view() const { return {id, measured, observations}; }
+  fusion::sensors::ObservationList view() const { return {id, measured, observations, vehicle}; }
 };
 
 struct RecordedLists {

@@ -26,13 +26,16 @@
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "drives/scenario.h"
+#include "fusion/tracks/own_axes.h"
 #include "nodes/laser/recorded_scans.h"
 #include "nodes/sensing/recorded.h"
+#include "recording/rows/ego_rows.h"
 #include "recording/rows/laser_radar_file.h"
 #include "recording/rows/observation_rows.h"
 #include "recording/rows/scan_file.h"
 #include "recording/rows/track_rows.h"
 #include "replay/config.h"
+#include "replay/recorded_ego.h"
 #include "replay/recorded_lists.h"
 #include "replay/replay.h"
 #include "replay/sensor_timing.h"
@@ -104,6 +107,7 @@ void check_options(const TrackOptions& options) {
     const std::string flag = &written == &options.out ? "--out" : "--picture";
     if (!written.empty()) refuse_overwriting(options.observations, written, flag);
     if (!written.empty() && !options.config.empty()) refuse_overwriting(options.config, written, flag);
+    if (!written.empty() && !options.ego.empty()) refuse_overwriting(options.ego, written, flag);
   }
   if (!options.picture.empty() && options.format != "scans")
     throw InputError({"command line", 0, "--picture", options.picture, "goes with --format scans only"});
@@ -138,6 +142,16 @@ std::uint64_t seconds_between(GlobalTime from, GlobalTime to) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, (to - from).ns) / 1'000'000'000);
 }
 
+// Returns the tracks in the vehicle's axes at their instant, in `own`.
+std::span<const fusion::tracks::TrackView> in_own_axes(std::span<const fusion::tracks::TrackView> tracks,
+                                                       const replay::RecordedEgo& ego,
+                                                       std::vector<fusion::tracks::TrackView>& own) {
+  own.assign(tracks.begin(), tracks.end());
+  for (fusion::tracks::TrackView& view : own)
+    if (const auto state = ego.at(view.valid_at)) fusion::tracks::to_own_axes(view, *state, ego.errors());
+  return own;
+}
+
 int run_track(const TrackOptions& options) {
   check_options(options);
   const replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
@@ -154,8 +168,13 @@ int run_track(const TrackOptions& options) {
     });
   if (!options.strategy.empty()) config.strategy = drive::strategy_of(options.strategy);
   Findings findings;
-  const Recording input = read_recording(options, findings);
-  const std::vector<recording::rows::ObservationRow>& rows = input.rows;
+  Recording input = read_recording(options, findings);
+  std::vector<recording::rows::ObservationRow>& rows = input.rows;
+  std::optional<replay::RecordedEgo> ego;
+  if (!options.ego.empty())
+    ego = replay::recorded_ego_of(recording::rows::read_ego_rows(options.ego), options.ego, config);
+  else if (config.tracker.odometry)
+    throw InputError({config.file, 0, "tracker.odometry", "", "must be absent without --ego"});
   if (of_scans)
     prepare_for_scans(config, usual);
   else
@@ -179,6 +198,7 @@ int run_track(const TrackOptions& options) {
     recorded = replay::recorded_lists_of(rows, config, options.observations, findings);
   }
   tell_damage(findings, options.skip_damaged, recorded.lists.size());
+  if (ego) replay::carry(recorded, rows, *ego, options.observations);
   replay::simulate(recorded, simulated);
 
   result.strategy = std::string(name_of(config.strategy));
@@ -189,6 +209,7 @@ int run_track(const TrackOptions& options) {
   std::string tracks(recording::rows::track_heading());
   TrackJudge judge(rows, config.cut_off);
   TrackLives lives;
+  std::vector<fusion::tracks::TrackView> own;
   std::optional<ScanPicture> picture;
   if (!options.picture.empty()) picture.emplace(input.scans[drawn_scan(options, input.scans.size())], scanner);
   std::optional<Progress> progress(std::in_place, "s of the recording");
@@ -199,6 +220,7 @@ int run_track(const TrackOptions& options) {
         const std::uint64_t done = seconds_between(first, known);
         (*progress)(done, whole, done);
         judge.take(known, views);
+        if (ego) views = in_own_axes(views, *ego, own);
         if (of_scans) lives.take(views);
         if (picture) picture->take(views);
         for (const fusion::tracks::TrackView& view : views)
@@ -256,6 +278,10 @@ void add_track(CLI::App& app, Action& action) {
       "           --seed 7 -o tracks.csv\n"
       "         ttfusion track scans.csv --format scans --picture street.svg -o tracks.csv");
   command->add_option("observations", options->observations, "Recorded observations")->required()->check(named());
+  command
+      ->add_option("--ego", options->ego,
+                   "Motion of the sensors' vehicle (CSV): time, x, y, heading, or time, speed, yaw_rate")
+      ->check(named());
   command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(named());
   command
       ->add_option("--format", options->format,

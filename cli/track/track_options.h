@@ -14,7 +14,7 @@
 namespace ttf::cli::track {
 
 struct TrackOptions {
-  std::string observations, config, format = "csv", strategy, seed = "1", out, picture;
+  std::string observations, ego, config, format = "csv", strategy, seed = "1", out, picture;
   std::vector<std::string> noise;        // SENSOR:WHAT=SIGMA
   std::vector<std::string> worst_delay;  // SENSOR=DURATION
   std::vector<std::string> period;       // SENSOR=DURATION

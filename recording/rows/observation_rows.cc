@@ -12,6 +12,7 @@
 #include "core/file_bytes.h"
 #include "recording/rows/csv.h"
 #include "recording/rows/leaping_stamps.h"
+#include "recording/rows/seconds.h"
 
 namespace ttf::recording::rows {
 namespace {
@@ -81,8 +82,7 @@ constexpr std::array<NumberColumn, kNumbers> kNumberColumns{{
 enum TextIndex : std::size_t { kTime, kArrival, kSensor, kClass, kTruthObject, kTexts };
 constexpr std::array<std::string_view, kTexts> kTextColumns{"time", "arrival", "sensor", "class", "gt_object"};
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000, kLatest = 4'000'000'000 * kNsPerSecond,
-                       kLongestWay = 3600 * kNsPerSecond;
+constexpr std::int64_t kLongestWay = 3600 * kNsPerSecond;
 constexpr std::size_t kLongestName = 40;
 
 // The heading's columns, counted from 0; absent columns have no value.
@@ -127,20 +127,6 @@ Heading heading_of(const CsvLines& lines, const std::string& name) {
     heading.text[kTruthObject].reset();
   }
   return heading;
-}
-
-// Returns nanoseconds: exact for a plain decimal with at most nine decimals, else the nearest to the nearest
-// double.
-std::optional<std::int64_t> nanoseconds_of(std::string_view text) {
-  std::optional<std::int64_t> exact = parse_scaled(text, kNsPerSecond);
-  if (!exact) {
-    double seconds = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-    if (error != std::errc{} || end != text.data() + text.size() || !(std::abs(seconds) <= 4e9)) return std::nullopt;
-    exact = std::llround(seconds * 1e9);
-  }
-  if (*exact < -kLatest || *exact > kLatest) return std::nullopt;
-  return exact;
 }
 
 bool is_name(std::string_view text) {

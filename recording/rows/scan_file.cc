@@ -15,6 +15,7 @@
 #include "core/file_bytes.h"
 #include "recording/rows/csv.h"
 #include "recording/rows/leaping_stamps.h"
+#include "recording/rows/seconds.h"
 
 namespace ttf::recording::rows {
 namespace scan_file {
@@ -37,7 +38,6 @@ constexpr std::array<Allowed, kColumns> kAllowed{{{"frame", 0, 0, ""},
                                                   {"intensity", 0, 1e9, ""}}};
 // More than one azimuth in so many beyond a turn is no damage but another unit.
 constexpr std::size_t kOneDamagedIn = 20;
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr double kLatest_s = 4e9;
 constexpr std::int64_t kSecond_frames = 10;  // a usual scanner turns ten times a second
 
