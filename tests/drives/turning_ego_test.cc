@@ -1,0 +1,52 @@
+// A vehicle that turns at 30 km/h past a parked car, in whole drives: odometry on the bus, tracks over ground.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/file_bytes.h"
+#include "evaluation/accuracy/drive_measures.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf::drives {
+namespace {
+
+using fusion::strategies::StrategyKind;
+
+evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
+  evaluation::accuracy::DriveMeasures measures(TrueTime{} + drive.scenario.evaluate_from);
+  drive.run(measures);
+  return measures.finish();
+}
+
+class TurningEgo : public testing::TestWithParam<StrategyKind> {};
+INSTANTIATE_TEST_SUITE_P(All, TurningEgo, testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt));
+
+TEST_P(TurningEgo, ObjectsAreSeenOverGround) {
+  const evaluation::accuracy::DriveSummary summary = summary_of({"scenarios/turning_ego.yaml", GetParam()});
+  EXPECT_GT(summary.odometry_samples, 200u);
+  EXPECT_EQ(summary.odometry_stops, 0u);
+  EXPECT_GT(summary.matched, 100u);
+  EXPECT_EQ(summary.spurious, 0u);
+  EXPECT_LT(std::hypot(summary.rmse_truth[0], summary.rmse_truth[1]), 0.8) << "[m]";
+  EXPECT_LT(std::hypot(summary.rmse_truth[2], summary.rmse_truth[3]), 1.5) << "[m/s]; the vehicle's own speed is 8.3";
+  EXPECT_LT(summary.nees, 8.0);
+}
+
+// The node of the odometry has no supply for 600 ms: the fusion says that odometry has stopped, and coasts.
+TEST_P(TurningEgo, OdometryThatStopsIsToldAndCoasted) {
+  const std::string file = shipped("scenarios/turning_ego.yaml");
+  Drive drive("scenarios/turning_ego.yaml", GetParam());
+  drive.scenario = parse_scenario(
+      read_file(file) + "faults:\n  - {kind: crash, node: odometry_pre, from: 2500 ms, duration: 600 ms}\n", file);
+  const evaluation::accuracy::DriveSummary summary = summary_of(drive),
+                                           sound = summary_of({"scenarios/turning_ego.yaml", GetParam()});
+  EXPECT_EQ(summary.odometry_stops, 1u);
+  EXPECT_LT(summary.odometry_samples + 25, sound.odometry_samples);
+  EXPECT_GT(summary.odometry_samples, 100u);
+  EXPECT_GT(summary.matched, 9 * sound.matched / 10);
+  EXPECT_LT(std::hypot(summary.rmse_truth[2], summary.rmse_truth[3]), 2.0);
+}
+
+}  // namespace
+}  // namespace ttf::drives
