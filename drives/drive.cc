@@ -89,11 +89,7 @@ void check_late(const Scenario& scenario, const schedules::model::Cluster& clust
                 fusion::strategies::StrategyKind strategy) {
   const fusion::oosm::Kind late = scenario.tracker.late;
   if (late == fusion::oosm::Kind::kRewind) return;  // always possible; computing the sensors' timing takes a while
-  const bool only_positions = std::none_of(
-      cluster.sensors.begin(), cluster.sensors.end(),
-      [](const schedules::model::Sensor& sensor) { return sensor.kind == schedules::model::SensorKind::kRadar; });
-  const std::string refusal =
-      fusion::strategies::late_refusal(strategy, late, nodes::fusion::sensor_timings(cluster), only_positions);
+  const std::string refusal = fusion::strategies::late_refusal(strategy, late, nodes::fusion::sensor_timings(cluster));
   if (refusal.empty()) return;
   Findings none;
   const int line = StrictYaml::parse(scenario.text, scenario.file).root(none).map("tracker").line("late");

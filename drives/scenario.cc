@@ -41,11 +41,13 @@ Scenario read_scenario(const StrictYaml& yaml) {
   YamlMap world = root.map("world");
   scenario.world = sim::world::load_world(world);
   scenario.world.duration = scenario.duration;
+  scenario.weather = sim::world::load_weather(world);
   world.finish();
   if (auto sensors = root.map_if("sensors")) {
     scenario.sensors = load_sensors(*sensors);
     sensors->finish();
   }
+  meet(scenario.weather, scenario.sensors);
   if (auto reference = root.map_if("reference")) {
     scenario.reference = sim::world::load_reference(*reference);
     reference->finish();

@@ -22,6 +22,7 @@
 #include "recording/osi/truth_trace.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/reference.h"
+#include "sim/world/weather.h"
 #include "sim/world/world.h"
 
 namespace ttf::drives {
@@ -39,7 +40,8 @@ struct Scenario {
   std::array<std::string, fusion::strategies::kStrategyCount> cluster_files;
   std::array<int, fusion::strategies::kStrategyCount> cluster_lines{};
   sim::world::WorldConfig world;
-  Sensors sensors;
+  sim::world::Weather weather;
+  Sensors sensors;  // in that weather
   sim::world::ReferenceConfig reference;
   fusion::config::TrackerConfig tracker;
   nodes::sensing::RecordedNoises recorded_noises;

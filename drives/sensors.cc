@@ -15,8 +15,11 @@ namespace {
 using schedules::model::SensorKind;
 
 // The kinds that the world can emulate. A kind's name is also that of its usual entry.
-const Choices<SensorKind> kKinds{
-    {"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}, {"odometry", SensorKind::kOdometry}};
+const Choices<SensorKind> kKinds{{"laser", SensorKind::kLaser},
+                                 {"camera", SensorKind::kCamera},
+                                 {"radar", SensorKind::kRadar},
+                                 {"mono_camera", SensorKind::kMonoCamera},
+                                 {"odometry", SensorKind::kOdometry}};
 
 // They are also the names of entries that need no kind.
 std::vector<std::string> kind_names() {
@@ -47,6 +50,15 @@ void load(YamlMap& yaml, nodes::camera::CameraCalibration& preprocessing) {
 }
 void load(YamlMap& yaml, nodes::sensing::OdometryPreprocessingConfig& preprocessing) {
   preprocessing = nodes::sensing::load_odometry_preprocessing(yaml);
+}
+
+void load(YamlMap& yaml, sim::world::RadarConfig& radar) { radar = sim::world::load_radar(yaml); }
+void load(YamlMap& yaml, sim::world::MonoCameraConfig& camera) { camera = sim::world::load_mono_camera(yaml); }
+void load(YamlMap& yaml, nodes::camera::MonoCalibration& preprocessing) {
+  preprocessing = nodes::camera::load_mono_calibration(yaml);
+}
+void load(YamlMap& yaml, nodes::radar::RadarPreprocessingConfig& preprocessing) {
+  preprocessing = nodes::radar::load_radar_preprocessing(yaml);
 }
 
 template <std::size_t kCount>
@@ -152,6 +164,8 @@ Sensors load_sensors(YamlMap& yaml) {
   Sensors sensors;
   load_usual(yaml, SensorKind::kLaser, sensors.lasers);
   load_usual(yaml, SensorKind::kCamera, sensors.cameras);
+  load_usual(yaml, SensorKind::kRadar, sensors.radars);
+  load_usual(yaml, SensorKind::kMonoCamera, sensors.mono_cameras);
   load_usual(yaml, SensorKind::kOdometry, sensors.odometries);
   for (auto& [name, entry] : yaml.other_maps()) {
     if (entry.lacks("kind")) {  // it decides which other keys there are
@@ -160,12 +174,13 @@ Sensors load_sensors(YamlMap& yaml) {
       continue;
     }
     const SensorKind kind = entry.choice("kind", kKinds);
-    if (kind == SensorKind::kLaser)
-      load_own(entry, kind, name, sensors.lasers);
-    else if (kind == SensorKind::kCamera)
-      load_own(entry, kind, name, sensors.cameras);
-    else
-      load_own(entry, kind, name, sensors.odometries);
+    switch (kind) {
+      case SensorKind::kLaser: load_own(entry, kind, name, sensors.lasers); break;
+      case SensorKind::kCamera: load_own(entry, kind, name, sensors.cameras); break;
+      case SensorKind::kRadar: load_own(entry, kind, name, sensors.radars); break;
+      case SensorKind::kMonoCamera: load_own(entry, kind, name, sensors.mono_cameras); break;
+      case SensorKind::kOdometry: load_own(entry, kind, name, sensors.odometries); break;
+    }
   }
   return sensors;
 }
@@ -179,13 +194,28 @@ void load_preprocessing(YamlMap& yaml, Sensors& sensors) {
   };
   load_of(SensorKind::kLaser, sensors.lasers);
   load_of(SensorKind::kCamera, sensors.cameras);
+  load_of(SensorKind::kRadar, sensors.radars);
+  load_of(SensorKind::kMonoCamera, sensors.mono_cameras);
   load_of(SensorKind::kOdometry, sensors.odometries);
+}
+
+void meet(const sim::world::Weather& weather, Sensors& sensors) {
+  const auto change = [&](auto& of_kind) {
+    of_kind.usual.model = sim::world::in_weather(of_kind.usual.model, weather);
+    for (auto& entry : of_kind.own) entry.model = sim::world::in_weather(entry.model, weather);
+  };
+  change(sensors.lasers);
+  change(sensors.cameras);
+  change(sensors.radars);
+  change(sensors.mono_cameras);
 }
 
 void check_sensors(const Scenario& scenario, const schedules::model::Cluster& cluster) {
   Check check(scenario, cluster);
   check.check(SensorKind::kLaser, scenario.sensors.lasers);
   check.check(SensorKind::kCamera, scenario.sensors.cameras);
+  check.check(SensorKind::kRadar, scenario.sensors.radars);
+  check.check(SensorKind::kMonoCamera, scenario.sensors.mono_cameras);
   check.check(SensorKind::kOdometry, scenario.sensors.odometries);
   check.finish();
 }
@@ -197,6 +227,8 @@ std::vector<recording::log::SensorStyle> sensor_styles(const Sensors& sensors,
     styles.emplace_back();
     if (sensor.kind == SensorKind::kLaser) styles.back() = sensors.lasers.of(sensor.name).style;
     if (sensor.kind == SensorKind::kCamera) styles.back() = sensors.cameras.of(sensor.name).style;
+    if (sensor.kind == SensorKind::kRadar) styles.back() = sensors.radars.of(sensor.name).style;
+    if (sensor.kind == SensorKind::kMonoCamera) styles.back() = sensors.mono_cameras.of(sensor.name).style;
     if (sensor.kind == SensorKind::kOdometry) styles.back() = sensors.odometries.of(sensor.name).style;
   }
   while (!styles.empty() && styles.back() == recording::log::SensorStyle{}) styles.pop_back();

@@ -18,14 +18,19 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "nodes/camera/ground_plane.h"
 #include "nodes/camera/triangulation.h"
 #include "nodes/laser/laser_preprocessor.h"
+#include "nodes/radar/returns.h"
 #include "nodes/sensing/odometry.h"
 #include "recording/log/sensor_style.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
+#include "sim/world/mono_camera.h"
 #include "sim/world/odometry.h"
+#include "sim/world/radar.h"
+#include "sim/world/weather.h"
 
 namespace ttf::drives {
 
@@ -61,12 +66,16 @@ template <class Model, class Preprocessing> struct SensorsOfKind {
 struct Sensors {
   SensorsOfKind<sim::world::LaserConfig, nodes::laser::LaserPreprocessingConfig> lasers;
   SensorsOfKind<sim::world::CameraConfig, nodes::camera::CameraCalibration> cameras;
+  SensorsOfKind<sim::world::RadarConfig, nodes::radar::RadarPreprocessingConfig> radars;
+  SensorsOfKind<sim::world::MonoCameraConfig, nodes::camera::MonoCalibration> mono_cameras;
   SensorsOfKind<sim::world::OdometryConfig, nodes::sensing::OdometryPreprocessingConfig> odometries;
 };
 
 // Reads `sensors`, and into the result `preprocessing`.
 Sensors load_sensors(YamlMap& yaml);
 void load_preprocessing(YamlMap& yaml, Sensors& sensors);
+// Changes all sensors as this weather does.
+void meet(const sim::world::Weather& weather, Sensors& sensors);
 
 // Checks that the cluster has every sensor with an entry of its own. Its kind and its period must be the same there,
 // and no recording may play it. Throws InputError with every finding.

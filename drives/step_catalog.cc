@@ -11,6 +11,7 @@
 #include "nodes/host/signals.h"
 #include "nodes/sensing/emulators.h"
 #include "nodes/sensing/gateway.h"
+#include "nodes/sensing/mono_camera.h"
 #include "nodes/sensing/odometry.h"
 #include "nodes/sensing/preprocessing.h"
 #include "nodes/sensing/recorded.h"
@@ -33,10 +34,16 @@ std::span<const schedules::model::StepPorts> step_ports() {
   static const std::vector<schedules::model::StepPorts> kPorts{
       {"laser_emulator", {}, {"raw"}, false},
       {"camera_emulator", {}, {"raw"}, false},
+      {"radar_emulator", {}, {"raw"}, false},
+      {"mono_camera_emulator", {}, {"raw"}, false},
+      {"lane_camera_emulator", {}, {"raw", "marks"}, false},
       {"odometry_emulator", {}, {"raw"}, false},
       {"recorded_source", {}, {"raw"}, false},
       {"laser_preprocessing", {"raw"}, {"objects"}, false},
       {"camera_preprocessing", {"raw"}, {"objects"}, false},
+      {"radar_preprocessing", {"raw"}, {"objects"}, false},
+      {"mono_camera_preprocessing", {"raw"}, {"objects"}, false},
+      {"lane_camera_preprocessing", {"raw", "marks"}, {"objects", "lanes"}, false},
       {"odometry_preprocessing", {"raw"}, {"odometry"}, false},
       {"recorded_preprocessing", {"raw"}, {"objects"}, false},
       {"gateway", {"in"}, {"out"}, false},
@@ -74,6 +81,9 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "camera_emulator") {
       steps.push_back(std::make_shared<nodes::sensing::CameraEmulator>(
           emulator, scenario.sensors.cameras.of(name_of(cluster, emulator.sensor)).model));
+    } else if (task.step == "radar_emulator") {
+      steps.push_back(std::make_shared<nodes::sensing::RadarEmulator>(
+          emulator, scenario.sensors.radars.of(name_of(cluster, emulator.sensor)).model));
     } else if (task.step == "odometry_emulator") {
       steps.push_back(std::make_shared<nodes::sensing::OdometryEmulator>(
           emulator, scenario.sensors.odometries.of(name_of(cluster, emulator.sensor)).model));
@@ -90,6 +100,15 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "camera_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::CameraPreprocessing>(
           cluster, task, scenario.sensors.cameras.preprocessing_of(name_read(cluster, task))));
+    } else if (task.step == "mono_camera_emulator" || task.step == "lane_camera_emulator") {
+      steps.push_back(std::make_shared<nodes::sensing::MonoCameraEmulator>(
+          emulator, scenario.sensors.mono_cameras.of(name_of(cluster, emulator.sensor)).model));
+    } else if (task.step == "mono_camera_preprocessing" || task.step == "lane_camera_preprocessing") {
+      steps.push_back(std::make_shared<nodes::sensing::MonoCameraPreprocessing>(
+          cluster, task, scenario.sensors.mono_cameras.preprocessing_of(name_read(cluster, task))));
+    } else if (task.step == "radar_preprocessing") {
+      steps.push_back(std::make_shared<nodes::sensing::RadarPreprocessing>(
+          cluster, task, scenario.sensors.radars.preprocessing_of(name_read(cluster, task))));
     } else if (task.step == "odometry_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::OdometryPreprocessing>(
           cluster, task, scenario.sensors.odometries.preprocessing_of(name_read(cluster, task))));

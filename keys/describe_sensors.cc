@@ -9,6 +9,9 @@ constexpr Description kSensor[] = {
     {"mounting", "The sensor sits here on the vehicle; absent, at its origin."},
     {"time_bias", "The sensor measures this long after the instant of its time stamp."},
     {"time_bias_sigma", "Each drive draws a further bias of the time stamp with this standard deviation."},
+    {"blind", "The sensor's own vehicle hides these sectors, at most four; absent, none.", "[{from: 0.3, to: 0.5}]"},
+    {"blind[].from", "The sector begins at this azimuth, in the sensor's axes.", "0.3"},
+    {"blind[].to", "It ends at this one, counter-clockwise.", "0.5"},
     {"preprocessing",
      "The sensor's host makes observations with these parameters of its kind; absent, with those of `preprocessing`."},
     {"period", "The sensor measures once in this time; the schedule says when, and must have the same period.",
@@ -47,6 +50,89 @@ constexpr Description kCamera[] = {
     {"bearing_bias_sigma", "Each drive draws a further bias of the bearing with this standard deviation."},
     {"disparity_bias", "All disparities are too large by this."},
     {"disparity_bias_sigma", "Each drive draws a further bias of the disparity with this standard deviation."},
+};
+
+constexpr Description kRadar[] = {
+    {"half_field", "The radar sees this far to either side."},
+    {"max_range", "The radar sees no further than this."},
+    {"beam_width", "The antenna has half of its gain at the edges of a beam this wide."},
+    {"range_sigma", "A range has this standard deviation."},
+    {"azimuth_sigma", "An azimuth has this standard deviation."},
+    {"range_rate_sigma", "A range rate has this standard deviation."},
+    {"range_cell", "Echoes in one cell are one return: cells are this long."},
+    {"azimuth_cell", "Cells are this wide."},
+    {"range_rate_cell", "Cells hold range rates this far apart."},
+    {"range_rate_span", "Range rates are known up to multiples of this, and lie within half of it about zero."},
+    {"most_returns", "An object reflects at so many points, which share its cross-section."},
+    {"snr_at_100m", "One square metre 100 m ahead has this ratio of signal to noise."},
+    {"false_alarm_probability", "The detection threshold lets the noise of one cell through with this probability."},
+    {"attenuation", "The air weakens the signal by this, each way."},
+    {"shadow",
+     "An object hides others behind it up to this share of its own distance; 0: none, since echoes pass below."},
+    {"clutter_per_list", "A list has so many false returns on the average."},
+    {"range_bias", "All ranges are too long by this."},
+    {"range_bias_sigma", "Each drive draws a further bias of the range with this standard deviation."},
+    {"azimuth_bias", "All azimuths are too large by this."},
+    {"azimuth_bias_sigma", "Each drive draws a further bias of the azimuth with this standard deviation."},
+    {"range_rate_bias", "All range rates are too large by this."},
+    {"range_rate_bias_sigma", "Each drive draws a further bias of the range rate with this standard deviation."},
+};
+
+constexpr Description kRadarPreprocessing[] = {
+    {"range_sigma", "A range is assumed to have this standard deviation."},
+    {"azimuth_sigma", "An azimuth is assumed to have this standard deviation."},
+    {"range_rate_sigma", "A range rate is assumed to have this standard deviation."},
+    {"range_rate_span", "Range rates are taken to be known up to multiples of this."},
+    {"range_gate", "Returns of one object differ in range by no more than this from the next one of it."},
+    {"across_gate",
+     "They differ across the line of sight by no more than this, and three standard deviations of their azimuths."},
+    {"range_rate_gate", "They differ in range rate by no more than this."},
+};
+
+constexpr Description kMonoCamera[] = {
+    {"height", "The camera sits this high over ground."},
+    {"focal", "The camera has this focal length."},
+    {"half_field", "The camera sees this far to either side."},
+    {"half_height", "The picture has so many rows above its middle, and as many below."},
+    {"max_range", "Objects further away than this have no box."},
+    {"column_sigma", "The left and the right edge of a box each have this standard deviation."},
+    {"row_sigma", "The upper and the lower edge of a box each have this standard deviation."},
+    {"detection_probability", "A large box is detected with this probability."},
+    {"half_detected", "A box of this height is detected with half of that probability."},
+    {"detection_slope", "The probability grows from a quarter to three quarters of that over 2.2 times this height."},
+    {"class_confusion", "A box has a wrong class with this probability."},
+    {"clutter_per_frame", "A list has so many false boxes on the average."},
+    {"regions",
+     "The camera looks for boxes in these rectangles of the picture, by their middle; absent, in all of it."},
+    {"regions[].left", "The rectangle begins at this column, counted to the right from the picture's middle.", "-200"},
+    {"regions[].right", "The rectangle ends at this column.", "200"},
+    {"regions[].top", "The rectangle begins at this row, counted downwards from the picture's middle.", "-100"},
+    {"regions[].bottom", "The rectangle ends at this row.", "100"},
+    {"marks", "The camera measures marks of lanes like this, if the cluster has a list for them."},
+    {"marks.ahead", "Marks are measured this far ahead of the vehicle's origin."},
+    {"marks.widest", "Marks further aside are not seen."},
+    {"marks.offset_sigma", "The offset of a mark has this standard deviation."},
+    {"marks.heading_sigma", "The heading of a mark has this standard deviation."},
+    {"marks.curvature_sigma", "The curvature of a mark has this standard deviation."},
+    {"marks.miss_probability", "A mark is missed with this probability."},
+    {"marks.false_per_list", "A list has so many false marks on the average."},
+    {"bearing_bias", "All bearings are too large by this."},
+    {"bearing_bias_sigma", "Each drive draws a further bias of the bearing with this standard deviation."},
+    {"pitch", "The camera looks down by this, beyond its known mounting."},
+    {"pitch_sigma", "Each drive draws a further pitch with this standard deviation."},
+};
+
+constexpr Description kMonoCameraPreprocessing[] = {
+    {"height", "The camera is taken to sit this high over ground."},
+    {"focal", "The camera is taken to have this focal length."},
+    {"pitch", "The camera is taken to look down by this."},
+    {"pitch_sigma", "The pitch is assumed to have this standard deviation, as noise of each box."},
+    {"column_sigma", "The left and the right edge of a box are each assumed to have this standard deviation."},
+    {"row_sigma", "The lower edge of a box is assumed to have this standard deviation."},
+    {"marks", "Marks of lanes are assumed to have these standard deviations."},
+    {"marks.offset_sigma", "The offset of a mark is assumed to have this standard deviation."},
+    {"marks.heading_sigma", "The heading of a mark is assumed to have this standard deviation."},
+    {"marks.curvature_sigma", "The curvature of a mark is assumed to have this standard deviation."},
 };
 
 constexpr Description kOdometry[] = {
@@ -98,6 +184,14 @@ constexpr Description kKnownSensor[] = {
     {"field.max_range", "It sees nothing further than this; absent, any range.", "120"},
     {"field.shadow",
      "An object hides others behind it up to this share of its own distance; absent, all that are behind it.", "0.5"},
+    {"field.blind", "The sensor's own vehicle hides these sectors, at most four; absent, none.",
+     "[{from: 0.3, to: 0.5}]"},
+    {"field.blind[].from", "The sector begins at this azimuth, in the sensor's axes.", "0.3"},
+    {"field.blind[].to", "It ends at this one, counter-clockwise.", "0.5"},
+    {"range_rate_span",
+     "The sensor's range rates are known up to multiples of this; absent, as those of the scenario's radar, or "
+     "unambiguous.",
+     "60"},
     {"bias", "The sensor is known to measure too much by these; the tracker corrects it."},
     {"bias.range", "Its ranges are too long by this.", "0.2"},
     {"bias.bearing", "Its bearings are too large by this.", "0.01"},
@@ -118,10 +212,14 @@ constexpr Description kKnownSensor[] = {
 Descriptions sensor_descriptions() { return kSensor; }
 Descriptions laser_descriptions() { return kLaser; }
 Descriptions camera_descriptions() { return kCamera; }
+Descriptions radar_descriptions() { return kRadar; }
+Descriptions mono_camera_descriptions() { return kMonoCamera; }
 Descriptions odometry_descriptions() { return kOdometry; }
 Descriptions odometry_preprocessing_descriptions() { return kOdometryPreprocessing; }
 Descriptions laser_preprocessing_descriptions() { return kLaserPreprocessing; }
 Descriptions camera_preprocessing_descriptions() { return kCameraPreprocessing; }
+Descriptions radar_preprocessing_descriptions() { return kRadarPreprocessing; }
+Descriptions mono_camera_preprocessing_descriptions() { return kMonoCameraPreprocessing; }
 Descriptions known_sensor_descriptions() { return kKnownSensor; }
 
 }  // namespace ttf::keys

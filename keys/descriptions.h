@@ -19,9 +19,13 @@ Descriptions scenario_descriptions();
 Descriptions sensor_descriptions();  // below a sensor of a scenario, whatever its kind
 Descriptions laser_descriptions();
 Descriptions camera_descriptions();
-Descriptions odometry_descriptions();
+Descriptions radar_descriptions();
+Descriptions mono_camera_descriptions();
 Descriptions laser_preprocessing_descriptions();
 Descriptions camera_preprocessing_descriptions();
+Descriptions radar_preprocessing_descriptions();
+Descriptions mono_camera_preprocessing_descriptions();
+Descriptions odometry_descriptions();
 Descriptions odometry_preprocessing_descriptions();
 Descriptions ego_descriptions();            // below `world.ego`
 Descriptions road_descriptions();           // below `world.road`

@@ -39,6 +39,8 @@ std::vector<Chapter> scenario_chapters() {
   std::vector<Chapter> chapters{{"", scenario_descriptions()},
                                 {"preprocessing.laser", laser_preprocessing_descriptions()},
                                 {"preprocessing.camera", camera_preprocessing_descriptions()},
+                                {"preprocessing.radar", radar_preprocessing_descriptions()},
+                                {"preprocessing.mono_camera", mono_camera_preprocessing_descriptions()},
                                 {"preprocessing.odometry", odometry_preprocessing_descriptions()},
                                 {"world.ego", ego_descriptions()},
                                 {"world.road", road_descriptions()},
@@ -48,24 +50,30 @@ std::vector<Chapter> scenario_chapters() {
                                 {"tracker.sensors.NAME.mounting", mounting_descriptions()},
                                 {"faults[]", fault_descriptions()}};
   for (const char* place : {"world.size", "world.objects[].size"}) chapters.push_back({place, size_descriptions()});
-  const auto add_sensor = [&](const std::string& name, bool laser, bool camera, bool odometry, bool any) {
+  struct Kind {
+    const char* name;
+    Descriptions sensor, preprocessing;
+  };
+  const Kind kinds[] = {{"camera", camera_descriptions(), camera_preprocessing_descriptions()},
+                        {"laser", laser_descriptions(), laser_preprocessing_descriptions()},
+                        {"radar", radar_descriptions(), radar_preprocessing_descriptions()},
+                        {"mono_camera", mono_camera_descriptions(), mono_camera_preprocessing_descriptions()},
+                        {"odometry", odometry_descriptions(), odometry_preprocessing_descriptions()}};
+  // A kind's own entry, or that of any name.
+  const auto add_sensor = [&](const std::string& name) {
     const std::string place = "sensors." + name;
     chapters.push_back({place, sensor_descriptions()});
     chapters.push_back({place + ".mounting", mounting_descriptions()});
-    if (camera) chapters.push_back({place, camera_descriptions(), any ? "kind=camera" : ""});
-    if (camera)
-      chapters.push_back({place + ".preprocessing", camera_preprocessing_descriptions(), any ? "kind=camera" : ""});
-    if (laser) chapters.push_back({place, laser_descriptions(), any ? "kind=laser" : ""});
-    if (laser)
-      chapters.push_back({place + ".preprocessing", laser_preprocessing_descriptions(), any ? "kind=laser" : ""});
-    if (odometry) chapters.push_back({place, odometry_descriptions(), any ? "kind=odometry" : ""});
-    if (odometry)
-      chapters.push_back({place + ".preprocessing", odometry_preprocessing_descriptions(), any ? "kind=odometry" : ""});
+    for (const Kind& kind : kinds) {
+      const bool any = name == kAnyName;
+      if (!any && name != kind.name) continue;
+      const std::string when = any ? std::string("kind=") + kind.name : "";
+      chapters.push_back({place, kind.sensor, when});
+      chapters.push_back({place + ".preprocessing", kind.preprocessing, when});
+    }
   };
-  add_sensor("laser", true, false, false, false);
-  add_sensor("camera", false, true, false, false);
-  add_sensor("odometry", false, false, true, false);
-  add_sensor(kAnyName, true, true, true, true);
+  for (const Kind& kind : kinds) add_sensor(kind.name);
+  add_sensor(kAnyName);
   return chapters;
 }
 

@@ -52,11 +52,12 @@ std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
   return period;
 }
 
-bool only_positions(const RecordedLists& recorded) {
-  return std::all_of(recorded.lists.begin(), recorded.lists.end(), [](const RecordedList& list) {
-    return std::all_of(list.observations.begin(), list.observations.end(),
+bool measures_ranges(const RecordedLists& recorded, SensorId sensor) {
+  return std::any_of(recorded.lists.begin(), recorded.lists.end(), [&](const RecordedList& list) {
+    return list.id.sensor == sensor &&
+           std::any_of(list.observations.begin(), list.observations.end(),
                        [](const fusion::sensors::Observation& observation) {
-                         return observation.kind == fusion::sensors::ObservationKind::kPosition;
+                         return observation.kind != fusion::sensors::ObservationKind::kPosition;
                        });
   });
 }
@@ -76,7 +77,8 @@ std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists
                                             fusion::strategies::Settling::after(setup.worst_delay.value_or(longest[s])),
                                             false,
                                             {},
-                                            {}};
+                                            {},
+                                            measures_ranges(recorded, static_cast<SensorId>(s))};
     const std::optional<Duration> period = setup.period ? setup.period : regular_period(times[s]);
     if (on_schedule && period && (setup.first || !times[s].empty())) {
       timing.scheduled = any_scheduled = true;
@@ -89,7 +91,7 @@ std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists
     throw InputError(
         {config.file.empty() ? "command line" : config.file, 0, "strategy", std::string(name_of(strategy)),
          "needs the period of at least one sensor: no period is given, and no sensor measures at regular instants"});
-  const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings, only_positions(recorded));
+  const std::string refusal = fusion::strategies::late_refusal(strategy, late, timings);
   if (!refusal.empty())
     throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});
   return timings;

@@ -18,8 +18,8 @@ std::vector<Duration> longest_delays(const RecordedLists& recorded);
 // one. Grid instants may lack a time. Returns nullopt for fewer than three times and for irregular ones.
 std::optional<Duration> regular_period(const std::vector<GlobalTime>& times);
 
-// Returns whether the observations contain positions only.
-bool only_positions(const RecordedLists& recorded);
+// Returns whether the sensor has observations by range.
+bool measures_ranges(const RecordedLists& recorded, SensorId sensor);
 
 // Returns the timings by sensor. The worst delay is the configuration's, otherwise the longest in the recording.
 // Scheduled instants, for TT and for clones, need a period in the configuration or a regular recording. Throws

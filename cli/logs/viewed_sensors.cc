@@ -37,7 +37,9 @@ void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor)
       case schedules::model::SensorKind::kCamera:
         return place_emulated(attached.scenario->sensors.cameras.of(of.name).model, sensor);
       case schedules::model::SensorKind::kRadar:
+        return place_emulated(attached.scenario->sensors.radars.of(of.name).model, sensor);
       case schedules::model::SensorKind::kMonoCamera:
+        return place_emulated(attached.scenario->sensors.mono_cameras.of(of.name).model, sensor);
       case schedules::model::SensorKind::kOdometry: break;
     }
   }

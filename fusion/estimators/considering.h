@@ -52,7 +52,8 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
       : model_(model), prior_(prior), biases_(config.sensors), filter_{.bias = biases_.covariance()},
         velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma) {}
 
-  Estimate initial(const sensors::Observation& o) const override {
+  Estimate initial(const sensors::Observation& observation) const override {
+    const sensors::Observation o = as_first(observation, velocity_variance_);
     const linear::Gaussian<4> first = first_estimate(o, velocity_variance_);
     const sensors::OwnBiases& biases = biases_.of(o.sensor);
     Own own{.state = prior_};
@@ -80,7 +81,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
   std::optional<double> distance_squared(const Estimate& estimate, const sensors::Observation& o) const override {
     const Own& own = own_of(estimate);
     return through_sensor(o, [&](const auto& sensor, auto z) -> std::optional<double> {
-      blur(own, sensor, z);
+      prepare(own, sensor, o, z);
       const auto innovation = filter_.innovate(model_, sensor, z, own);
       if (!innovation.used) return std::nullopt;
       return innovation.nis;
@@ -90,7 +91,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
   std::optional<Fit> fit(const Estimate& estimate, const sensors::Observation& o) const override {
     const Own& own = own_of(estimate);
     return through_sensor(o, [&](const auto& sensor, auto z) -> std::optional<Fit> {
-      blur(own, sensor, z);
+      prepare(own, sensor, o, z);
       const auto innovation = filter_.innovate(model_, sensor, z, own);
       if (!innovation.used) return std::nullopt;
       return Fit{innovation.nis, std::exp(innovation.log_likelihood())};
@@ -149,7 +150,7 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
 
   void take_in(Own& own, const sensors::Observation& o) const {
     through_sensor(o, [&](const auto& sensor, auto z) {
-      blur(own, sensor, z);
+      prepare(own, sensor, o, z);
       filter_.update(model_, sensor, z, own);
     });
   }
@@ -161,7 +162,17 @@ requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
       return body(sensors::AmongBiases<sensors::Position>{{}, own, o.from},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
     using Radar = sensors::Mounted<sensors::RangeBearingRate>;
-    return body(sensors::AmongBiases<Radar>{Radar(o.from), own, o.from}, sensors::Measurement<3>{o.z, o.r});
+    return body(sensors::AmongBiases<Radar>{Radar(o.from, {o.rate_span}), own, o.from},
+                sensors::Measurement<3>{o.z, o.r});
+  }
+
+  template <class S>
+  static void prepare(const Own& own, const S& sensor, const sensors::Observation& o,
+                      sensors::Measurement<S::kDimension>& z) {
+    if constexpr (S::kDimension == 3)
+      if (std::isfinite(o.rate_span))
+        doubt_rate(z, o.rate_span, z.z(1) + o.from.yaw, own.state.p.template block<2, 2>(2, 2));
+    blur(own, sensor, z);
   }
 
   // Adds the noise of the time stamp's error that comes from the uncertain velocity.

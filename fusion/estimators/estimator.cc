@@ -61,6 +61,17 @@ linear::Gaussian<4> first_estimate(const sensors::Observation& observation, doub
   return estimate;
 }
 
+sensors::Observation as_first(const sensors::Observation& observation, double velocity_variance) {
+  if (observation.kind == sensors::ObservationKind::kPosition || rate_counts(observation.rate_span, velocity_variance))
+    return observation;
+  sensors::Observation without = observation;
+  without.z(2) = 0.0;
+  without.r.row(2).setZero();
+  without.r.col(2).setZero();
+  without.r(2, 2) = velocity_variance;
+  return without;
+}
+
 bool knows_course(const linear::Gaussian<4>& state) {
   const double speed_squared = state.x.tail<2>().squaredNorm();
   return speed_squared >= motion::kSlowest * motion::kSlowest &&

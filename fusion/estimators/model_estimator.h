@@ -17,6 +17,7 @@
 #include <variant>
 
 #include "core/check.h"
+#include "fusion/estimators/doubtful_rate.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/estimators/single.h"
 #include "fusion/sensors/mounted.h"
@@ -30,6 +31,8 @@ inline constexpr double kKnown = 0.25;
 // Returns position and velocity from one observation, with `velocity_variance` in every unobserved direction, where the mean
 // is that of an object which stands.
 linear::Gaussian<4> first_estimate(const sensors::Observation& observation, double velocity_variance);
+// Returns the observation as the first one of an object whose velocity has this variance.
+sensors::Observation as_first(const sensors::Observation& observation, double velocity_variance);
 // Returns whether the object is known to move, and in which direction.
 bool knows_course(const linear::Gaussian<4>& state);
 
@@ -43,7 +46,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   }
 
   Estimate initial(const sensors::Observation& observation) const override {
-    const linear::Gaussian<4> first = first_estimate(observation, velocity_variance_);
+    const linear::Gaussian<4> first = first_estimate(as_first(observation, velocity_variance_), velocity_variance_);
     if constexpr (Kernel::kNeedsCourse)
       return first;
     else
@@ -59,7 +62,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   std::optional<double> distance_squared(const Estimate& estimate,
                                          const sensors::Observation& observation) const override {
     return with(estimate, [&](const auto& kernel, const auto& own) {
-      return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<double> {
+      return through_sensor(kernel, own, observation, [&](const auto& sensor, const auto& z) -> std::optional<double> {
         const auto innovation = kernel.innovate(sensor, z, own);
         if (!innovation.used) return std::nullopt;
         return innovation.nis;
@@ -69,7 +72,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
 
   std::optional<Fit> fit(const Estimate& estimate, const sensors::Observation& observation) const override {
     return with(estimate, [&](const auto& kernel, const auto& own) {
-      return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<Fit> {
+      return through_sensor(kernel, own, observation, [&](const auto& sensor, const auto& z) -> std::optional<Fit> {
         const auto innovation = kernel.innovate(sensor, z, own);
         if (!innovation.used) return std::nullopt;
         return Fit{innovation.nis, std::exp(innovation.log_likelihood())};
@@ -138,18 +141,22 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   // One function for both updates, for speed: with two copies the compiler would inline neither filter.
   template <class K, class Own>
   [[gnu::noinline]] void take_in(const K& kernel, Own& own, const sensors::Observation& observation) const {
-    through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
+    through_sensor(kernel, own, observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
   // Calls the body with the sensor's model and the measurement. Positions are already in the tracks' axes
   // (fusion/sensors/known_sensor.h).
-  template <class Body> auto through_sensor(const sensors::Observation& o, const Body& body) const {
+  template <class K, class Own, class Body>
+  auto through_sensor(const K& kernel, const Own& own, const sensors::Observation& o, const Body& body) const {
     if (o.kind == sensors::ObservationKind::kPosition)
       return body(sensors::Position{},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
-    const sensors::Measurement<3> z{o.z, o.r};
-    if (!at_the_origin(o.from)) return body(sensors::Mounted<sensors::RangeBearingRate>(o.from), z);
-    return body(sensors::RangeBearingRate{}, z);
+    sensors::Measurement<3> z{o.z, o.r};
+    if (std::isfinite(o.rate_span))
+      doubt_rate(z, o.rate_span, z.z(1) + o.from.yaw, kernel.cartesian(own).p.template block<2, 2>(2, 2));
+    const sensors::RangeBearingRate radar{o.rate_span};
+    if (!at_the_origin(o.from)) return body(sensors::Mounted<sensors::RangeBearingRate>(o.from, radar), z);
+    return body(radar, z);
   }
 
   Kernel kernel_;

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <numbers>
 #include <optional>
 
 namespace ttf::fusion::loading {
 
-using sensors::ErrorAxes, sensors::Field, sensors::KnownSensor;
+using sensors::BlindSector, sensors::ErrorAxes, sensors::Field, sensors::KnownSensor;
 
 namespace {
 
@@ -48,6 +49,16 @@ Field load_field(YamlMap& yaml) {
   f.max_range = yaml.number_or("max_range", f.max_range, {0.1, 1e4}, "m");
   if (f.max_range <= f.min_range) yaml.fail("max_range", "must be above min_range");
   f.shadow = yaml.number_or("shadow", f.shadow, {0.0, 1e6});
+  for (YamlMap& map : yaml.maps_if("blind")) {
+    const BlindSector sector{map.number("from", kHeading, "rad"), map.number("to", kHeading, "rad")};
+    if (sector.to <= sector.from || sector.to - sector.from > 2.0 * std::numbers::pi)
+      map.fail("to", "must be above `from`, by at most a turn");
+    map.finish();
+    if (f.blind_sectors < Field::kMostBlind)
+      f.blind[f.blind_sectors++] = sector;
+    else
+      yaml.fail("blind", fmt::format("must have at most {} sectors", Field::kMostBlind));
+  }
   return f;
 }
 
@@ -65,6 +76,7 @@ KnownSensor load_known_sensor(YamlMap& yaml) {
     sensor.field = load_field(*field);
     field->finish();
   }
+  sensor.range_rate_span = yaml.number_or("range_rate_span", sensor.range_rate_span, {1.0, 400.0}, "m/s");
   std::optional<ErrorAxes> axes;
   if (auto bias = yaml.map_if("bias")) {
     read_components(*bias, -1.0, sensor.errors.known, axes);

@@ -9,7 +9,7 @@
 
 namespace ttf::fusion::loading {
 
-// Reads `mounting`, `field`, `bias` and `bias_sigma`. The caller sets name and line.
+// Reads `mounting`, `field`, `range_rate_span`, `bias` and `bias_sigma`. The caller sets name and line.
 sensors::KnownSensor load_known_sensor(YamlMap& yaml);
 
 // Reports a finding about `key` when the sensors have more biases than a tracker carries.

@@ -56,6 +56,7 @@ int count_biases(std::span<const KnownSensor> sensors) {
 
 void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   observation.sensor = id;
+  observation.rate_span = sensor.range_rate_span;
   if (sensor.plain()) return;
   observation.from = sensor.mounting;
   const bool position = observation.kind == ObservationKind::kPosition;

@@ -3,6 +3,7 @@
 //
 //   mounting: {x: 3.5, y: 0.0, heading: 0.0}      # on the vehicle: [m], and [rad] from its x axis to the sensor's
 //   field: {half_angle: 1.05, max_range: 120.0}   # what it sees; absent: nothing is known of that
+//   range_rate_span: 60.0                         # [m/s], a radar's range rates are known up to multiples of this
 //   bias: {range: 0.2, bearing: 0.01}             # known excess of the measurement, which is subtracted
 //   bias_sigma: {range: 0.1, bearing: 0.005, time: 10 ms}   # unknown rest: TrackerConfig::systematic
 //
@@ -39,7 +40,8 @@ struct KnownSensor {
   int line = 0;  // in the file that names the sensor; 0 without such a file
   sensors::Mounting mounting{};
   SystematicErrors errors;
-  std::optional<Field> field;  // absent: the sensor is taken to see everything
+  std::optional<Field> field;                  // absent: the sensor is taken to see everything
+  double range_rate_span = Field::kUnbounded;  // [m/s]: a radar's range rates are known up to multiples of this
 
   // Returns whether the sensor sits at the vehicle's origin, along its axes and without known biases: the
   // tracker takes its measurements unchanged.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -53,6 +54,7 @@ struct Observation {
   Mounting from{};              // the sensor's place in the axes of the tracks, once placed
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
+  double rate_span = std::numeric_limits<double>::infinity();  // [m/s], a range rate is known up to multiples of it
   bool has_heading = false, has_length = false, has_width = false, has_span = false;
   double heading = 0.0, sigma_heading = 0.0;  // [rad], of the object's axis: known up to half a turn
   double length = 0.0, sigma_length = 0.0;    // [m]
@@ -62,6 +64,8 @@ struct Observation {
   ClassId class_id = kNoClass;  // below kMostClasses, or kNoClass
   double score = 0.0;           // not negative: the weight of the class
   ThirdAxis third;
+  // A radar's: the mean of so many returns of the visible outline, whose spread r lacks (fusion/tracks/returns.h). 0: r has all.
+  std::uint8_t returns = 0;
   // In (0, 1]: how surely this is an object of the tracker's kind, and not of the surroundings. A doubtful observation
   // updates tracks, but begins and confirms none.
   double weight = 1.0;

@@ -290,13 +290,11 @@ static_assert(std::find(kMakers.begin(), kMakers.end(), nullptr) == kMakers.end(
 
 }  // namespace
 
-std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
-                         bool only_positions) {
+std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors) {
   const TakesLate takes_late = row_of(kind).takes_late;
   if (takes_late == TakesLate::kByRewinding || late == oosm::Kind::kRewind) return {};
   if (takes_late == TakesLate::kByClones && late != oosm::Kind::kClone)
     return "must be rewind or clone with strategy " + std::string(name_of(kind));
-  if (!only_positions) return "must be rewind if a sensor measures range and bearing: the other methods take positions";
   const bool scheduled =
       std::all_of(sensors.begin(), sensors.end(), [](const SensorTiming& sensor) { return sensor.scheduled; });
   if (late == oosm::Kind::kClone && !scheduled)
@@ -307,7 +305,7 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
   const bool rewinds = row_of(kind).takes_late == TakesLate::kByRewinding || config.late == oosm::Kind::kRewind;
-  const std::string refusal = late_refusal(kind, config.late, sensors, true);
+  const std::string refusal = late_refusal(kind, config.late, sensors);
   TTF_CHECK(refusal.empty(), "late {}", refusal);
   std::unique_ptr<tracks::TrackHistory> history;
   if (rewinds)

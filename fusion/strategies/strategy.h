@@ -118,6 +118,7 @@ struct SensorTiming {
   bool scheduled = false;  // the instants below are known beforehand
   GlobalTime first{};
   Duration period{};
+  bool measures_ranges = false;  // range, bearing and range rate; else positions
 };
 
 enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
@@ -166,9 +167,8 @@ class Strategy {
 };
 
 // Returns why a strategy cannot use this method for late lists, empty if it can. The text is the required value
-// of TrackerConfig::late, in the words of a Finding. With only_positions, all sensors measure positions.
-std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
-                         bool only_positions);
+// of TrackerConfig::late, in the words of a Finding.
+std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors);
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const config::TrackerConfig& config,
                                         std::span<const SensorTiming> sensors);

@@ -208,8 +208,10 @@ inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z
   judge_pair(set.tracks[placed.track], z, row, static_cast<int>(placed.track), distance, mounting);
 }
 
-[[gnu::noinline]] void Tracker::judge_pair(const Track& track, const sensors::Observation& z, std::size_t row,
+[[gnu::noinline]] void Tracker::judge_pair(const Track& track, const sensors::Observation& seen, std::size_t row,
                                            int column, const Distance* distance, const sensors::Mounting& mounting) {
+  const std::optional<sensors::Observation> spread = spread_on(track, seen);
+  const sensors::Observation& z = spread ? *spread : seen;
   std::optional<sensors::Observation> moved;
   if (distance) moved = expected(z, *distance, mounting);
   const sensors::Observation& as_anchor = moved ? *moved : z;
@@ -276,8 +278,10 @@ void Tracker::judge_existence(Track& track, std::size_t column, const sensors::O
   double ratio = 0.0;
   if (z) {
     const Distance* distance = distance_of(track, column, *z);
+    const std::optional<sensors::Observation> spread = spread_on(track, *z);
+    const sensors::Observation& seen = spread ? *spread : *z;
     const std::optional<estimators::Fit> fit =
-        estimator_->fit(track.estimate, distance ? expected(*z, *distance, z->from) : *z);
+        estimator_->fit(track.estimate, distance ? expected(seen, *distance, z->from) : seen);
     if (fit) ratio = likelihood_ratio(*z, fit->density, config_, visible);
   }
   track.existence = after_list(track.existence, ratio, config_, visible);
@@ -289,7 +293,9 @@ const Distance* Tracker::distance_of(const Track& track, std::size_t column, con
 
 sensors::Observation Tracker::referred(const Track& track, const sensors::Observation& z) const {
   const std::optional<Distance> distance = distance_of(track, z);
-  return distance ? counted(z, *distance, z.from, estimator_->position(track.estimate).p) : z;
+  const std::optional<sensors::Observation> spread = spread_on(track, z);
+  const sensors::Observation& seen = spread ? *spread : z;
+  return distance ? counted(seen, *distance, z.from, estimator_->position(track.estimate).p) : seen;
 }
 
 void Tracker::count_elsewhere(Track& track, const sensors::Observation& z, const Distance& distance, bool moves,
@@ -308,10 +314,19 @@ void Tracker::count_elsewhere(Track& track, const sensors::Observation& z, const
   taken.counted = counted(z, distance, z.from, at.p);
 }
 
+void Tracker::count_spread(const std::optional<sensors::Observation>& spread, Referred& taken) {
+  if (!spread) return;
+  if (!taken.elsewhere || taken.moved) taken.counted = *spread;
+  taken.spread = true;
+}
+
 Tracker::Referred Tracker::referred_late(Track& then, const sensors::Observation& z, bool may_move) const {
   const std::optional<Distance> distance = distance_of(then, z);
+  const std::optional<sensors::Observation> spread = spread_on(then, z);
   Referred taken{.from = then.anchor};
-  if (distance) count_elsewhere(then, z, *distance, may_move && gives_way(then.anchor, z.seen), taken);
+  if (distance)
+    count_elsewhere(then, spread ? *spread : z, *distance, may_move && gives_way(then.anchor, z.seen), taken);
+  count_spread(spread, taken);
   return taken;
 }
 
@@ -321,14 +336,16 @@ const sensors::Observation& Tracker::refer(Track& track, std::size_t column, con
   const Distance* distance = distance_of(track, column, z);
   // A write that is not read is left out: it takes time.
   Referred& taken = taken_[row];
-  taken.elsewhere = taken.moved = false;
+  taken.elsewhere = taken.moved = taken.spread = false;
   taken.from = track.anchor;
+  const std::optional<sensors::Observation> spread = spread_on(track, z);
   track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
   if (distance)
-    count_elsewhere(track, z, *distance,
+    count_elsewhere(track, spread ? *spread : z, *distance,
                     gives_way(track.anchor, z.seen) || track.lists_elsewhere >= lists_elsewhere_before(z.seen), taken);
   else if (z.seen == sensors::SeenPoint::kSilhouette)
     track.anchor.from = z.from.position;
+  count_spread(spread, taken);
   return taken.of(z);
 }
 
@@ -387,9 +404,9 @@ void Tracker::give_birth(TrackSet& set, const sensors::ObservationList& list) {
     if (!by_existence && z.weight < sensors::kSureWeight) continue;
     Track track;
     track.birth = track.newest = {list.id, static_cast<std::uint16_t>(o), list.measured};
-    track.estimate = estimator_->initial(z);
-    track.anchor = first_anchor(z, z.from);
     track.extent = Extent(config_.sizes);
+    track.estimate = estimator_->initial(z.returns > 0 ? with_spread(z, track.extent) : z);
+    track.anchor = first_anchor(z, z.from);
     track.heading = unknown_heading(config_);
     if (z.has_heading) correct(track.heading, z.heading, z.sigma_heading, z.heading);
     correct_extent(track, z);

@@ -36,6 +36,7 @@
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/anchoring.h"
 #include "fusion/tracks/distances.h"
+#include "fusion/tracks/returns.h"
 #include "fusion/tracks/track.h"
 #include "fusion/tracks/twins.h"
 #include "fusion/tracks/visibility.h"
@@ -81,12 +82,13 @@ class Tracker {
   struct Referred {
     bool elsewhere = false;  // it is of another point than the anchor
     bool moved = false;
+    bool spread = false;                      // `counted` has the spread of its returns
     Anchor from{};                            // the anchor before
     estimators::Displacement displacement{};  // if moved
-    sensors::Observation counted{};           // if elsewhere and not moved
+    sensors::Observation counted{};           // if elsewhere and not moved, or with spread
 
     const sensors::Observation& of(const sensors::Observation& observed) const {
-      return elsewhere && !moved ? counted : observed;
+      return spread || (elsewhere && !moved) ? counted : observed;
     }
   };
   // Refers a late observation, of a track as it was at that instant. The size learns; a silhouette gives way, if it may.
@@ -121,9 +123,15 @@ class Tracker {
   sensors::Observation referred(const Track& track, const sensors::Observation& observation) const;
   void count_elsewhere(Track& track, const sensors::Observation& observation, const Distance& distance, bool moves,
                        Referred& taken) const;
+  static void count_spread(const std::optional<sensors::Observation>& spread, Referred& taken);
   const sensors::Observation& refer(Track& track, std::size_t column, const sensors::Observation& observation,
                                     std::size_t row);
   const Distance* distance_of(const Track& track, std::size_t column, const sensors::Observation& observation);
+  // Takes the spread of a radar's returns into account, if the observation lacks it.
+  std::optional<sensors::Observation> spread_on(const Track& track, const sensors::Observation& observation) const {
+    if (observation.returns == 0) return std::nullopt;
+    return with_spread(observation, track, *estimator_, observation.from);
+  }
   std::optional<Distance> distance_of(const Track& track, const sensors::Observation& observation) const {
     return distance_to(track, *estimator_, observation, observation.from);
   }

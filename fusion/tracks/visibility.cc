@@ -105,6 +105,11 @@ void Visibility::add_sight(const Track& track, std::size_t index, const estimato
                            along.dot(seen.p * along) + seen.depth * seen.depth / 12.0);
   if (!field.all_around())
     visible *= between(-field.half_angle, field.half_angle, motion::to_half_turn(seen.bearing - from_.yaw), variance);
+  for (std::size_t i = 0; i < field.blind_sectors; ++i) {
+    const auto [from, to] = field.blind[i];
+    const double off = motion::to_half_turn(seen.bearing - from_.yaw - 0.5 * (from + to));
+    visible *= 1.0 - between(0.5 * (from - to), 0.5 * (to - from), off, variance);
+  }
   visible_[index] = visible;
   if (visible > kHardly) sights_.push_back({seen.bearing, seen.range, variance, index});
 }

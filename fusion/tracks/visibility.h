@@ -5,6 +5,7 @@
 //     of the object, at the range of its near side. Edges are soft. The variance of the bearing is that of the position,
 //     across the line of sight and over the squared range, plus w^2 / 12. Here w is the angle that the object fills: which
 //     part of it the sensor needs is unknown. The variance of the range is made likewise.
+//     The same holds for the edges of blind sectors.
 //   - for every confirmed track that is nearer, the probability that it does not hide the middle. A track hides what lies
 //     on a line of sight that has passed its outline. With births by existence this counts by its probability to exist.
 //     An outline that holds the other track's centre hides nothing: the two are one object.

@@ -88,7 +88,8 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
     const GlobalTime first = sensor.scheduled
                                  ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
                                  : GlobalTime{};
-    timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period_of(cluster, sensor)});
+    timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period_of(cluster, sensor),
+                       sensor.kind == schedules::model::SensorKind::kRadar});
   }
   return timings;
 }

@@ -83,4 +83,35 @@ void CameraEmulator::run(host::StepContext& context) {
   record_measurement(context, config_.sensor, truth_);
 }
 
+RadarEmulator::RadarEmulator(const EmulatorConfig& config, const sim::world::RadarConfig& radar)
+    : config_(config), radar_(sim::world::in_drive(radar, drive_key(config))),
+      signals_(host::bind_element<4>(*config.cluster, raw_layout(config), {"range", "azimuth", "range_rate", "power"})),
+      room_(config.scene->objects()) {
+  radar_.max_returns = raw_layout(config).max_elements;
+  states_.reserve(config.scene->objects());
+  returns_.reserve(most_elements(config));
+  truth_.reserve(most_elements(config));
+}
+
+void RadarEmulator::run(host::StepContext& context) {
+  const TrueTime at = sim::world::measured_at(context.stamp.true_time, radar_.device);
+  config_.scene->states_at(at, states_);
+  sim::world::see_from(radar_.device.placement, states_);
+  const sim::world::AntennaVelocity antenna =
+      sim::world::antenna_velocity(config_.scene->ego_at(at), radar_.device.placement);
+  sim::world::measure_radar(radar_, states_, antenna, config_.seed, config_.replication,
+                            static_cast<std::uint16_t>(config_.sensor), context.measurement, room_, returns_, truth_);
+  host::Output& raw = context.outputs[0];
+  const auto count = static_cast<int>(returns_.size());
+  raw.begin(context.measurement, count, GlobalTime{});
+  for (int i = 0; i < count; ++i) {
+    const sim::world::RadarReturn& one = returns_[static_cast<std::size_t>(i)];
+    raw.set(i, signals_[0], one.range);
+    raw.set(i, signals_[1], one.azimuth);
+    raw.set(i, signals_[2], one.range_rate);
+    raw.set(i, signals_[3], one.power_db);
+  }
+  record_measurement(context, config_.sensor, truth_);
+}
+
 }  // namespace ttf::nodes::sensing

@@ -10,6 +10,7 @@
 #include "schedules/model/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
+#include "sim/world/radar.h"
 
 namespace ttf::nodes::sensing {
 
@@ -50,6 +51,22 @@ class CameraEmulator final : public host::Step {
   std::vector<sim::world::ObjectState> states_;
   sim::world::CameraRoom room_;
   std::vector<sim::world::CameraDetection> detections_;
+  std::vector<ObjectId> truth_;
+};
+
+// Port `raw`: returns as range [m], azimuth [rad], range_rate [m/s], power [dB over the noise].
+class RadarEmulator final : public host::Step {
+ public:
+  RadarEmulator(const EmulatorConfig& config, const sim::world::RadarConfig& radar);
+  void run(host::StepContext& context) override;
+
+ private:
+  EmulatorConfig config_;
+  sim::world::RadarConfig radar_;
+  std::array<std::size_t, 4> signals_;
+  std::vector<sim::world::ObjectState> states_;
+  sim::world::RadarRoom room_;
+  std::vector<sim::world::RadarReturn> returns_;
   std::vector<ObjectId> truth_;
 };
 

@@ -43,8 +43,13 @@ ObservationCodec::ObservationCodec(const schedules::model::Cluster& cluster, Pdu
                                         {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
       break;
     case Form::kRadar:
-      signals_ = host::bind_elements<6>(
-          cluster, *layout_, {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
+      returns_ = schedules::model::find_signal(layout_->element, "returns");
+      signals_ = returns_ ? host::bind_elements<7>(cluster, *layout_,
+                                                   {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing",
+                                                    "sigma_range_rate", "returns"})
+                          : host::bind_elements<6>(
+                                cluster, *layout_,
+                                {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
       break;
   }
 }
@@ -68,6 +73,8 @@ void ObservationCodec::decode(const bus::cni::ListView& list,
         observation.z(row) = value(k);
         observation.r(row, row) = sigma(3 + k) * sigma(3 + k);
       }
+      if (returns_) observation.returns = static_cast<std::uint8_t>(host::element_value(*layout_, list, i, *returns_));
+      if (observation.returns > 0) observation.seen = ttf::fusion::sensors::SeenPoint::kSilhouette;
     } else {
       observation.kind = ttf::fusion::sensors::ObservationKind::kPosition;
       const double sigma_x = sigma(2), sigma_y = sigma(3);

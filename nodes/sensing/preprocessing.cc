@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "nodes/host/signals.h"
+#include "nodes/sensing/nearest_first.h"
 #include "nodes/sensing/observation_codec.h"
 
 namespace ttf::nodes::sensing {
@@ -13,16 +14,6 @@ const schedules::model::PduLayout& layout_of(const schedules::model::Cluster& cl
                                              const std::vector<schedules::model::PortBinding>& bindings,
                                              std::string_view port) {
   return cluster.pdu(host::binding_of(bindings, port).pdu);
-}
-
-// Keeps the nearest objects, in a stable order, if there are more than the list holds.
-template <class Object> void keep_nearest(std::vector<Object>& objects, int limit) {
-  if (static_cast<int>(objects.size()) <= limit) return;
-  std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
-    const double ra = a.x * a.x + a.y * a.y, rb = b.x * b.x + b.y * b.y;
-    return ra != rb ? ra < rb : a.y < b.y;
-  });
-  objects.erase(objects.begin() + limit, objects.end());
 }
 
 }  // namespace
@@ -106,6 +97,44 @@ void CameraPreprocessing::run(host::StepContext& context) {
     const double values[] = {object.x,    object.y,         object.sigma_x(), object.sigma_y(), object.correlation(),
                              object.span, object.sigma_span};
     for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
+  }
+}
+
+RadarPreprocessing::RadarPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                                       const radar::RadarPreprocessingConfig& config)
+    : sensor_(layout_of(cluster, task.reads, "raw").sensor),
+      raw_(host::bind_element<4>(cluster, layout_of(cluster, task.reads, "raw"),
+                                 {"range", "azimuth", "range_rate", "power"})),
+      signals_(host::bind_element<7>(
+          cluster, layout_of(cluster, task.writes, "objects"),
+          {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate", "returns"})),
+      joiner_(config, static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements)) {
+  returns_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
+  objects_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
+}
+
+// The joiner's objects are by range: the nearest ones stay. More returns than the layout can say count as many as it can.
+void RadarPreprocessing::run(host::StepContext& context) {
+  const auto measurement = measurement_of(context, sensor_);
+  if (!measurement) return;
+  const host::Input& raw = context.inputs[0];
+  returns_.clear();
+  const int count = host::element_count(*raw.layout, *raw.list);
+  for (int i = 0; i < count; ++i)
+    returns_.push_back({host::element_value(*raw.layout, *raw.list, i, raw_[0]),
+                        host::element_value(*raw.layout, *raw.list, i, raw_[1]),
+                        host::element_value(*raw.layout, *raw.list, i, raw_[2])});
+  joiner_.join(returns_, objects_);
+  host::Output& out = context.outputs[0];
+  const int listed = std::min(static_cast<int>(objects_.size()), out.layout().max_elements);
+  out.begin(measurement->sequence, listed, measurement->at);
+  for (int i = 0; i < listed; ++i) {
+    const radar::RadarObject& object = objects_[static_cast<std::size_t>(i)];
+    const double values[] = {object.range, object.bearing, object.range_rate};
+    const double sigmas[] = {object.sigma_range, object.sigma_bearing, object.sigma_range_rate};
+    for (std::size_t s = 0; s < 3; ++s) out.set(i, signals_[s], values[s]);
+    for (std::size_t s = 0; s < 3; ++s) out.set_at_least(i, signals_[3 + s], sigmas[s]);
+    out.set(i, signals_[6], std::min<double>(object.returns, out.layout().element[signals_[6]].high));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "nodes/camera/triangulation.h"
 #include "nodes/host/step.h"
 #include "nodes/laser/laser_preprocessor.h"
+#include "nodes/radar/returns.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::nodes::sensing {
@@ -41,6 +42,22 @@ class CameraPreprocessing final : public host::Step {
   std::array<std::size_t, 7> signals_;
   camera::CameraCalibration calibration_;
   std::vector<camera::CameraObject> objects_;
+};
+
+// Ports: `raw` (range, azimuth, range_rate, power) -> `objects` (range, bearing, range_rate, their uncertainty, returns).
+class RadarPreprocessing final : public host::Step {
+ public:
+  RadarPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                     const radar::RadarPreprocessingConfig& config);
+  void run(host::StepContext& context) override;
+
+ private:
+  SensorId sensor_;
+  std::array<std::size_t, 4> raw_;
+  std::array<std::size_t, 7> signals_;
+  radar::ReturnJoiner joiner_;
+  std::vector<radar::Return> returns_;
+  std::vector<radar::RadarObject> objects_;
 };
 
 }  // namespace ttf::nodes::sensing

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/random.h"
+#include "sim/world/clutter.h"
 #include "sim/world/shape.h"
 
 namespace ttf::sim::world {
@@ -32,16 +33,9 @@ std::optional<Seen> see(const ObjectState& state) {
 // An object is looked for in the field, within the range.
 Sight sight_of(const Seen& seen, const CameraConfig& config) {
   Sight sight{seen.bearing, seen.depth / std::cos(seen.bearing), 0.5 * seen.silhouette, true};
-  sight.wanted =
-      seen.depth > 0.0 && std::abs(seen.bearing) <= config.half_field_rad && sight.range <= config.max_range_m;
+  sight.wanted = seen.depth > 0.0 && std::abs(seen.bearing) <= config.half_field_rad &&
+                 sight.range <= config.max_range_m && !config.device.blind.hold(seen.bearing);
   return sight;
-}
-
-int poisson(RandomStream& stream, double mean) {
-  const double limit = std::exp(-mean);
-  int count = -1;
-  for (double product = 1.0; product > limit || count < 0; ++count) product *= stream.uniform();
-  return count;
 }
 
 }  // namespace

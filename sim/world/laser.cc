@@ -113,7 +113,7 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
   for (int beam = begin; beam < end; ++beam) {
     const double azimuth = beams.azimuth(beam);
     const auto [nearest, hit] = echoes[static_cast<std::size_t>(beam + half)];
-    if (hit == nullptr) continue;
+    if (hit == nullptr || config.device.blind.hold(azimuth)) continue;
     const double loss = std::min(1.0, config.miss_at_100m * nearest * nearest * 1e-4);
     RandomStream noise(key, kBlocksOfABeam * static_cast<std::uint32_t>(beam + half));
     for (int layer = 0; layer < config.layers; ++layer) {

@@ -1,6 +1,9 @@
 #include "sim/world/placement.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numbers>
 
 #include "core/random.h"
 
@@ -26,6 +29,15 @@ Device load_device(YamlMap& yaml) {
     mounting->finish();
   }
   device.time = load_time_error(yaml);
+  for (YamlMap& map : yaml.maps_if("blind")) {
+    const double from = map.number("from", {-7.0, 7.0}, "rad"), to = map.number("to", {-7.0, 7.0}, "rad");
+    if (to <= from || to - from > 2.0 * std::numbers::pi) map.fail("to", "must be above `from`, by at most a turn");
+    map.finish();
+    if (device.blind.count < BlindSides::kMost)
+      device.blind.sectors[device.blind.count++] = {from, to};
+    else
+      yaml.fail("blind", fmt::format("must have at most {} sectors", BlindSides::kMost));
+  }
   return device;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "sim/world/blind.h"
 #include "sim/world/world.h"
 
 namespace ttf::sim::world {
@@ -29,8 +30,9 @@ struct DriveError {
 struct Device {
   Placement placement;
   DriveError time;
+  BlindSides blind;
 };
-// Reads `mounting`, `time_bias` and `time_bias_sigma`.
+// Reads `mounting`, `time_bias`, `time_bias_sigma` and `blind`.
 Device load_device(YamlMap& yaml);
 // Reads `time_bias` and `time_bias_sigma` [s].
 DriveError load_time_error(YamlMap& yaml);
@@ -41,6 +43,8 @@ enum class ErrorOf : std::uint32_t {
   kRange = 1,
   kBearing = 2,
   kDisparity = 3,
+  kRangeRate = 4,
+  kPitch = 5,
   kSpeedScale = 8,
   kYawRate = 9
 };

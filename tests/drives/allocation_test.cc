@@ -54,6 +54,8 @@ TEST_P(Allocations, NoneInThePapersDrives) {
   expect_none(Drive("scenarios/paper_scenario2.yaml", GetParam()), 290);
 }
 
+TEST_P(Allocations, NoneWithRadars) { expect_none(Drive("scenarios/laser_and_radar.yaml", GetParam()), 590); }
+
 TEST_P(Allocations, NoneWithACrowd) { expect_none(Drive("scenarios/crowd_25.yaml", GetParam()), 5'990); }
 
 // The longest lists. Each of the laser's beams hits one of two fences, whose gaps cut the scan into many

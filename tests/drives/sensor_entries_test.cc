@@ -90,16 +90,17 @@ TEST(SensorEntries, OneThatTheScheduleHasNoRoomForIsRefused) {
 
 TEST(SensorEntries, WrongKeysAreNamed) {
   EXPECT_THAT(refusal("sensors: {laser2: {range_sigma: 0.1}}\n"),
-              HasSubstr("sensors.laser2.kind: is missing: must be one of laser, camera"));
+              HasSubstr("sensors.laser2.kind: is missing: must be one of laser, camera, radar, mono_camera, odometry"));
   EXPECT_THAT(refusal("sensors: {lasr: {range_sigma: 0.1}}\n"),
-              HasSubstr("sensors.lasr.kind: is missing: must be one of laser, camera; did you mean laser?"));
+              HasSubstr("sensors.lasr.kind: is missing: must be one of laser, camera, radar, mono_camera, odometry; "
+                        "did you mean laser?"));
   EXPECT_THAT(refusal("sensors: {rear: {range_sigma: 0.1}}\n"),
-              EndsWith("sensors.rear.kind: is missing: must be one of laser, camera"));
+              EndsWith("sensors.rear.kind: is missing: must be one of laser, camera, radar, mono_camera, odometry"));
   EXPECT_THAT(refusal("sensors: {left_lasr: {kind: laser}}\n"), HasSubstr("or camera; did you mean left_laser?"));
   EXPECT_THAT(refusal("sensors: {laser2: 7}\n"), HasSubstr("sensors.laser2: must be a mapping"));
   EXPECT_THAT(refusal("sensors: {laser: {kind: camera}}\n"), HasSubstr("sensors.laser.kind = camera: must be laser"));
-  EXPECT_THAT(refusal("sensors: {rear: {kind: radar}}\n"),
-              HasSubstr("sensors.rear.kind = radar: must be one of laser, camera"));
+  EXPECT_THAT(refusal("sensors: {rear: {kind: sonar}}\n"),
+              HasSubstr("sensors.rear.kind = sonar: must be one of laser, camera, radar, mono_camera, odometry"));
   EXPECT_THAT(refusal("sensors: {rear: {kind: laser, focal: 900}}\n"),
               HasSubstr("sensors.rear.focal: is not a known key here"));
   EXPECT_THAT(refusal("sensors: {rear: {kind: camera, preprocessing: {range_noise: 1}}}\n"),

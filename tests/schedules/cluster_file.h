@@ -28,6 +28,8 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "thousand_synchronised",
                                                "two_lasers_synchronised",
                                                "two_lasers_unsynchronised",
+                                               "surround_synchronised",
+                                               "surround_unsynchronised",
                                                "moving_unsynchronised",
                                                "moving_synchronised"};
   return kNames;

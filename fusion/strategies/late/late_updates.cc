@@ -77,7 +77,9 @@ std::optional<tracks::Anchor> LateUpdates::Object::anchor_at(const MeasurementId
 LateUpdates::LateUpdates(const config::TrackerConfig& config, std::size_t max_observations,
                          std::span<const SensorTiming> sensors)
     : tracker_(config, max_observations), identities_(tracker_.max_tracks()),
-      pasts_(make_pasts(config, tracker_.max_tracks())),
+      pasts_(make_pasts(config, tracker_.max_tracks(),
+                        std::any_of(sensors.begin(), sensors.end(),
+                                    [](const SensorTiming& sensor) { return sensor.measures_ranges; }))),
       announcements_(config.late == oosm::Kind::kClone ? sensors : std::span<const SensorTiming>()),
       set_(tracker_.max_tracks()), then_(tracker_.max_tracks()) {
   objects_.reserve(tracker_.max_tracks());
@@ -187,7 +189,8 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
             static_cast<int>(taken));
   track.estimate = pasts_->newest(object.slot, set_.time);
 
-  const double range = (z.z.head<2>() - z.from.position).norm();
+  const double range =
+      z.kind == sensors::ObservationKind::kPosition ? (z.z.head<2>() - z.from.position).norm() : z.z(0);
   const double walked = tracker_.config().extent_noise * age;
   now.sigma_length = widened(z.sigma_length, walked);
   now.sigma_width = widened(z.sigma_width, walked);

@@ -4,10 +4,12 @@
 
 namespace ttf::fusion::strategies::late {
 
-std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots) {
+std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots, bool ranges) {
   switch (config.motion) {
-    case config::MotionModel::kConstantVelocity: return make_at_constant_velocity(config, slots);
-    case config::MotionModel::kConstantAcceleration: return make_at_constant_acceleration(config, slots);
+    case config::MotionModel::kConstantVelocity:
+      return (ranges ? make_with_ranges_at_constant_velocity : make_at_constant_velocity)(config, slots);
+    case config::MotionModel::kConstantAcceleration:
+      return (ranges ? make_with_ranges_at_constant_acceleration : make_at_constant_acceleration)(config, slots);
     case config::MotionModel::kCtrv:
     case config::MotionModel::kCtra:
     case config::MotionModel::kInteracting: break;

@@ -1,7 +1,8 @@
 // The pasts of all objects under a method for late measurements (fusion/oosm/), each in its own slot. This
 // interface separates the tracks, which know neither state nor motion, from the methods, which know no objects.
 //
-// Methods take positions of objects in straight motion: there everything is linear and Gaussian. Estimates have
+// Methods take positions of objects in straight motion: there everything is linear and Gaussian. Ranges, bearings and range
+// rates are linearised (fusion/strategies/late/pasts_of.h). Estimates have
 // an estimator's layout (fusion/estimators/estimate.h). Nothing allocates after construction.
 #pragma once
 
@@ -39,17 +40,20 @@ class Pasts {
   // value if take() would refuse it.
   virtual std::optional<estimators::Estimate> at(std::size_t slot, const When& when) const = 0;
   // `displacement`: the anchor has moved so, and this is the first position of the new one (law L10); null: it has not.
-  virtual oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position,
+  virtual oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& observation,
                            const estimators::Displacement* displacement = nullptr) = 0;
   // Returns the newest estimate, predicted to `time`.
   virtual estimators::Estimate newest(std::size_t slot, GlobalTime time) const = 0;
 };
 
-// Makes the pasts for straight motion and config.late. fusion/strategies/late/late_updates.h lists the memory of
+// Makes the pasts for straight motion and config.late; `ranges` tells whether a sensor measures ranges. fusion/strategies/late/late_updates.h lists the memory of
 // a slot.
-std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots);
+std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots, bool ranges = false);
 // Make the pasts of one motion, each in its own source file: these templates compile slowly.
 std::unique_ptr<Pasts> make_at_constant_velocity(const config::TrackerConfig& config, std::size_t slots);
 std::unique_ptr<Pasts> make_at_constant_acceleration(const config::TrackerConfig& config, std::size_t slots);
+std::unique_ptr<Pasts> make_with_ranges_at_constant_velocity(const config::TrackerConfig& config, std::size_t slots);
+std::unique_ptr<Pasts> make_with_ranges_at_constant_acceleration(const config::TrackerConfig& config,
+                                                                 std::size_t slots);
 
 }  // namespace ttf::fusion::strategies::late

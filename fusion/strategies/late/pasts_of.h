@@ -1,10 +1,17 @@
 // The pasts (fusion/strategies/late/pasts.h) of one motion, under every method.
+//
+// Where a sensor measures ranges, measurements have three components. Range, bearing and range rate are linearised at the state
+// to which they are an innovation:  H = J F(after),  z = H x + (z' - h(F(after) x)).  A position then has a third component
+// that depends on nothing.
 #pragma once
 
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/check.h"
+#include "fusion/estimators/doubtful_rate.h"
 #include "fusion/motion/motion_model.h"
 #include "fusion/oosm/adjoint.h"
 #include "fusion/oosm/al1.h"
@@ -14,6 +21,8 @@
 #include "fusion/oosm/augmented.h"
 #include "fusion/oosm/bl1.h"
 #include "fusion/oosm/clone.h"
+#include "fusion/sensors/mounted.h"
+#include "fusion/sensors/range_bearing_rate.h"
 #include "fusion/strategies/late/pasts.h"
 
 namespace ttf::fusion::strategies::late {
@@ -31,14 +40,16 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
     if (!then) return std::nullopt;
     return moved(*then, when.after);
   }
-  oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& position,
+  oosm::Taken take(std::size_t slot, const When& when, const sensors::Observation& z,
                    const estimators::Displacement* displacement) override {
-    TTF_CHECK(position.kind == sensors::ObservationKind::kPosition, "observation of kind {}",
-              static_cast<int>(position.kind));
-    linear::LinearMeasurement<kN, 2> measurement;
-    measurement.z = position.z.template head<2>();
-    measurement.h = transition(when.after).template topRows<2>();
-    measurement.r = position.r.template topLeftCorner<2, 2>();
+    Measurement measurement;
+    if (z.kind == sensors::ObservationKind::kPosition) {
+      measurement.z.template head<2>() = z.z.template head<2>();
+      measurement.h.template topRows<2>() = transition(when.after).template topRows<2>();
+      measurement.r.template topLeftCorner<2, 2>() = z.r.template topLeftCorner<2, 2>();
+    } else {
+      measurement = linearised(slot, when, z, displacement);
+    }
     if (displacement == nullptr) return methods_[slot].take(when.stamp, measurement);
     oosm::Displacement<kN> of_state;
     of_state.by.template head<2>() = displacement->by;
@@ -54,6 +65,36 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
  private:
   static constexpr int kN = M::kStates;
   using State = linear::Gaussian<kN>;
+  using Measurement = linear::LinearMeasurement<kN, X::kDimension>;
+
+  // Says nothing where the method would refuse the measurement, or the sensor has no derivative.
+  Measurement linearised(std::size_t slot, const When& when, const sensors::Observation& z,
+                         const estimators::Displacement* displacement) const {
+    Measurement measurement;
+    if constexpr (X::kDimension == 3) {
+      std::optional<State> at = methods_[slot].at(when.stamp);
+      if (!at) return measurement;
+      if (displacement != nullptr) at->x.template head<2>() += displacement->by;
+      const linear::Matrix<kN> f = transition(when.after);
+      const linear::Vector<kN> then = f * at->x;
+      const motion::Kinematics k = M::template kinematics<motion::kWithVelocity>(then);
+      const sensors::Mounted<sensors::RangeBearingRate> sensor(z.from, {z.rate_span});
+      if (!sensor.sees(k)) return measurement;
+      linear::Matrix<3, kN> h = linear::Matrix<3, kN>::Zero();
+      h.template leftCols<4>() = sensor.jacobian(k);
+      sensors::Measurement<3> polar{z.z, z.r};
+      if (std::isfinite(z.rate_span)) {
+        const linear::Matrix<kN> p = f * at->p * f.transpose();
+        estimators::doubt_rate(polar, z.rate_span, z.z(1) + z.from.yaw, p.template block<2, 2>(2, 2));
+      }
+      measurement.z = h * then + sensor.residual(z.z, sensor.expected(k));
+      measurement.h = h * f;
+      measurement.r = polar.r;
+    } else {
+      TTF_CHECK(false, "observation of kind {} where all are positions", static_cast<int>(z.kind));
+    }
+    return measurement;
+  }
 
   linear::Matrix<kN> transition(Duration by) const {
     return motion_.jacobian(linear::Vector<kN>::Zero(), by.seconds());
@@ -71,22 +112,23 @@ template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pa
   std::vector<X> methods_;
 };
 
-template <motion::LinearModel M>
-std::unique_ptr<Pasts> make_pasts_of(const M& motion, oosm::Kind kind, std::size_t slots) {
+// D is the number of a measurement's components.
+template <int D, motion::LinearModel M>
+std::unique_ptr<Pasts> make_pasts_of(const M& motion, const config::TrackerConfig& config, std::size_t slots) {
   constexpr int kN = M::kStates;
   using oosm::Kind;
-  switch (kind) {
-    case Kind::kAugmented: return std::make_unique<PastsOf<M, oosm::Augmented<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kClone: return std::make_unique<PastsOf<M, oosm::Clone<kN, 2, M, kClones>>>(motion, slots);
-    case Kind::kAdjoint: return std::make_unique<PastsOf<M, oosm::Adjoint<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kAl1: return std::make_unique<PastsOf<M, oosm::Al1<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kBl1: return std::make_unique<PastsOf<M, oosm::Bl1<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kA: return std::make_unique<PastsOf<M, oosm::AlgorithmA<kN, 2, M>>>(motion, slots);
-    case Kind::kB: return std::make_unique<PastsOf<M, oosm::AlgorithmB<kN, 2, M>>>(motion, slots);
-    case Kind::kC: return std::make_unique<PastsOf<M, oosm::AlgorithmC<kN, 2, M>>>(motion, slots);
+  switch (config.late) {
+    case Kind::kAugmented: return std::make_unique<PastsOf<M, oosm::Augmented<kN, D, M, kRemembered>>>(motion, slots);
+    case Kind::kClone: return std::make_unique<PastsOf<M, oosm::Clone<kN, D, M, kClones>>>(motion, slots);
+    case Kind::kAdjoint: return std::make_unique<PastsOf<M, oosm::Adjoint<kN, D, M, kRemembered>>>(motion, slots);
+    case Kind::kAl1: return std::make_unique<PastsOf<M, oosm::Al1<kN, D, M, kRemembered>>>(motion, slots);
+    case Kind::kBl1: return std::make_unique<PastsOf<M, oosm::Bl1<kN, D, M, kRemembered>>>(motion, slots);
+    case Kind::kA: return std::make_unique<PastsOf<M, oosm::AlgorithmA<kN, D, M>>>(motion, slots);
+    case Kind::kB: return std::make_unique<PastsOf<M, oosm::AlgorithmB<kN, D, M>>>(motion, slots);
+    case Kind::kC: return std::make_unique<PastsOf<M, oosm::AlgorithmC<kN, D, M>>>(motion, slots);
     case Kind::kRewind: break;
   }
-  TTF_CHECK(false, "no past of single states under {}", oosm::name_of(kind));
+  TTF_CHECK(false, "no past of single states under {}", oosm::name_of(config.late));
 }
 
 }  // namespace ttf::fusion::strategies::late

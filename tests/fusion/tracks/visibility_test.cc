@@ -93,6 +93,16 @@ TEST(Visibility, TheFieldTurnsWithTheSensor) {
   EXPECT_LT(judged(config, {1.0, 15.0}), 1e-3);
 }
 
+TEST(Visibility, TheOwnVehicleHidesSectors) {
+  sensors::Field field = kCamera;
+  field.blind[field.blind_sectors++] = {0.2, 0.4};
+  const config::TrackerConfig config = seeing(field, {.position = linear::Vector<2>(0.0, 0.0), .yaw = 0.1});
+  const auto at = [](double bearing) { return Car{40.0 * std::cos(bearing), 40.0 * std::sin(bearing), bearing}; };
+  EXPECT_LT(judged(config, at(0.4)), 1e-3);
+  EXPECT_NEAR(judged(config, at(0.3)), 0.5, 1e-6);
+  EXPECT_GT(judged(config, at(0.2)), 0.999);
+}
+
 TEST(Visibility, ANearerObjectHides) {
   const config::TrackerConfig config = seeing(kCamera);
   const Car lorry{20.0, 0.0, 0.0, 10.0, 2.5}, behind{40.0, 1.0}, beside{40.0, 9.0}, before{9.0, 0.0};

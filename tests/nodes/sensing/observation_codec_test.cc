@@ -50,6 +50,26 @@ TEST(ObservationCodec, ACamerasSilhouetteIsASpanNotAWidth) {
   EXPECT_FALSE(z.has_width || z.has_length || z.has_heading);
 }
 
+TEST(ObservationCodec, ARadarsReturnsAreOfTheOutline) {
+  using ttf::fusion::sensors::SeenPoint;
+  List list("laser_and_radar_synchronised.yaml", "radar_objects");
+  list.out.begin(0, 2, GlobalTime{});
+  list.set(1, "range", 80.0);
+  list.set(1, "range_rate", -12.5);
+  list.set(1, "sigma_range", 0.2);
+  list.set(1, "returns", 3.0);
+  const auto observations = list.decoded();
+  ASSERT_EQ(observations.size(), 2u);
+  EXPECT_EQ(observations[0].seen, SeenPoint::kCentre);
+  const ttf::fusion::sensors::Observation& z = observations[1];
+  EXPECT_EQ(z.kind, ttf::fusion::sensors::ObservationKind::kRangeBearingRate);
+  EXPECT_EQ(z.seen, SeenPoint::kSilhouette);
+  EXPECT_EQ(z.z(0), 80.0);
+  EXPECT_EQ(z.z(2), -12.5);
+  EXPECT_EQ(z.returns, 3);
+  EXPECT_NEAR(z.r(0, 0), 0.04, 1e-6);
+}
+
 TEST(ObservationCodec, ALasersValidBitsSayWhatWasSeen) {
   using ttf::fusion::sensors::SeenPoint;
   List list("paper_synchronised.yaml", "laser_objects");

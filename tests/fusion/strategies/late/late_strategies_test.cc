@@ -21,20 +21,16 @@ TEST(LateRefusal, NamesWhatCannotBe) {
   for (const oosm::NamedKind& named : oosm::kKinds) {
     const Kind kind = named.kind;
     const bool clone = kind == Kind::kClone, rewind = kind == Kind::kRewind;
-    const auto refusal = [&](StrategyKind strategy, bool scheduled, bool positions) {
-      return late_refusal(strategy, kind, scheduled ? laser_and_camera() : free_and_scheduled(), positions);
+    const auto refusal = [&](StrategyKind strategy, bool scheduled) {
+      return late_refusal(strategy, kind, scheduled ? laser_and_camera() : free_and_scheduled());
     };
     for (const bool any : {true, false})
-      for (const bool other : {true, false})
-        EXPECT_EQ(refusal(StrategyKind::kBuff, any, other), "") << "BUFF goes back, whatever is said";
-    EXPECT_EQ(refusal(StrategyKind::kAdva, true, true), "");
+      EXPECT_EQ(refusal(StrategyKind::kBuff, any), "") << "BUFF goes back, whatever is said";
+    EXPECT_EQ(refusal(StrategyKind::kAdva, true), "");
     EXPECT_EQ(
-        refusal(StrategyKind::kAdva, false, true),
+        refusal(StrategyKind::kAdva, false),
         clone ? "must not be clone if a sensor measures freely: the schedule must know the instants beforehand" : "");
-    EXPECT_EQ(refusal(StrategyKind::kAdva, true, false),
-              rewind ? "" : "must be rewind if a sensor measures range and bearing: the other methods take positions");
-    EXPECT_EQ(refusal(StrategyKind::kTt, true, true),
-              rewind || clone ? "" : "must be rewind or clone with strategy tt");
+    EXPECT_EQ(refusal(StrategyKind::kTt, true), rewind || clone ? "" : "must be rewind or clone with strategy tt");
   }
 }
 

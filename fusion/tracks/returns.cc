@@ -1,0 +1,110 @@
+#include "fusion/tracks/returns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fusion/motion/angles.h"
+#include "fusion/tracks/anchoring.h"
+
+namespace ttf::fusion::tracks {
+namespace {
+
+constexpr double kPi = std::numbers::pi, kEighth = 0.25 * kPi;
+// A heading beyond this standard deviation [rad] is unknown.
+constexpr double kNoHeading = 0.7;
+
+linear::Vector<2> left_of(const linear::Vector<2>& a) { return {-a.y(), a.x()}; }
+
+// The distance of the box along a direction, by the slab method; infinite where the ray passes it.
+double range_of(const Outline& outline, const linear::Vector<2>& axis, const linear::Vector<2>& sight) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  double enter = 0.0, leave = kNever;
+  for (int side = 0; side < 2; ++side) {
+    const linear::Vector<2> along = side == 0 ? axis : left_of(axis);
+    const double towards = along.dot(sight), middle = along.dot(outline.centre), half = 0.5 * outline.box.size(side);
+    if (std::abs(towards) < 1e-12) {
+      if (std::abs(middle) > half) return kNever;
+      continue;
+    }
+    const double one = (middle - half) / towards, other = (middle + half) / towards;
+    enter = std::max(enter, std::min(one, other));
+    leave = std::min(leave, std::max(one, other));
+  }
+  return enter > leave || enter <= 0.0 ? kNever : enter;
+}
+
+sensors::Observation added(const sensors::Observation& observation, const linear::Matrix<3>& spread) {
+  sensors::Observation result = observation;
+  result.r += spread / observation.returns;
+  return result;
+}
+
+}  // namespace
+
+linear::Matrix<3> spread_of(const Outline& outline) {
+  constexpr int kRays = 16;
+  const linear::Vector<2> axis(std::cos(outline.box.heading), std::sin(outline.box.heading));
+  const double middle = std::atan2(outline.centre.y(), outline.centre.x());
+  double low = 0.0, high = 0.0;
+  for (const double a : {-0.5, 0.5})
+    for (const double b : {-0.5, 0.5}) {
+      const linear::Vector<2> corner =
+          outline.centre + a * outline.box.size(0) * axis + b * outline.box.size(1) * left_of(axis);
+      const double off = motion::to_half_turn(std::atan2(corner.y(), corner.x()) - middle);
+      if (std::abs(off) > 0.5 * kPi) return linear::Matrix<3>::Zero();
+      low = std::min(low, off);
+      high = std::max(high, off);
+    }
+  std::array<linear::Vector<3>, kRays> points;
+  int hits = 0;
+  linear::Vector<3> mean = linear::Vector<3>::Zero();
+  for (int k = 0; k < kRays; ++k) {
+    const double off = low + (k + 0.5) / kRays * (high - low);
+    const linear::Vector<2> sight(std::cos(middle + off), std::sin(middle + off));
+    const double range = range_of(outline, axis, sight);
+    if (!std::isfinite(range)) continue;
+    const linear::Vector<2> velocity =
+        outline.velocity + outline.turn_rate * left_of(linear::Vector<2>(range * sight - outline.centre));
+    linear::Vector<3>& point = points[static_cast<std::size_t>(hits++)];
+    point << range, off, sight.dot(velocity);
+    mean += point;
+  }
+  linear::Matrix<3> spread = linear::Matrix<3>::Zero();
+  if (hits == 0) return spread;
+  mean /= hits;
+  for (int k = 0; k < hits; ++k) {
+    const linear::Vector<3> apart = points[static_cast<std::size_t>(k)] - mean;
+    spread += apart * apart.transpose() / hits;
+  }
+  return spread;
+}
+
+sensors::Observation with_spread(const sensors::Observation& observation, const Track& track,
+                                 const estimators::Estimator& estimator, const sensors::Mounting& mounting) {
+  if (observation.returns == 0) return observation;
+  const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
+  const CentrePosition centre = centre_position(track, estimate);
+  Outline outline;
+  outline.centre = centre.estimate.x - mounting.position;
+  outline.box.size = track.extent.size;
+  const double sight = std::atan2(outline.centre.y(), outline.centre.x());
+  const bool headed = centre.facing.sigma <= kNoHeading;
+  outline.box.heading = headed ? centre.facing.heading : sight + kEighth;
+  outline.turn_rate = headed && track.heading.known ? track.heading.rate : 0.0;
+  outline.velocity = estimate.x.segment<2>(2) - mounting.velocity +
+                     outline.turn_rate * left_of(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
+  return added(observation, spread_of(outline));
+}
+
+sensors::Observation with_spread(const sensors::Observation& observation, const Extent& extent) {
+  if (observation.returns == 0) return observation;
+  Outline outline;
+  outline.centre << observation.z(0), 0.0;  // to the spread, the bearing is no matter
+  outline.box = {extent.size, kEighth};
+  return added(observation, spread_of(outline));
+}
+
+}  // namespace ttf::fusion::tracks

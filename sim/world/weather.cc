@@ -1,0 +1,87 @@
+#include "sim/world/weather.h"
+
+#include <algorithm>
+
+namespace ttf::sim::world {
+namespace {
+
+constexpr Weather kClear{};
+constexpr Weather kRain{.laser_range = 0.75,
+                        .laser_misses = 2.0,
+                        .camera_range = 0.75,
+                        .camera_misses = 2.0,
+                        .camera_clutter = 2.0,
+                        .radar_attenuation_db_per_km = 6.0,
+                        .radar_clutter = 2.0};
+constexpr Weather kFog{.laser_range = 0.4,
+                       .laser_misses = 3.0,
+                       .camera_range = 0.4,
+                       .camera_misses = 3.0,
+                       .radar_attenuation_db_per_km = 0.2};
+constexpr Weather kDark{.camera_range = 0.6, .camera_misses = 2.0, .camera_clutter = 2.0};
+
+enum class Kind : unsigned char { kClear, kRain, kFog, kDark };
+
+const Weather& weather_of(Kind kind) {
+  switch (kind) {
+    case Kind::kClear: return kClear;
+    case Kind::kRain: return kRain;
+    case Kind::kFog: return kFog;
+    case Kind::kDark: break;
+  }
+  return kDark;
+}
+
+}  // namespace
+
+Weather load_weather(YamlMap& world) {
+  Weather weather = weather_of(world.choice_or<Kind>(
+      "weather", Kind::kClear,
+      {{"clear", Kind::kClear}, {"rain", Kind::kRain}, {"fog", Kind::kFog}, {"dark", Kind::kDark}}));
+  if (auto factors = world.map_if("weather_factors")) {
+    constexpr Range<double> kShare{0.01, 1.0}, kMore{0.0, 100.0};
+    // Absent factors are the weather's, so that they have no default of their own.
+    const auto read = [&](const char* key, double& factor, Range<double> allowed, const char* unit = "") {
+      if (factors->has(key)) factor = factors->number(key, allowed, unit);
+    };
+    read("laser_range", weather.laser_range, kShare);
+    read("laser_misses", weather.laser_misses, kMore);
+    read("camera_range", weather.camera_range, kShare);
+    read("camera_misses", weather.camera_misses, kMore);
+    read("camera_clutter", weather.camera_clutter, kMore);
+    read("radar_attenuation", weather.radar_attenuation_db_per_km, kMore, "dB/km");
+    read("radar_clutter", weather.radar_clutter, kMore);
+    factors->finish();
+  }
+  return weather;
+}
+
+LaserConfig in_weather(LaserConfig laser, const Weather& weather) {
+  laser.max_range_m *= weather.laser_range;
+  laser.miss_at_100m *= weather.laser_misses;
+  return laser;
+}
+
+CameraConfig in_weather(CameraConfig camera, const Weather& weather) {
+  camera.max_range_m *= weather.camera_range;
+  camera.miss_probability = std::min(1.0, camera.miss_probability * weather.camera_misses);
+  camera.clutter_per_frame *= weather.camera_clutter;
+  return camera;
+}
+
+MonoCameraConfig in_weather(MonoCameraConfig camera, const Weather& weather) {
+  camera.max_range_m *= weather.camera_range;
+  // A box shrinks with the range.
+  camera.half_detected_px /= weather.camera_range;
+  camera.detection_probability = std::max(0.0, 1.0 - (1.0 - camera.detection_probability) * weather.camera_misses);
+  camera.clutter_per_frame *= weather.camera_clutter;
+  return camera;
+}
+
+RadarConfig in_weather(RadarConfig radar, const Weather& weather) {
+  radar.attenuation_db_per_km += weather.radar_attenuation_db_per_km;
+  radar.clutter_per_list *= weather.radar_clutter;
+  return radar;
+}
+
+}  // namespace ttf::sim::world

@@ -1,0 +1,98 @@
+// Simulated radars in a whole cluster, from echoes to images, in each weather and with blind sides.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "drives/known_fields.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf::drives {
+namespace {
+
+using fusion::oosm::Kind;
+using fusion::strategies::StrategyKind;
+
+constexpr const char* kScenario = "scenarios/laser_and_radar.yaml";
+
+evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
+  evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+  drive.run(measures);
+  return measures.finish();
+}
+
+class RadarDrive : public testing::TestWithParam<StrategyKind> {};
+INSTANTIATE_TEST_SUITE_P(Strategies, RadarDrive, testing::ValuesIn(fusion::strategies::kAllStrategies),
+                         [](const auto& strategy) { return std::string(name_of(strategy.param)); });
+
+TEST_P(RadarDrive, FollowsAllThreeCars) {
+  const evaluation::accuracy::DriveSummary summary = summary_of(Drive(kScenario, GetParam()));
+  EXPECT_LT(summary.missed, summary.matched / 20);
+  EXPECT_LT(summary.position_rmse_truth, 1.0);
+  EXPECT_LT(summary.velocity_rmse_truth, 1.0);
+  EXPECT_GT(summary.own.innovations, 0.6);
+  EXPECT_LT(summary.own.innovations, 1.3);
+}
+
+// The laser sees one metre.
+TEST_P(RadarDrive, FollowsThemByRadarAlone) {
+  Drive drive(kScenario, GetParam());
+  drive.scenario.sensors.lasers.usual.model.max_range_m = 1.0;
+  const evaluation::accuracy::DriveSummary summary = summary_of(drive);
+  EXPECT_LT(summary.missed, summary.matched / 10);
+  EXPECT_LT(summary.position_rmse_truth, 2.0);
+  EXPECT_GT(summary.own.innovations, 0.6);
+  EXPECT_LT(summary.own.innovations, 1.3);
+}
+
+TEST(RadarLate, EveryMethodIsNearlyRewinding) {
+  Drive drive(kScenario, StrategyKind::kAdva);
+  drive.scenario.duration = Duration::milliseconds(4000);
+  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
+  EXPECT_GT(rewinding.fused_late, 10u);
+  for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1, Kind::kBl1, Kind::kA, Kind::kB, Kind::kC}) {
+    drive.scenario.tracker.late = kind;
+    check_late(drive.scenario, drive.cluster, StrategyKind::kAdva);
+    const evaluation::accuracy::DriveSummary other = summary_of(drive);
+    EXPECT_NEAR(other.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.1) << name_of(kind);
+    EXPECT_NEAR(other.velocity_rmse_truth / rewinding.velocity_rmse_truth, 1.0, 0.1) << name_of(kind);
+  }
+}
+
+TEST(RadarLate, ClonesTakeThemOnASchedule) {
+  Drive drive(kScenario, StrategyKind::kTt);
+  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
+  drive.scenario.tracker.late = Kind::kClone;
+  check_late(drive.scenario, drive.cluster, StrategyKind::kTt);
+  const evaluation::accuracy::DriveSummary clone = summary_of(drive);
+  EXPECT_NEAR(clone.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.02);
+}
+
+Scenario with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos);
+  return parse_scenario(text.replace(at, from.size(), to), shipped(kScenario));
+}
+
+TEST(RadarScenario, TheTrackerKnowsSpansFieldsAndBlindSides) {
+  const Scenario scenario = load_scenario(shipped(kScenario));
+  const Scenario fog = with(scenario.text, "weather: clear", "weather: fog");
+  const Scenario hidden =
+      with(scenario.text, "half_field: 1.0", "half_field: 1.0\n    blind: [{from: -0.9, to: -0.7}]");
+  const schedules::model::Cluster cluster =
+      schedules::file::load_cluster(scenario.cluster_files[static_cast<std::size_t>(StrategyKind::kTt)]);
+  const auto known = [&](const Scenario& of, const char* name) {
+    return tracker_of(of, cluster).sensors[index_of(*cluster.find_sensor(name))];
+  };
+  EXPECT_EQ(known(scenario, "radar").range_rate_span, 160.0);
+  EXPECT_EQ(known(scenario, "corner_radar").range_rate_span, 60.0);
+  EXPECT_EQ(known(scenario, "corner_radar").field->half_angle, 1.0);
+  EXPECT_EQ(known(scenario, "radar").field->shadow, 0.0);
+  EXPECT_EQ(known(scenario, "laser").field->max_range, 120.0);
+  EXPECT_EQ(known(fog, "laser").field->max_range, 48.0);
+  EXPECT_EQ(known(scenario, "corner_radar").field->blind_sectors, 0u);
+  ASSERT_EQ(known(hidden, "corner_radar").field->blind_sectors, 1u);
+  EXPECT_EQ(known(hidden, "corner_radar").field->blind[0].from, -0.9);
+}
+
+}  // namespace
+}  // namespace ttf::drives
