@@ -67,14 +67,14 @@ TrueTime drive_end(const Scenario& scenario) { return sim::crank::kFirstCycle + 
 
 void check_recording(const Scenario& scenario, const schedules::model::Cluster& cluster, bool given) {
   const bool needed = is_recorded(cluster);
+  if (needed && scenario.truth)
+    throw InputError({scenario.file, 0, "clusters", cluster.file,
+                      "plays a recording, so --truth would be ignored: it has a task with step recorded_source"});
   if (needed && !given)
     throw InputError({scenario.file, 0, "clusters", cluster.file, "needs a recording: give one with --input"});
   if (!needed && given)
     throw InputError({scenario.file, 0, "clusters", cluster.file,
                       "takes no recording, so --input would be ignored: it has no task with step recorded_source"});
-  if (needed && scenario.truth)
-    throw InputError({scenario.file, 0, "clusters", cluster.file,
-                      "plays a recording, so --truth would be ignored: it has a task with step recorded_source"});
   if (needed && scenario.startup.cold)
     throw InputError({scenario.file, 0, "startup", "cold",
                       "must be integrated: a recording begins with cycle 0, whose instant is unknown in a cold start"});

@@ -101,12 +101,15 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
     plan.folder = folder_of(plan.scenario);
   else
     plan.folder = alone ? options.out : options.out + "/" + named_folder(plan.scenario);
+  std::string warning;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     const schedules::model::Cluster cluster = checked_cluster(plan.scenario, strategy);
+    if (warning.empty()) warning = drives::truth_warning(plan.scenario, cluster);
     drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
     nodes::foreign::check_steps(cluster, steps);
     if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
   }
+  if (!warning.empty()) print_warnings(warning);
   return plan;
 }
 

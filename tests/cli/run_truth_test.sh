@@ -54,7 +54,8 @@ expect 2 'must be a trace of GroundTruth or SensorView, and is one of SensorData
 expect 2 'must not end in .osi with --format osi' export "$work/q/tt.mcap" --format osi -o "$work/q.osi"
 
 # From a vehicle.
-expect 0 '1 object in 321 messages over 6.4 s, seen from vehicle 1' "${drive[@]}" --truth "$work/cut_in.osi" --out "$work/c"
+expect 0 '1 object in 321 messages over 6.4 s, seen from vehicle 1' "${drive[@]}" --truth "$work/cut_in.osi" --out "$work/c" --duration 60
+says '^warning: .*cut_in.osi: vehicle 1 moves, and .*paper_synchronised.yaml has no odometry'
 
 # Mistakes.
 expect 2 'must have a message, and is empty' "${drive[@]}" --truth /dev/null --out "$work/none"
