@@ -26,9 +26,8 @@ namespace ttf::cli::exports {
 namespace {
 
 const std::vector<FormatEnds> kFormatEnds = {
-    {"pcapng", {".pcapng"}},    {"candump", {".log"}},   {"csv", {".csv"}},
-    {"perfetto", {".pftrace"}}, {"foxglove", {".mcap"}}, {"osi", {".mcap"}},
-    {"osi-files", {".osi"}},    {"markdown", {".md"}},   {"sqlite", {".sqlite", ".db"}}};
+    {"pcapng", {".pcapng"}}, {"candump", {".log"}}, {"csv", {".csv"}},     {"perfetto", {".pftrace"}},
+    {"foxglove", {".mcap"}}, {"osi", {".mcap"}},    {"markdown", {".md"}}, {"sqlite", {".sqlite", ".db"}}};
 
 struct ExportOptions {
   std::vector<std::string> logs;
@@ -90,13 +89,17 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
   return 1;
 }
 
+// One file with the log, or a folder for files of the messages alone.
 int export_for_osi(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+  if (options.out.ends_with(".osi"))
+    throw InputError({"command line", 0, "--out", options.out,
+                      "must end in .mcap, or name a folder for two .osi files: SensorData and GroundTruth"});
   std::vector<std::string> files;
   const recording::osi::OsiCounts counts =
-      options.format == "osi" ? export_osi(drive, options.out) : export_osi_files(drive, options.out, files);
+      options.out.ends_with(".mcap") ? export_osi(drive, options.out) : export_osi_files(drive, options.out, files);
   if (options.json)
-    fmt::print("{{\n  \"format\": \"{}\",\n  \"sensor_data\": {},\n  \"ground_truths\": {},\n  \"left_out\": {}\n}}\n",
-               options.format, counts.images, counts.truths, counts.left_out);
+    fmt::print("{{\n  \"format\": \"osi\",\n  \"sensor_data\": {},\n  \"ground_truths\": {},\n  \"left_out\": {}\n}}\n",
+               counts.images, counts.truths, counts.left_out);
   say_written(options.out,
               fmt::format("{} of SensorData and {} of GroundTruth{}", counted(counts.images, "message"), counts.truths,
                           files.empty() ? ", beside the log" : " in " + joined(files, " and ")));
@@ -156,7 +159,7 @@ int run_export(const ExportOptions& options) {
   const recording::merge::MergedLogs drive = logs::drive_in(options.logs);
   if (options.format == "perfetto") return export_perfetto(options, drive);
   if (options.format == "foxglove") return export_for_viewers(options, drive);
-  if (options.format == "osi" || options.format == "osi-files") return export_for_osi(options, drive);
+  if (options.format == "osi") return export_for_osi(options, drive);
   if (options.format == "tables" || options.format == "sqlite") return export_drive_tables(options, drive);
   recording::exports::FrameCollector collector;
   read_shown(drive, collector);
@@ -189,6 +192,7 @@ void add_export(CLI::App& app, Action& action) {
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
       "          ttfusion export out/drive/tt.mcap --format foxglove -o out/scene.mcap\n"
+      "          ttfusion export out/drive/tt.mcap --format osi -o out/trace.mcap\n"
       "          ttfusion export out/drive/tt.mcap --format tables -o out/tables\n"
       "          ttfusion export out/drive/tt.mcap --format sqlite -o out/tables.sqlite\n"
       "          ttfusion export out/noise --format gnuplot -o out/figures\n"
@@ -199,20 +203,21 @@ void add_export(CLI::App& app, Action& action) {
                    "an experiment's folder; for markdown an experiment's folder")
       ->required();
   command
-      ->add_option("--format", options->format,
-                   "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
-                   "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
-                   "foxglove (scene and plots, for Foxglove and Lichtblick), "
-                   "osi (log and ASAM OSI trace in one file: images as SensorData, truth as GroundTruth), "
-                   "osi-files (the trace as a pair of .osi files, into a folder), "
-                   "tables (truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder), "
-                   "sqlite (the same tables in one file), "
-                   "gnuplot (tables and scripts for papers, into a folder), "
-                   "markdown (an experiment's tables, with every point)")
+      ->add_option(
+          "--format", options->format,
+          "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
+          "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
+          "foxglove (scene and plots, for Foxglove and Lichtblick), "
+          "osi (ASAM OSI: images as SensorData and truth as GroundTruth, beside the log in one .mcap file, or as two "
+          ".osi files in a folder), "
+          "tables (truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder), "
+          "sqlite (the same tables in one file), "
+          "gnuplot (tables and scripts for papers, into a folder), "
+          "markdown (an experiment's tables, with every point)")
       ->required()
-      ->check(one_of({"pcapng", "candump", "csv", "perfetto", "foxglove", "osi", "osi-files", "tables", "sqlite",
-                      "gnuplot", "markdown"}));
-  command->add_option("-o,--out", options->out, "File to write; for osi-files, tables and gnuplot the folder")
+      ->check(one_of(
+          {"pcapng", "candump", "csv", "perfetto", "foxglove", "osi", "tables", "sqlite", "gnuplot", "markdown"}));
+  command->add_option("-o,--out", options->out, "File to write; for tables and gnuplot the folder, for osi either")
       ->required()
       ->check(named());
   command->add_flag("--json", options->json, "Counts as JSON on standard output");

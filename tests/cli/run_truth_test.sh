@@ -47,11 +47,11 @@ expect 0 'truth.csv' export "$work/q.mcap" --format tables -o "$work/again_table
 cmp -s "$work/q_tables/truth.csv" "$work/again_tables/truth.csv" || fail "a log with a trace has another truth"
 expect 0 'a trace of GroundTruth: 4 objects' "${drive[@]}" --truth "$work/q.mcap" --out "$work/r"
 expect 0 '_sd_380_[0-9]+_[0-9]+_[a-z0-9_]+_tt.osi and 19700101T000000Z_gt_' \
-  export "$work/q/tt.mcap" --format osi-files -o "$work/pair"
+  export "$work/q/tt.mcap" --format osi -o "$work/pair"
 expect 0 'as its messages show: 4 objects' "${drive[@]}" --truth "$work"/pair/*_gt_*.osi --out "$work/r"
 expect 2 'must be a trace of GroundTruth or SensorView, and is one of SensorData' \
   "${drive[@]}" --truth "$work"/pair/*_sd_*.osi --out "$work/r"
-expect 2 'must not end in .osi with --format osi' export "$work/q/tt.mcap" --format osi -o "$work/q.osi"
+expect 2 'must end in .mcap, or name a folder' export "$work/q/tt.mcap" --format osi -o "$work/q.osi"
 
 # From a vehicle.
 expect 0 '1 object in 321 messages over 6.4 s, seen from vehicle 1' "${drive[@]}" --truth "$work/cut_in.osi" --out "$work/c" --duration 60
