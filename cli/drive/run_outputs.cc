@@ -305,9 +305,9 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
   json["seed"] = seed;
   json["duration_s"] = scenario.duration.seconds();
   if (scenario.truth) {
-    std::vector<std::uint64_t> ids;
-    for (const recording::osi::TracedObject& object : scenario.truth->objects) ids.push_back(object.id);
-    json["truth"] = {{"file", scenario.truth->name}, {"length_s", scenario.truth->length().seconds()}, {"ids", ids}};
+    json["truth"] = {{"file", scenario.truth->name}, {"length_s", scenario.truth->length().seconds()}};
+    for (const recording::osi::TracedObject& object : scenario.truth->objects)
+      json["truth"]["objects"].push_back({{"id", object.id}, {"kind", name_of(object.kind)}});
   }
   for (const StrategyResult& result : results) {
     const evaluation::accuracy::DriveSummary& s = result.summary;

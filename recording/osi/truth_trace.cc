@@ -209,6 +209,16 @@ std::optional<std::uint64_t> id_in(bool has, const osi3::Identifier& id) {
 
 }  // namespace
 
+std::string_view name_of(TracedKind kind) {
+  switch (kind) {
+    case TracedKind::kVehicle: return "vehicle";
+    case TracedKind::kTwoWheeler: return "two-wheeler";
+    case TracedKind::kPedestrian: return "pedestrian";
+    case TracedKind::kOther: return "other";
+  }
+  return "other";
+}
+
 TruthTrace parse_truth_trace(std::string_view bytes, const std::string& name) {
   const TraceMessages trace = trace_messages(bytes, name);
   Gathering gathering(name);

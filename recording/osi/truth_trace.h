@@ -8,6 +8,7 @@
 // An absent velocity is the positions' difference. Absent acceleration and yaw rate are differences, too.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct TracedState {
 };
 
 enum class TracedKind : std::uint8_t { kVehicle, kTwoWheeler, kPedestrian, kOther };
+std::string_view name_of(TracedKind kind);  // "two-wheeler"
 
 struct TracedObject {
   // In successive messages, from that of TruthTrace::instants[first] on.
@@ -46,6 +48,9 @@ struct TracedHost {
   bool has_rear = false;              // else unknown, and zero
 };
 
+inline constexpr std::size_t kMostTracedObjects = 65'534;  // whose ids are no false detection's
+
+// A trace has at least one message and one object, and an object at least one state.
 struct TruthTrace {
   std::string hash;                   // content hash of the file
   std::string name;                   // the file's, for messages
@@ -61,8 +66,5 @@ struct TruthTrace {
 // Reads `.osi` (each message behind its length) and OSI's MCAP. Throws InputError with one sentence, also for a file
 // that was cut off. `name` stands for the file.
 TruthTrace parse_truth_trace(std::string_view bytes, const std::string& name);
-
-// An object has at least one state, and so has the trace.
-inline constexpr std::size_t kMostTracedObjects = 65'534;  // whose ids are no false detection's
 
 }  // namespace ttf::recording::osi

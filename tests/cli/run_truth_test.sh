@@ -18,7 +18,7 @@ says "the scenario's object is not there" 'position RMSE'
 python3 -c '
 import json, sys
 summary = json.load(open(sys.argv[1]))
-assert summary["truth"]["ids"] == [42] and summary["truth"]["length_s"] == 8.0, summary["truth"]
+assert summary["truth"]["objects"] == [{"id": 42, "kind": "vehicle"}] and summary["truth"]["length_s"] == 8.0, summary["truth"]
 tt = summary["strategies"][0]
 assert tt["rmse_truth"]["position_m"] < 0.5, tt["rmse_truth"]
 ' "$work/a/summary.json" || fail "the summary of lane_change"

@@ -192,6 +192,22 @@ TEST(TruthTrace, AnObjectMayComeAndGo) {
   EXPECT_EQ(object.lives[1].states[0].vx, 3.0);
 }
 
+TEST(TruthTrace, TellsKinds) {
+  using Vehicle = osi3::MovingObject::VehicleClassification;
+  std::vector<osi3::GroundTruth> truths = steady(1);
+  truths[0].mutable_moving_object(0)->set_type(osi3::MovingObject::TYPE_PEDESTRIAN);
+  for (const Vehicle::Type type : {Vehicle::TYPE_CAR, Vehicle::TYPE_BICYCLE}) {
+    osi3::MovingObject& object = add_object(truths[0], 50u + static_cast<unsigned>(type), 10.0, 0.0);
+    object.set_type(osi3::MovingObject::TYPE_VEHICLE);
+    object.mutable_vehicle_classification()->set_type(type);
+  }
+  add_object(truths[0], 80, 20.0, 0.0);
+  std::vector<std::string_view> names;
+  for (const TracedObject& object : parse_truth_trace(framed(truths), "a.osi").objects)
+    names.push_back(name_of(object.kind));
+  EXPECT_THAT(names, testing::ElementsAre("pedestrian", "vehicle", "two-wheeler", "other"));
+}
+
 TEST(TruthTrace, TheHostVehicleIsNoObject) {
   std::vector<osi3::GroundTruth> truths = steady(3);
   for (osi3::GroundTruth& truth : truths) {
