@@ -12,7 +12,7 @@ packages=(
   libsqlite3-dev libboost-dev libopenmpi-dev openmpi-bin
   cyclonedds-dev cyclonedds-tools
   # tests
-  libgtest-dev libgmock-dev libbenchmark-dev clang-format python3-yaml python3-jsonschema
+  libgtest-dev libgmock-dev libbenchmark-dev clang-format python3-yaml python3-jsonschema python3-protobuf
 )
 # Programs that the build and the tests call, from whatever source, and the package that has each.
 programs=(
