@@ -187,8 +187,8 @@ void add_export(CLI::App& app, Action& action) {
       "export",
       "A run for Wireshark, canplayer, ui.perfetto.dev, Foxglove, OSI's tools, Python, a spreadsheet or a paper");
   command->footer(
-      "The start of the run is 1970-01-01 in pcapng, foxglove and osi, second 1000000000 in candump, and 0 in\n"
-      "csv, perfetto, tables and sqlite.\n"
+      "The start of the run is 1970-01-01 in pcapng, foxglove and osi, second 1000000000 in candump, and\n"
+      "0 in csv, perfetto, tables and sqlite.\n"
       "The logs of a run's processes are merged.\n"
       "Examples: ttfusion export out/drive/tt.mcap --format pcapng -o out/drive.pcapng\n"
       "          ttfusion export out/drive/tt.mcap --format foxglove -o out/scene.mcap\n"
