@@ -12,18 +12,18 @@
 namespace ttf::fusion::tracks {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kEighth = 0.25 * kPi;
+constexpr double kEighth = 0.25 * std::numbers::pi;
 // A heading beyond this standard deviation [rad] is unknown.
-constexpr double kNoHeading = 0.7;
+constexpr double kUnknownHeading = 0.7;
 
-linear::Vector<2> left_of(const linear::Vector<2>& a) { return {-a.y(), a.x()}; }
+linear::Vector<2> on_its_left(const linear::Vector<2>& a) { return {-a.y(), a.x()}; }
 
 // The distance of the box along a direction, by the slab method; infinite where the ray passes it.
-double range_of(const Outline& outline, const linear::Vector<2>& axis, const linear::Vector<2>& sight) {
+double range_of(const SeenBox& outline, const linear::Vector<2>& axis, const linear::Vector<2>& sight) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   double enter = 0.0, leave = kNever;
   for (int side = 0; side < 2; ++side) {
-    const linear::Vector<2> along = side == 0 ? axis : left_of(axis);
+    const linear::Vector<2> along = side == 0 ? axis : on_its_left(axis);
     const double towards = along.dot(sight), middle = along.dot(outline.centre), half = 0.5 * outline.box.size(side);
     if (std::abs(towards) < 1e-12) {
       if (std::abs(middle) > half) return kNever;
@@ -44,7 +44,7 @@ sensors::Observation added(const sensors::Observation& observation, const linear
 
 }  // namespace
 
-linear::Matrix<3> spread_of(const Outline& outline) {
+linear::Matrix<3> spread_of(const SeenBox& outline) {
   constexpr int kRays = 16;
   const linear::Vector<2> axis(std::cos(outline.box.heading), std::sin(outline.box.heading));
   const double middle = std::atan2(outline.centre.y(), outline.centre.x());
@@ -52,9 +52,9 @@ linear::Matrix<3> spread_of(const Outline& outline) {
   for (const double a : {-0.5, 0.5})
     for (const double b : {-0.5, 0.5}) {
       const linear::Vector<2> corner =
-          outline.centre + a * outline.box.size(0) * axis + b * outline.box.size(1) * left_of(axis);
+          outline.centre + a * outline.box.size(0) * axis + b * outline.box.size(1) * on_its_left(axis);
       const double off = motion::to_half_turn(std::atan2(corner.y(), corner.x()) - middle);
-      if (std::abs(off) > 0.5 * kPi) return linear::Matrix<3>::Zero();
+      if (std::abs(off) > 0.5 * std::numbers::pi) return linear::Matrix<3>::Zero();
       low = std::min(low, off);
       high = std::max(high, off);
     }
@@ -67,7 +67,7 @@ linear::Matrix<3> spread_of(const Outline& outline) {
     const double range = range_of(outline, axis, sight);
     if (!std::isfinite(range)) continue;
     const linear::Vector<2> velocity =
-        outline.velocity + outline.turn_rate * left_of(linear::Vector<2>(range * sight - outline.centre));
+        outline.velocity + outline.turn_rate * on_its_left(linear::Vector<2>(range * sight - outline.centre));
     linear::Vector<3>& point = points[static_cast<std::size_t>(hits++)];
     point << range, off, sight.dot(velocity);
     mean += point;
@@ -87,21 +87,21 @@ sensors::Observation with_spread(const sensors::Observation& observation, const 
   if (observation.returns == 0) return observation;
   const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
   const CentrePosition centre = centre_position(track, estimate);
-  Outline outline;
+  SeenBox outline;
   outline.centre = centre.estimate.x - mounting.position;
   outline.box.size = track.extent.size;
   const double sight = std::atan2(outline.centre.y(), outline.centre.x());
-  const bool headed = centre.facing.sigma <= kNoHeading;
+  const bool headed = centre.facing.sigma <= kUnknownHeading;
   outline.box.heading = headed ? centre.facing.heading : sight + kEighth;
   outline.turn_rate = headed && track.heading.known ? track.heading.rate : 0.0;
   outline.velocity = estimate.x.segment<2>(2) - mounting.velocity +
-                     outline.turn_rate * left_of(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
+                     outline.turn_rate * on_its_left(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
   return added(observation, spread_of(outline));
 }
 
 sensors::Observation with_spread(const sensors::Observation& observation, const Extent& extent) {
   if (observation.returns == 0) return observation;
-  Outline outline;
+  SeenBox outline;
   outline.centre << observation.z(0), 0.0;  // to the spread, the bearing is no matter
   outline.box = {extent.size, kEighth};
   return added(observation, spread_of(outline));

@@ -16,14 +16,14 @@
 namespace ttf::fusion::tracks {
 
 // A box as a sensor sees it: in the vehicle's axes, from the sensor's place.
-struct Outline {
+struct SeenBox {
   linear::Vector<2> centre = linear::Vector<2>::Zero();  // [m]
   Box box;
   linear::Vector<2> velocity = linear::Vector<2>::Zero();  // the centre's, relative to the sensor [m/s]
   double turn_rate = 0.0;                                  // [rad/s]
 };
 // Returns C. Around the sensor there is no outline, and C is zero.
-linear::Matrix<3> spread_of(const Outline& outline);
+linear::Matrix<3> spread_of(const SeenBox& outline);
 
 // Returns the observation with C / n added, as one of this track; of one without returns, an equal one.
 sensors::Observation with_spread(const sensors::Observation& observation, const Track& track,

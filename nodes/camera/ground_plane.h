@@ -23,7 +23,7 @@ struct MonoCalibration {
   double height_m = 1.3;
   double focal_px = 1100.0;
   double pitch_rad = 0.0;        // known; positive if the camera looks down
-  double pitch_sigma_rad = 0.0;  // of the rest, taken for noise of each box
+  double pitch_sigma_rad = 0.0;  // the rest, taken for noise of each box
   double column_sigma_px = 1.0, row_sigma_px = 1.0;
   MarkCalibration marks;  // of lanes
 };

@@ -94,8 +94,8 @@ WorldConfig load_world(YamlMap& yaml) {
     object.name = map.text("name");
     load_class(map, object);
     load_kind(map, object);
-    if (auto on = map.map_if("on")) {
-      if (!config.road) map.fail("on", "needs a road in the world");
+    if (auto on = map.map_if("at")) {
+      if (!config.road) map.fail("at", "needs a road in the world");
       object.on = traffic::load_lane_config(map, *on, config.road.value_or(kNoRoad));
     } else {
       object.x = map.number("x", kPlace, "m");

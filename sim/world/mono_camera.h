@@ -47,14 +47,14 @@ struct MonoCameraConfig {
   double half_field_rad = 0.45;                      // 26 degrees to either side
   double half_height_px = 400.0;                     // rows of the picture above and below its middle
   double max_range_m = 70.0;                         // boxes of objects further away are left out
-  double column_sigma_px = 1.0, row_sigma_px = 1.0;  // of each edge
-  double detection_probability = 0.95;               // of large boxes
+  double column_sigma_px = 1.0, row_sigma_px = 1.0;  // each edge's
+  double detection_probability = 0.95;               // for large boxes
   double half_detected_px = 18.0, detection_slope_px = 4.0;
   double class_confusion = 0.02;   // probability of any other class
   double clutter_per_frame = 0.1;  // mean number of false boxes
   std::array<PictureRegion, kMostRegions> regions{};
   std::size_t region_count = 0;  // 0: all of the picture
-  LaneMarkConfig marks;          // of lanes, where the cluster has a list for them
+  LaneMarkConfig marks;          // measured where the cluster has a list for them
   DriveError bearing_bias;       // systematic errors, zero by default: [rad]
   DriveError pitch;              // [rad]
   Device device;

@@ -5,31 +5,31 @@
 namespace ttf::sim::world {
 namespace {
 
-constexpr Weather kClear{};
-constexpr Weather kRain{.laser_range = 0.75,
-                        .laser_misses = 2.0,
-                        .camera_range = 0.75,
-                        .camera_misses = 2.0,
-                        .camera_clutter = 2.0,
-                        .radar_attenuation_db_per_km = 6.0,
-                        .radar_clutter = 2.0};
-constexpr Weather kFog{.laser_range = 0.4,
-                       .laser_misses = 3.0,
-                       .camera_range = 0.4,
-                       .camera_misses = 3.0,
-                       .radar_attenuation_db_per_km = 0.2};
-constexpr Weather kDark{.camera_range = 0.6, .camera_misses = 2.0, .camera_clutter = 2.0};
+constexpr Weather kInTheClear{};
+constexpr Weather kInRain{.laser_range = 0.75,
+                          .laser_misses = 2.0,
+                          .camera_range = 0.75,
+                          .camera_misses = 2.0,
+                          .camera_clutter = 2.0,
+                          .radar_attenuation_db_per_km = 6.0,
+                          .radar_clutter = 2.0};
+constexpr Weather kInFog{.laser_range = 0.4,
+                         .laser_misses = 3.0,
+                         .camera_range = 0.4,
+                         .camera_misses = 3.0,
+                         .radar_attenuation_db_per_km = 0.2};
+constexpr Weather kInTheDark{.camera_range = 0.6, .camera_misses = 2.0, .camera_clutter = 2.0};
 
 enum class Kind : unsigned char { kClear, kRain, kFog, kDark };
 
 const Weather& weather_of(Kind kind) {
   switch (kind) {
-    case Kind::kClear: return kClear;
-    case Kind::kRain: return kRain;
-    case Kind::kFog: return kFog;
+    case Kind::kClear: return kInTheClear;
+    case Kind::kRain: return kInRain;
+    case Kind::kFog: return kInFog;
     case Kind::kDark: break;
   }
-  return kDark;
+  return kInTheDark;
 }
 
 }  // namespace
@@ -65,15 +65,6 @@ LaserConfig in_weather(LaserConfig laser, const Weather& weather) {
 CameraConfig in_weather(CameraConfig camera, const Weather& weather) {
   camera.max_range_m *= weather.camera_range;
   camera.miss_probability = std::min(1.0, camera.miss_probability * weather.camera_misses);
-  camera.clutter_per_frame *= weather.camera_clutter;
-  return camera;
-}
-
-MonoCameraConfig in_weather(MonoCameraConfig camera, const Weather& weather) {
-  camera.max_range_m *= weather.camera_range;
-  // A box shrinks with the range.
-  camera.half_detected_px /= weather.camera_range;
-  camera.detection_probability = std::max(0.0, 1.0 - (1.0 - camera.detection_probability) * weather.camera_misses);
   camera.clutter_per_frame *= weather.camera_clutter;
   return camera;
 }

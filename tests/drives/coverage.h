@@ -1,4 +1,4 @@
-// Which track each true object has, at every use of an image.
+// The track of each true object, at every use of an image.
 #pragma once
 
 #include <map>

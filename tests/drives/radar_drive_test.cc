@@ -12,9 +12,9 @@ namespace {
 using fusion::oosm::Kind;
 using fusion::strategies::StrategyKind;
 
-constexpr const char* kScenario = "scenarios/laser_and_radar.yaml";
+constexpr const char* kRadars = "scenarios/laser_and_radar.yaml";
 
-evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
+evaluation::accuracy::DriveSummary measured(const Drive& drive) {
   evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
   drive.run(measures);
   return measures.finish();
@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Strategies, RadarDrive, testing::ValuesIn(fusion::strat
                          [](const auto& strategy) { return std::string(name_of(strategy.param)); });
 
 TEST_P(RadarDrive, FollowsAllThreeCars) {
-  const evaluation::accuracy::DriveSummary summary = summary_of(Drive(kScenario, GetParam()));
+  const evaluation::accuracy::DriveSummary summary = measured(Drive(kRadars, GetParam()));
   EXPECT_LT(summary.missed, summary.matched / 20);
   EXPECT_LT(summary.position_rmse_truth, 1.0);
   EXPECT_LT(summary.velocity_rmse_truth, 1.0);
@@ -35,9 +35,9 @@ TEST_P(RadarDrive, FollowsAllThreeCars) {
 
 // The laser sees one metre.
 TEST_P(RadarDrive, FollowsThemByRadarAlone) {
-  Drive drive(kScenario, GetParam());
+  Drive drive(kRadars, GetParam());
   drive.scenario.sensors.lasers.usual.model.max_range_m = 1.0;
-  const evaluation::accuracy::DriveSummary summary = summary_of(drive);
+  const evaluation::accuracy::DriveSummary summary = measured(drive);
   EXPECT_LT(summary.missed, summary.matched / 10);
   EXPECT_LT(summary.position_rmse_truth, 2.0);
   EXPECT_GT(summary.own.innovations, 0.6);
@@ -45,39 +45,39 @@ TEST_P(RadarDrive, FollowsThemByRadarAlone) {
 }
 
 TEST(RadarLate, EveryMethodIsNearlyRewinding) {
-  Drive drive(kScenario, StrategyKind::kAdva);
+  Drive drive(kRadars, StrategyKind::kAdva);
   drive.scenario.duration = Duration::milliseconds(4000);
-  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
+  const evaluation::accuracy::DriveSummary rewinding = measured(drive);
   EXPECT_GT(rewinding.fused_late, 10u);
   for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1, Kind::kBl1, Kind::kA, Kind::kB, Kind::kC}) {
     drive.scenario.tracker.late = kind;
     check_late(drive.scenario, drive.cluster, StrategyKind::kAdva);
-    const evaluation::accuracy::DriveSummary other = summary_of(drive);
+    const evaluation::accuracy::DriveSummary other = measured(drive);
     EXPECT_NEAR(other.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.1) << name_of(kind);
     EXPECT_NEAR(other.velocity_rmse_truth / rewinding.velocity_rmse_truth, 1.0, 0.1) << name_of(kind);
   }
 }
 
 TEST(RadarLate, ClonesTakeThemOnASchedule) {
-  Drive drive(kScenario, StrategyKind::kTt);
-  const evaluation::accuracy::DriveSummary rewinding = summary_of(drive);
+  Drive drive(kRadars, StrategyKind::kTt);
+  const evaluation::accuracy::DriveSummary rewinding = measured(drive);
   drive.scenario.tracker.late = Kind::kClone;
   check_late(drive.scenario, drive.cluster, StrategyKind::kTt);
-  const evaluation::accuracy::DriveSummary clone = summary_of(drive);
+  const evaluation::accuracy::DriveSummary clone = measured(drive);
   EXPECT_NEAR(clone.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.02);
 }
 
-Scenario with(std::string text, const std::string& from, const std::string& to) {
+Scenario changed(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos);
-  return parse_scenario(text.replace(at, from.size(), to), shipped(kScenario));
+  return parse_scenario(text.replace(at, from.size(), to), shipped(kRadars));
 }
 
 TEST(RadarScenario, TheTrackerKnowsSpansFieldsAndBlindSides) {
-  const Scenario scenario = load_scenario(shipped(kScenario));
-  const Scenario fog = with(scenario.text, "weather: clear", "weather: fog");
+  const Scenario scenario = load_scenario(shipped(kRadars));
+  const Scenario fog = changed(scenario.text, "weather: clear", "weather: fog");
   const Scenario hidden =
-      with(scenario.text, "half_field: 1.0", "half_field: 1.0\n    blind: [{from: -0.9, to: -0.7}]");
+      changed(scenario.text, "half_field: 1.0", "half_field: 1.0\n    blind: [{from: -0.9, to: -0.7}]");
   const schedules::model::Cluster cluster =
       schedules::file::load_cluster(scenario.cluster_files[static_cast<std::size_t>(StrategyKind::kTt)]);
   const auto known = [&](const Scenario& of, const char* name) {

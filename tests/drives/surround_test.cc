@@ -1,10 +1,8 @@
 // Six sensors round the car, and a car that goes round all of them.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
 
-#include "fusion/metrics/consistency.h"
 #include "tests/drives/coverage.h"
 
 namespace ttf::drives {
@@ -35,6 +33,57 @@ TEST_P(Surround, WhoeverGoesRoundKeepsItsName) {
   EXPECT_EQ(outcome.counts.deadlines_missed, 0u);
   EXPECT_EQ(outcome.counts.torn_lists, 0u);
   EXPECT_EQ(outcome.counts.overwritten_lists, 0u);
+}
+
+// The camera with one lens alone sees a car that stands 30 m ahead. Its pitch is the same in all pictures of a drive.
+TEST(MonoCameraDrive, AConsideredPitchIsConsistentAnIgnoredOneIsNot) {
+  constexpr double kPitch = 0.002;
+  constexpr std::uint64_t kDrives = 20;
+  Drive drive("scenarios/surround.yaml", StrategyKind::kTt);
+  drive.scenario.duration = Duration::milliseconds(3000);
+  drive.scenario.evaluate_from = Duration::milliseconds(2000);
+  sim::world::WorldConfig& world = drive.scenario.world;
+  world.acceleration_noise = 0.0;
+  world.objects.resize(1);
+  sim::world::ObjectConfig& car = world.objects[0];
+  car.x = 30.0, car.y = 0.0, car.heading = 0.0, car.speed = 0.0;
+  car.segments.clear();
+  Sensors& sensors = drive.scenario.sensors;
+  sensors.lasers.usual.model.max_range_m = 1.0;
+  for (auto& entry : sensors.cameras.own) entry.model.max_range_m = 1.0;
+  for (auto& entry : sensors.radars.own) entry.model.max_range_m = 1.0;
+  auto& camera = sensors.mono_cameras.usual;
+  camera.model.pitch.sigma = kPitch;
+  camera.preprocessing->pitch_sigma_rad = 0.0;
+
+  fusion::config::TrackerConfig& tracker = drive.scenario.tracker;
+  tracker.motion = fusion::config::MotionModel::kConstantVelocity;
+  tracker.process_noise = 0.1;
+  // Half a length's error is the centre's, so the lengths are those of the prior.
+  car.size.draw = sim::world::SizeDraw::kNormal;
+  car.size.mean = {tracker.sizes.length, tracker.sizes.width};
+  car.size.sigma = {tracker.sizes.length_sigma, tracker.sizes.width_sigma};
+  car.size.correlation = tracker.sizes.correlation;
+  car.size.normal = {2.0, 7.0, 1.0, 3.0};
+  const double range = car.x - 0.5 * tracker.sizes.length - camera.model.device.placement.x;
+  for (fusion::sensors::KnownSensor& known : tracker.sensors)
+    if (known.name == "mono_camera") known.errors.sigma(0) = kPitch * range * range / camera.model.height_m;
+
+  double nees[2] = {};
+  for (const auto answer :
+       {fusion::config::SystematicErrorsAre::kIgnored, fusion::config::SystematicErrorsAre::kConsidered}) {
+    tracker.systematic = answer;
+    for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
+      evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+      drive.run(measures, seed, false);
+      const evaluation::accuracy::DriveSummary summary = measures.finish();
+      ASSERT_GT(summary.matched, 20u) << seed;
+      nees[static_cast<std::size_t>(answer)] += summary.own.position / kDrives;
+    }
+  }
+  EXPECT_GT(nees[1], 0.4);
+  EXPECT_LT(nees[1], 1.7);
+  EXPECT_GT(nees[0], 3.0 * nees[1]);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryStrategy, Surround, testing::ValuesIn(fusion::strategies::kAllStrategies),

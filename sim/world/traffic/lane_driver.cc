@@ -9,6 +9,7 @@ namespace ttf::sim::world::traffic {
 namespace {
 
 constexpr double kGrid_s = 0.01;
+constexpr Duration kTimeGap = Duration::milliseconds(1500);
 constexpr double kHardestBraking = 8.0;  // [m/s^2], of one that follows
 constexpr double kMostSideways = 0.5;    // a share of the speed
 constexpr double kTouching_m = 0.1;      // the smallest gap that counts
@@ -28,7 +29,7 @@ Manoeuvre load_manoeuvre(YamlMap& yaml, const road::RoadConfig& road) {
 Follow load_follow(YamlMap& yaml) {
   Follow f;
   f.speed = yaml.number_or("speed", f.speed, {0.1, 100.0}, "m/s");
-  f.time_gap = yaml.number_or("time_gap", f.time_gap, {0.0, 10.0}, "s");
+  f.time_gap = yaml.duration_or("time_gap", kTimeGap, {Duration{}, Duration::milliseconds(10'000)}).seconds();
   f.smallest_gap = yaml.number_or("smallest_gap", f.smallest_gap, {0.1, 50.0}, "m");
   f.acceleration = yaml.number_or("acceleration", f.acceleration, {0.1, 10.0}, "m/s^2");
   f.deceleration = yaml.number_or("deceleration", f.deceleration, {0.1, 10.0}, "m/s^2");

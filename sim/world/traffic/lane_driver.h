@@ -43,7 +43,7 @@ struct LaneConfig {
   std::vector<Manoeuvre> manoeuvres;
   std::optional<Follow> follow;
 };
-// Reads the object's `manoeuvres` and `follow`, and its start from `on`.
+// Reads the object's `manoeuvres` and `follow`, and its start from `at`.
 LaneConfig load_lane_config(YamlMap& object, YamlMap& on, const road::RoadConfig& road);
 
 // The acceleration by which `follow` drives at `speed`, with another `gap` ahead that drives at `ahead`.

@@ -7,8 +7,8 @@ namespace ttf::sim::world::traffic {
 LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
   LightConfig light;
   light.name = yaml.text("name");
-  if (auto on = yaml.map_if("on")) {
-    if (road == nullptr) yaml.fail("on", "needs a road in the world");
+  if (auto on = yaml.map_if("at")) {
+    if (road == nullptr) yaml.fail("at", "needs a road in the world");
     const road::RoadConfig usual{.pieces = {road::Piece{1.0}}};
     light.on = road::load_on_lane(*on, road != nullptr ? *road : usual);
     const road::Road line(road != nullptr ? *road : usual);
@@ -27,7 +27,7 @@ LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
                                               {"red_yellow", Light::kRedYellow},
                                               {"green", Light::kGreen},
                                               {"yellow", Light::kYellow},
-                                              {"off", Light::kOff}});
+                                              {"dark", Light::kDark}});
     phase.duration = map.duration("duration", {Duration::milliseconds(100), Duration::milliseconds(3'600'000)});
     map.finish();
     light.phases.push_back(phase);
@@ -40,13 +40,13 @@ LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
 Light shown_at(const LightConfig& light, TrueTime since_start) {
   Duration round{};
   for (const Phase& phase : light.phases) round = round + phase.duration;
-  if (round.ns <= 0) return Light::kOff;
+  if (round.ns <= 0) return Light::kDark;
   std::int64_t within = since_start.ns < 0 ? 0 : since_start.ns % round.ns;
   for (const Phase& phase : light.phases) {
     if (within < phase.duration.ns) return phase.light;
     within -= phase.duration.ns;
   }
-  return Light::kOff;
+  return Light::kDark;
 }
 
 bool stops(Light light) {
@@ -54,7 +54,7 @@ bool stops(Light light) {
     case Light::kRed:
     case Light::kRedYellow:
     case Light::kYellow: return true;
-    case Light::kOff:
+    case Light::kDark:
     case Light::kGreen: break;
   }
   return false;

@@ -12,10 +12,10 @@
 
 namespace ttf::sim::world::traffic {
 
-enum class Light : std::uint8_t { kOff, kRed, kRedYellow, kGreen, kYellow };
+enum class Light : std::uint8_t { kDark, kRed, kRedYellow, kGreen, kYellow };
 
 struct Phase {
-  Light light = Light::kOff;
+  Light light = Light::kDark;
   Duration duration{};
 };
 

@@ -114,8 +114,8 @@ EgoConfig load_ego(YamlMap& yaml, const road::RoadConfig* road) {
   EgoConfig config;
   if (auto vehicle = yaml.map_if("vehicle")) config.vehicle = load_vehicle(*vehicle);
   if (auto start = yaml.map_if("start")) {
-    if (auto on = start->map_if("on")) {
-      config.on = road::load_on_lane(*on, needed(*start, "on", road));
+    if (auto on = start->map_if("at")) {
+      config.on = road::load_on_lane(*on, needed(*start, "at", road));
     } else {
       config.x = start->number_or("x", 0.0, {-10'000.0, 10'000.0}, "m");
       config.y = start->number_or("y", 0.0, {-10'000.0, 10'000.0}, "m");

@@ -14,8 +14,8 @@
 namespace ttf::fusion::tracks {
 namespace {
 
-Outline outline(double x, double y, double heading, double speed, double turn_rate = 0.0) {
-  Outline o;
+SeenBox outline(double x, double y, double heading, double speed, double turn_rate = 0.0) {
+  SeenBox o;
   o.centre << x, y;
   o.box.size << 4.4, 1.8;
   o.box.heading = heading;
@@ -25,7 +25,7 @@ Outline outline(double x, double y, double heading, double speed, double turn_ra
 }
 
 // Evenly over the azimuths, on the first of the four edges that each ray meets.
-linear::Matrix<3> by_drawing(const Outline& o) {
+linear::Matrix<3> by_drawing(const SeenBox& o) {
   constexpr int kPoints = 20'000;
   const double c = std::cos(o.box.heading), s = std::sin(o.box.heading), l = 0.5 * o.box.size(0),
                w = 0.5 * o.box.size(1);
@@ -60,7 +60,7 @@ linear::Matrix<3> by_drawing(const Outline& o) {
 }
 
 TEST(Returns, SpreadAsPointsDrawnOnTheOutline) {
-  for (const Outline& o : {outline(45.0, 0.0, 0.0, 3.0), outline(20.0, 3.5, 0.0, 8.0), outline(60.0, 3.5, 0.0, 8.0),
+  for (const SeenBox& o : {outline(45.0, 0.0, 0.0, 3.0), outline(20.0, 3.5, 0.0, 8.0), outline(60.0, 3.5, 0.0, 8.0),
                            outline(25.0, 5.0, 1.5, 5.0), outline(30.0, -8.0, 2.4, 8.0, 0.5)}) {
     const linear::Matrix<3> spread = spread_of(o), drawn = by_drawing(o);
     for (int i = 0; i < 3; ++i)
@@ -91,21 +91,21 @@ TEST(Returns, OfACarThatDrivesAheadMakeAConsistentTrack) {
   config::TrackerConfig config = config_of(config::MotionModel::kConstantVelocity, 1.0);
   config.sensors.resize(1);
   const auto estimator = estimators::make_estimator(config);
-  constexpr int kDrives = 60, kLists = 60;
-  constexpr double kSpeed = 6.0, kLength = 4.4, kWidth = 1.8;
+  constexpr int kCars = 60, kLists = 60;
+  constexpr double kFast = 6.0, kLong = 4.4, kWide = 1.8;
   double squares = 0.0;
   int judged = 0;
-  for (std::uint32_t drive = 0; drive < kDrives; ++drive) {
+  for (std::uint32_t drive = 0; drive < kCars; ++drive) {
     RandomStream noise({2, drive, Purpose::kTest, 0, 0});
     Tracker tracker(config, 4);
     TrackSet set(tracker.max_tracks());
-    double x = 30.0, v = kSpeed;
+    double x = 30.0, v = kFast;
     for (int k = 0; k < kLists; ++k) {
       const double q = std::sqrt(0.05) * noise.normal();
       x += 0.05 * v + 0.025 * q;
       v += q;
       const auto returns = static_cast<std::uint8_t>(noise.integer(1, 4));
-      const double rear = x - 0.5 * kLength, half = std::atan2(0.5 * kWidth, rear);
+      const double rear = x - 0.5 * kLong, half = std::atan2(0.5 * kWide, rear);
       linear::Vector<3> mean = linear::Vector<3>::Zero();
       for (int i = 0; i < returns; ++i) {
         const double azimuth = noise.uniform(-half, half);
@@ -126,7 +126,7 @@ TEST(Returns, OfACarThatDrivesAheadMakeAConsistentTrack) {
     squares += off.dot(view.covariance.block<2, 2>(2, 2).inverse() * off);
     ++judged;
   }
-  EXPECT_EQ(judged, kDrives);
+  EXPECT_EQ(judged, kCars);
   // Chi-square of 2 degrees each: 0.95 within 1.6 and 2.5 for 60. The lateral velocity is judged with care.
   EXPECT_GT(squares / judged, 1.0);
   EXPECT_LT(squares / judged, 2.6);

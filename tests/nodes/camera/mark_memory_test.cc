@@ -15,7 +15,9 @@ TEST(MarkMemory, LastingMarksBecomeValid) {
     if (list == 4) marks.push_back({-3.0, 0.0, 0.0});
     memory.judge(marks);
     EXPECT_DOUBLE_EQ(marks[0].validity, list < 5 ? 0.2 * list : 1.0) << list;
-    if (list == 4) EXPECT_DOUBLE_EQ(marks[1].validity, 0.2);
+    if (list == 4) {
+      EXPECT_DOUBLE_EQ(marks[1].validity, 0.2);
+    }
   }
 }
 

@@ -33,7 +33,7 @@ std::string sentence_about(const std::string& text) {
 // Its actions take effect a step after their trigger. Lanes are 3.07 m wide.
 TEST(LaneDriver, CutsInAsPublished) {
   const World is(world("road: {lanes: {left: 0, right: 2, width: 3.07}, start: {y: 3.07}, pieces: [{length: 500}]}\n"
-                       "objects: [{name: target, on: {lane: -1, s: 80}, speed: 15, manoeuvres: [{duration: 2010 ms},"
+                       "objects: [{name: target, at: {lane: -1, s: 80}, speed: 15, manoeuvres: [{duration: 2010 ms},"
                        "{duration: 2 s, lane: -2, within: 3 s}, {duration: 5 s, acceleration: -5.2}]}]"),
                  1, 0);
   const ObjectState changing = is.state_of(ObjectId{0}, at_ms(2840)), braked = is.state_of(ObjectId{0}, at_ms(6350));
@@ -50,9 +50,9 @@ TEST(LaneDriver, MovesAsItsStateSays) {
   const WorldConfig config = world(
       "road: {lanes: {left: 1, right: 2}, pieces: [{length: 60}, {length: 60, end_curvature: 0.02}, {length: 300, "
       "curvature: 0.02}]}\n"
-      "objects: [{name: a, on: {lane: -1, s: 10}, speed: 12, manoeuvres: [{duration: 3 s, lane: -2},"
+      "objects: [{name: a, at: {lane: -1, s: 10}, speed: 12, manoeuvres: [{duration: 3 s, lane: -2},"
       "{duration: 9 s, lane: -1, within: 4 s, speed: 8}, {duration: 3 s, speed: 0, acceleration: 3}]},"
-      "{name: b, on: {lane: 1, s: 200}, speed: 10}]");
+      "{name: b, at: {lane: 1, s: 200}, speed: 10}]");
   const World is(config, 1, 0);
   for (std::uint16_t o = 0; o < 2; ++o)
     for (std::int64_t ms = 10; ms < 19'000; ms += 10) {
@@ -75,7 +75,7 @@ TEST(LaneDriver, MovesAsItsStateSays) {
 
 TEST(LaneDriver, DrivesStraightOnWhereTheRoadEnds) {
   const World is(world("road: {pieces: [{length: 30}, {length: 30, curvature: 0.02}]}\n"
-                       "objects: [{name: a, on: {lane: -1, s: 40}, speed: 20}]"),
+                       "objects: [{name: a, at: {lane: -1, s: 40}, speed: 20}]"),
                  1, 0);
   const ObjectState a = is.state_of(ObjectId{0}, at_ms(3000)), b = is.state_of(ObjectId{0}, at_ms(8000));
   EXPECT_NEAR(b.x - a.x, 100.0 * std::cos(0.6), 1e-6);
@@ -84,7 +84,7 @@ TEST(LaneDriver, DrivesStraightOnWhereTheRoadEnds) {
 
 // One that stops in the middle of a lane change does not slide sideways.
 TEST(LaneDriver, DoesNotSlide) {
-  const World is(world("road: {lanes: {right: 2}, pieces: [{length: 500}]}\nobjects: [{name: a, on: {lane: -1, s: 0},"
+  const World is(world("road: {lanes: {right: 2}, pieces: [{length: 500}]}\nobjects: [{name: a, at: {lane: -1, s: 0},"
                        "speed: 6, manoeuvres: [{duration: 9 s, speed: 0, acceleration: 4, lane: -2}]}]"),
                  1, 0);
   const ObjectState stopped = is.state_of(ObjectId{0}, at_ms(1510)), later = is.state_of(ObjectId{0}, at_ms(9000));
@@ -102,8 +102,8 @@ TEST(Following, KeepsTheModelsGap) {
   EXPECT_NEAR(following(follow, 13.9, 1e12, 0.0), 0.0, 1e-9);
   EXPECT_NEAR(following(follow, 0.0, 1e12, 0.0), 1.0, 1e-9);
   EXPECT_EQ(following(follow, 10.0, 0.5, 0.0), -8.0);
-  const World is(world("road: {pieces: [{length: 3000}]}\nobjects: [{name: first, on: {lane: -1, s: 100}, speed: 10},"
-                       "{name: second, on: {lane: -1, s: 60}, speed: 10, follow: {}}]",
+  const World is(world("road: {pieces: [{length: 3000}]}\nobjects: [{name: first, at: {lane: -1, s: 100}, speed: 10},"
+                       "{name: second, at: {lane: -1, s: 60}, speed: 10, follow: {}}]",
                        90'000),
                  1, 0);
   const ObjectState first = is.state_of(ObjectId{0}, at_ms(90'000)), second = is.state_of(ObjectId{1}, at_ms(90'000));
@@ -115,10 +115,10 @@ TEST(Following, KeepsTheModelsGap) {
 TEST(Following, QueuesAtALight) {
   std::string objects;
   for (int k = 0; k < 4; ++k)
-    objects += "{name: q" + std::to_string(k) + ", on: {lane: -1, s: " + std::to_string(60 - 12 * k) +
+    objects += "{name: q" + std::to_string(k) + ", at: {lane: -1, s: " + std::to_string(60 - 12 * k) +
                "}, speed: 8, follow: {}},";
   const World is(
-      world("road: {pieces: [{length: 500}]}\ntraffic_lights: [{name: light, on: {lane: -1, s: 120}, phases: ["
+      world("road: {pieces: [{length: 500}]}\ntraffic_lights: [{name: light, at: {lane: -1, s: 120}, phases: ["
             "{light: red, duration: 30 s}, {light: green, duration: 30 s}]}]\nobjects: [" +
                 objects + "]",
             45'000),
@@ -145,9 +145,9 @@ TEST(EgoOnRoad, FollowsItsLane) {
                          "{length: 400, curvature: 0.01}]}\n"
                          "ego: {vehicle: {model: " +
                          std::string(model) +
-                         "}, start: {on: {lane: -2, s: 20}, speed: 15},"
+                         "}, start: {at: {lane: -2, s: 20}, speed: 15},"
                          "profile: [{duration: 9 s}, {duration: 5 s, lane: -1, speed: 12}]}\n"
-                         "objects: [{name: behind, on: {lane: -2, s: 0}, speed: 15, follow: {speed: 30}}]"),
+                         "objects: [{name: behind, at: {lane: -2, s: 0}, speed: 15, follow: {speed: 30}}]"),
                    1, 0);
     const road::Road& road = *is.road();
     double most = 0.0;
@@ -199,14 +199,14 @@ TEST(Classes, PedestriansTurnOnTheSpot) {
 
 TEST(Traffic, RefusesWhatContradictsItself) {
   const std::string road = "road: {pieces: [{length: 100}]}\n";
-  EXPECT_THAT(sentence_about("objects: [{name: a, on: {lane: -1, s: 0}}]"), HasSubstr("objects[0].on"));
-  EXPECT_THAT(sentence_about(road + "objects: [{name: a, on: {lane: 1, s: 0}}]"),
-              HasSubstr("objects[0].on.lane = 1: must be a lane of the road: -1"));
-  EXPECT_THAT(sentence_about(road + "objects: [{name: a, x: 3, y: 0, on: {lane: -1, s: 0}}]"),
+  EXPECT_THAT(sentence_about("objects: [{name: a, at: {lane: -1, s: 0}}]"), HasSubstr("objects[0].at"));
+  EXPECT_THAT(sentence_about(road + "objects: [{name: a, at: {lane: 1, s: 0}}]"),
+              HasSubstr("objects[0].at.lane = 1: must be a lane of the road: -1"));
+  EXPECT_THAT(sentence_about(road + "objects: [{name: a, x: 3, y: 0, at: {lane: -1, s: 0}}]"),
               HasSubstr("objects[0].x"));
-  EXPECT_THAT(sentence_about("traffic_lights: [{name: a, on: {lane: -1, s: 0}, phases: []}]"),
+  EXPECT_THAT(sentence_about("traffic_lights: [{name: a, at: {lane: -1, s: 0}, phases: []}]"),
               HasSubstr("needs a road"));
-  EXPECT_THAT(sentence_about("ego: {start: {on: {lane: -1, s: 0}}}"), HasSubstr("needs a road"));
+  EXPECT_THAT(sentence_about("ego: {start: {at: {lane: -1, s: 0}}}"), HasSubstr("needs a road"));
   EXPECT_THAT(sentence_about("ego: {profile: [{duration: 1 s, lane: -1}]}"), HasSubstr("needs a road"));
 }
 
