@@ -12,6 +12,35 @@ std::string in_units(const Spread& spread, Duration unit) {
   return fmt::format("{:.1f} / {:.1f}", in_units_of(unit, {spread.median_ns}), in_units_of(unit, {spread.worst_ns}));
 }
 
+constexpr std::size_t kWidest = 100, kClasses = 22;  // characters of a line, and of its first column
+
+// A column behind the classes.
+struct Column {
+  std::string head;
+  std::size_t width;
+  std::vector<std::string> cells;  // by class
+};
+
+// Columns without room go on below.
+std::string table_text(const std::string& head, const std::vector<std::string>& classes,
+                       const std::vector<Column>& columns) {
+  std::string out;
+  for (std::size_t from = 0, to = 0; from < columns.size(); from = to) {
+    for (std::size_t width = kClasses; to < columns.size() && width + columns[to].width <= kWidest; ++to)
+      width += columns[to].width;
+    if (from > 0) out += '\n';
+    out += fmt::format("{:<{}}", head, kClasses);
+    for (std::size_t c = from; c < to; ++c) out += fmt::format("{:>{}}", columns[c].head, columns[c].width);
+    out += '\n';
+    for (std::size_t row = 0; row < classes.size(); ++row) {
+      out += fmt::format("{:<{}}", classes[row], kClasses);
+      for (std::size_t c = from; c < to; ++c) out += fmt::format("{:>{}}", columns[c].cells[row], columns[c].width);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string names_of(unsigned bits, const std::vector<std::string_view>& all) {
@@ -80,29 +109,37 @@ Coverage coverage_of(const CampaignFile& campaign, const CampaignBus& bus, std::
 }
 
 std::string coverage_text(const Coverage& coverage, const Words& words) {
-  std::string out = fmt::format("variant {}{}\n{:<22}{:>9}{:>10}{:>9}", coverage.variant,
-                                coverage.has_trait ? fmt::format(" ({})", words.trait) : "", "class", "injected",
-                                "activated", "detected");
-  for (const std::string_view check : words.check_columns) out += fmt::format("{:>9}", check);
-  out += fmt::format("{:>9}{:>9}\n", "itself", "harmed");
-  for (const ClassCoverage& row : coverage.classes) {
-    out += fmt::format("{:<22}{:>9}{:>10}{:>9}", class_text(row.kind, row.in_hypothesis), row.injected, row.activated,
-                       row.detected);
-    for (const std::uint64_t count : row.by_check) out += fmt::format("{:>9}", count);
-    out += fmt::format("{:>9}{:>9}\n", row.by_itself, row.harmed);
-  }
-  out +=
-      fmt::format("\n{:<22}{:>17}{:>17}{:>17}{:>17}", fmt::format("{}, median / worst", words.unit_name), "to detect",
-                  "to passive", fmt::format("to {}", words.halt), fmt::format("to {}", words.reintegrate));
-  for (const std::string_view harm : words.harms) out += fmt::format("{:>14}", harm);
-  out += '\n';
-  for (const ClassCoverage& row : coverage.classes) {
-    out += fmt::format("{:<22}{:>17}{:>17}{:>17}{:>17}", class_text(row.kind, row.in_hypothesis),
-                       in_units(row.detect, words.unit), in_units(row.passive, words.unit),
-                       in_units(row.halt, words.unit), in_units(row.reintegrate, words.unit));
-    for (const std::uint64_t count : row.by_harm) out += fmt::format("{:>14}", count);
-    out += '\n';
-  }
+  constexpr std::size_t kCount = 9, kTimes = 17, kHarms = 14;
+  std::vector<std::string> classes;
+  for (const ClassCoverage& row : coverage.classes) classes.push_back(class_text(row.kind, row.in_hypothesis));
+  const auto column = [&](std::string_view head, std::size_t width, const auto& cell_of) {
+    Column made{std::string(head), width, {}};
+    for (const ClassCoverage& row : coverage.classes) made.cells.push_back(fmt::format("{}", cell_of(row)));
+    return made;
+  };
+  const auto times = [&](std::string_view head, Spread ClassCoverage::*of) {
+    return column(head, kTimes, [&](const ClassCoverage& row) { return in_units(row.*of, words.unit); });
+  };
+  std::vector<Column> counts{
+      column("injected", kCount, [](const ClassCoverage& row) { return row.injected; }),
+      column("activated", kCount + 1, [](const ClassCoverage& row) { return row.activated; }),
+      column("detected", kCount, [](const ClassCoverage& row) { return row.detected; }),
+  };
+  for (std::size_t c = 0; c < words.check_columns.size(); ++c)
+    counts.push_back(column(words.check_columns[c], kCount, [&](const ClassCoverage& row) { return row.by_check[c]; }));
+  counts.push_back(column("itself", kCount, [](const ClassCoverage& row) { return row.by_itself; }));
+  counts.push_back(column("harmed", kCount, [](const ClassCoverage& row) { return row.harmed; }));
+  std::vector<Column> harms;
+  for (std::size_t h = 0; h < words.harms.size(); ++h)
+    harms.push_back(column(words.harms[h], kHarms, [&](const ClassCoverage& row) { return row.by_harm[h]; }));
+  std::string out =
+      fmt::format("variant {}{}\n{}\n{}\n{}", coverage.variant,
+                  coverage.has_trait ? fmt::format(" ({})", words.trait) : "", table_text("class", classes, counts),
+                  table_text(fmt::format("{}, median / worst", words.unit_name), classes,
+                             {times("to detect", &ClassCoverage::detect), times("to passive", &ClassCoverage::passive),
+                              times(fmt::format("to {}", words.halt), &ClassCoverage::halt),
+                              times(fmt::format("to {}", words.reintegrate), &ClassCoverage::reintegrate)}),
+                  table_text("class", classes, harms));
   std::uint64_t without = 0;
   for (const ClassCoverage& row : coverage.classes) without += row.without;
   if (without > 0) out += fmt::format("{} start-ups fail without the fault, too\n", without);

@@ -53,7 +53,7 @@ struct Coverage {
 Coverage coverage_of(const CampaignFile& campaign, const CampaignBus& bus, std::span<const FaultResult> results,
                      std::size_t variant);
 
-// Returns the table for people.
+// Returns the tables for people, of at most 100 columns.
 std::string coverage_text(const Coverage& coverage, const Words& words);
 
 // "frame_lost: feature did not receive fusion's slot 3, 1.2 cycles after the fault's first act"

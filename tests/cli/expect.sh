@@ -9,7 +9,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-# expect CODE PATTERN ARGS...: checks the exit code, and a pattern in the output on either stream.
+# expect CODE PATTERN ARGS...: checks the exit code, a pattern in the output on either stream, and that tables are not too wide.
 expect() {
   local code=$1 pattern=$2 actual
   shift 2
@@ -17,6 +17,10 @@ expect() {
   actual=$?
   [[ $actual -eq $code ]] || fail "$asked exits with $actual, not $code: $output"
   says "$pattern"
+  # A table has gaps of blanks; a sentence may be longer.
+  local wide
+  wide=$(awk 'length > 100 && /[^ ]  +[^ ].*[^ ]  +[^ ]/' <<<"$output")
+  [[ -z $wide ]] || fail "$asked prints a table that is wider than 100 columns: $wide"
 }
 # expect_full ARGS...: to a full device it is an error, exit code 1, that nothing more can be written.
 expect_full() {

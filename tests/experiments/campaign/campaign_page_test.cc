@@ -14,18 +14,22 @@
 namespace ttf::experiments::campaign {
 namespace {
 
-// Reads every line "class [A+B] [*] number ..." of the page: each class as often as the page has it (a table
-// per variant).
+// Reads every line "class [A+B] [*] number ..." of the page's tables with the injected faults: each class as often as the page
+// has it (a table per variant).
 std::map<std::string, std::vector<int>> on_the_page(const std::string& name) {
   std::map<std::string, std::vector<int>> counts;
   std::istringstream page(read_file(TTF_SOURCE_DIR "/docs/" + name));
+  bool injected = false;
   for (std::string line; std::getline(page, line);) {
     std::istringstream words(line);
     std::string row, word;
-    if (!(words >> row) || line.rfind("    ", 0) != 0) continue;
+    if (!(words >> row) || line.rfind("    ", 0) != 0) {
+      injected = false;
+      continue;
+    }
     while (words >> word && (word == "*" || word == "A+B")) row += " " + word;
-    // The tables of times have fractions in that place.
-    if (!word.empty() && word.find_first_not_of("0123456789") == std::string::npos)
+    if (row == "class") injected = word == "injected";
+    if (injected && !word.empty() && word.find_first_not_of("0123456789") == std::string::npos)
       counts[row].push_back(std::stoi(word));
   }
   return counts;

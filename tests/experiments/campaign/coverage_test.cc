@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+#include <string>
+
 #include "tests/experiments/campaign/small_campaign.h"
 
 namespace ttf::experiments::campaign {
@@ -24,6 +27,8 @@ TEST(Coverage, OfTwoThousandSingleFaults) {
   const Coverage guarded = coverage_of(campaign, *bus, results, kGuardian);
   const Coverage unguarded = coverage_of(campaign, *bus, results, kBus);
   EXPECT_EQ(guarded.harmed_in_hypothesis, 0u) << coverage_text(guarded, bus->words());
+  std::istringstream lines(coverage_text(guarded, bus->words()));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   EXPECT_GT(unguarded.harmed_in_hypothesis, 100u) << "or what would the guardian be for";
   std::uint64_t injected = 0;
   for (const ClassCoverage& one : guarded.classes) {
