@@ -3,6 +3,14 @@
 #include "sim/crank/cluster_simulation.h"
 
 namespace ttf::drives {
+namespace {
+
+bool stands_at_origin(const sim::world::EgoState& ego) {
+  return ego.x == 0.0 && ego.y == 0.0 && ego.heading == 0.0 && ego.vx == 0.0 && ego.vy == 0.0 && ego.yaw_rate == 0.0 &&
+         ego.acceleration == 0.0;
+}
+
+}  // namespace
 
 Observer::Observer(const nodes::sensing::Scene& scene, std::size_t nodes, recording::records::Sink& out)
     : scene_(scene), out_(out), last_truth_(nodes) {
@@ -52,6 +60,10 @@ void Observer::truth(const recording::records::Stamp& stamp) {
   std::optional<TrueTime>& last = last_truth_[index_of(stamp.node)];
   if (last == at) return;
   last = at;
+  const sim::world::EgoState ego = scene_.ego_at(at);
+  if (!stands_at_origin(ego))
+    out_.on(recording::records::EgoTruth{at, ego.x, ego.y, ego.heading, ego.vx, ego.vy, ego.yaw_rate, ego.acceleration,
+                                         stamp.local, stamp.global, stamp.node});
   scene_.states_at(at, states_);
   for (const sim::world::ObjectState& state : states_)
     out_.on(recording::records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.steady,

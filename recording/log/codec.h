@@ -40,6 +40,7 @@ template <> struct PayloadOf<records::ImageWritten> : std::type_identity<ttfusio
 template <> struct PayloadOf<records::FeatureUsed> : std::type_identity<ttfusion::Feature> {};
 template <> struct PayloadOf<records::ReferenceFix> : std::type_identity<ttfusion::Reference> {};
 template <> struct PayloadOf<records::TruthState> : std::type_identity<ttfusion::Truth> {};
+template <> struct PayloadOf<records::EgoTruth> : std::type_identity<ttfusion::Ego> {};
 template <> struct PayloadOf<records::StateChanged> : std::type_identity<ttfusion::StateChange> {};
 template <> struct PayloadOf<records::SymbolSent> : std::type_identity<ttfusion::Symbol> {};
 template <> struct PayloadOf<records::PowerChanged> : std::type_identity<ttfusion::Power> {};

@@ -238,6 +238,20 @@ records::TruthState record_of(const ttfusion::Truth& in, Reading& read) {
           read.id<NodeId>(in.node())};
 }
 
+records::EgoTruth record_of(const ttfusion::Ego& in, Reading& read) {
+  return {TrueTime{in.at()},
+          in.x(),
+          in.y(),
+          in.heading(),
+          in.vx(),
+          in.vy(),
+          in.yaw_rate(),
+          in.acceleration(),
+          LocalTime{in.local()},
+          GlobalTime{in.global()},
+          read.id<NodeId>(in.node())};
+}
+
 records::StateChanged record_of(const ttfusion::StateChange& in, Reading& read) {
   return {read.stamp(in.stamp()),
           read.to<std::uint8_t>(in.from()),

@@ -274,6 +274,21 @@ LogTimes encode(const records::TruthState& in, ttfusion::Truth& out) {
   return {in.at.ns, in.global.ns};
 }
 
+LogTimes encode(const records::EgoTruth& in, ttfusion::Ego& out) {
+  out.set_at(in.at.ns);
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_heading(in.heading);
+  out.set_vx(in.vx);
+  out.set_vy(in.vy);
+  out.set_yaw_rate(in.yaw_rate);
+  out.set_acceleration(in.acceleration);
+  out.set_local(in.local.ns);
+  out.set_global(in.global.ns);
+  out.set_node(number(in.node));
+  return {in.at.ns, in.global.ns};
+}
+
 LogTimes encode(const records::StateChanged& in, ttfusion::StateChange& out) {
   fill(*out.mutable_stamp(), in.stamp);
   out.set_from(in.from);

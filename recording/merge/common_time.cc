@@ -81,6 +81,7 @@ void put_on(const CommonTime& time, records::ImageWritten& r) { rescale_all(time
 void put_on(const CommonTime& time, records::FeatureUsed& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::ReferenceFix& r) { rescale_all(time, r.measured_true); }
 void put_on(const CommonTime& time, records::TruthState& r) { rescale_all(time, r.at); }
+void put_on(const CommonTime& time, records::EgoTruth& r) { rescale_all(time, r.at); }
 void put_on(const CommonTime& time, records::StateChanged& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::SymbolSent& r) { rescale_all(time, r.stamp, r.end); }
 void put_on(const CommonTime& time, records::PowerChanged& r) { rescale_all(time, r.stamp); }

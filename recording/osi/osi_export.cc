@@ -41,15 +41,55 @@ void set(osi3::Vector3d& vector, double x, double y) {
   vector.set_z(0.0);
 }
 
-// An object of the truth or of an image has speed and acceleration along its heading.
-template <class Object> void set_base(osi3::BaseMoving& base, const Object& object) {
-  const double c = std::cos(object.heading), s = std::sin(object.heading);
-  base.mutable_dimension()->set_length(object.length);
-  base.mutable_dimension()->set_width(object.width);
-  set(*base.mutable_position(), object.x, object.y);
-  base.mutable_orientation()->set_yaw(object.heading);
-  set(*base.mutable_velocity(), object.speed * c, object.speed * s);
-  set(*base.mutable_acceleration(), object.acceleration * c, object.acceleration * s);
+// Speed and acceleration are along the heading.
+struct Box {
+  double x, y, heading, speed, acceleration, length, width;
+};
+template <class Object> Box box_of(const Object& object) {
+  return {object.x, object.y, object.heading, object.speed, object.acceleration, object.length, object.width};
+}
+
+void set_base(osi3::BaseMoving& base, const Box& box) {
+  const double c = std::cos(box.heading), s = std::sin(box.heading);
+  base.mutable_dimension()->set_length(box.length);
+  base.mutable_dimension()->set_width(box.width);
+  set(*base.mutable_position(), box.x, box.y);
+  base.mutable_orientation()->set_yaw(box.heading);
+  set(*base.mutable_velocity(), box.speed * c, box.speed * s);
+  set(*base.mutable_acceleration(), box.acceleration * c, box.acceleration * s);
+}
+
+// Returns the box over ground; places in the log are in the axes of the vehicle.
+Box over_ground(Box box, const records::EgoTruth& ego) {
+  const double c = std::cos(ego.heading), s = std::sin(ego.heading), x = box.x, y = box.y;
+  box.x = ego.x + c * x - s * y;
+  box.y = ego.y + s * x + c * y;
+  box.heading += ego.heading;
+  return box;
+}
+
+// The vehicle's size is not in the log. This is a passenger car's (the paper's Touran), with the rear axle behind its middle.
+constexpr double kCarLength_m = 4.39, kCarWidth_m = 1.79, kRearToMiddle_m = 1.35;
+
+// The middle of the box is before the middle of the rear axle, r, so that it has the velocity w x r and the acceleration -w^2 r
+// beside those of the axle.
+void add_host(osi3::GroundTruth& message, const records::EgoTruth& ego) {
+  message.mutable_host_vehicle_id()->set_value(kHostVehicle);
+  osi3::MovingObject& host = *message.add_moving_object();
+  host.mutable_id()->set_value(kHostVehicle);
+  osi3::BaseMoving& base = *host.mutable_base();
+  set_base(base, over_ground({kRearToMiddle_m, 0.0, 0.0, 0.0, 0.0, kCarLength_m, kCarWidth_m}, ego));
+  const double c = std::cos(ego.heading), s = std::sin(ego.heading), w = ego.yaw_rate;
+  const double across = ego.vy + w * kRearToMiddle_m, acceleration = ego.acceleration - w * w * kRearToMiddle_m;
+  set(*base.mutable_velocity(), c * ego.vx - s * across, s * ego.vx + c * across);
+  set(*base.mutable_acceleration(), c * acceleration, s * acceleration);
+  base.mutable_orientation_rate()->set_yaw(w);
+  host.set_type(osi3::MovingObject::TYPE_VEHICLE);
+  set(*host.mutable_vehicle_attributes()->mutable_bbcenter_to_rear(), -kRearToMiddle_m, 0.0);
+}
+
+bool finite(const records::EgoTruth& ego) {
+  return std::isfinite(ego.x + ego.y + ego.heading + ego.vx + ego.vy + ego.yaw_rate + ego.acceleration);
 }
 
 // The deviations of a vector along the heading, whose size and direction have deviations of their own, to first order.
@@ -77,11 +117,13 @@ void OsiExport::truth(TrueTime at, std::span<const records::TruthState> states) 
   last_truth_ = at;
   osi3::GroundTruth message;
   begin(message, at);
+  const records::EgoTruth ego = finite(Moments::ego()) ? Moments::ego() : records::EgoTruth{};
+  add_host(message, ego);
   for (const records::TruthState& state : states) {
     if (!scene::drawable(state)) continue;
     osi3::MovingObject& object = *message.add_moving_object();
     object.mutable_id()->set_value(index_of(state.object));
-    set_base(*object.mutable_base(), state);
+    set_base(*object.mutable_base(), over_ground(box_of(state), ego));
     object.mutable_base()->mutable_orientation_rate()->set_yaw(state.yaw_rate);
     object.set_type(osi3::MovingObject::TYPE_OTHER);  // the log does not say
   }
@@ -114,7 +156,7 @@ void OsiExport::image(TrueTime valid_at, const records::ImageWritten& image) {
     object.mutable_header()->set_measurement_state((track.status & records::kImageCoasting) != 0
                                                        ? osi3::DetectedItemHeader::MEASUREMENT_STATE_PREDICTED
                                                        : osi3::DetectedItemHeader::MEASUREMENT_STATE_MEASURED);
-    set_base(*object.mutable_base(), track);
+    set_base(*object.mutable_base(), box_of(track));
     osi3::BaseMoving& rmse = *object.mutable_base_rmse();
     rmse.mutable_dimension()->set_length(track.sigma_length);
     rmse.mutable_dimension()->set_width(track.sigma_width);

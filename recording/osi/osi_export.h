@@ -3,8 +3,8 @@
 //   SensorData     one an image, at the instant to which it is predicted: a detected object a track, with its standard
 //                  deviations as base_rmse. A coasting track is PREDICTED. The sensor is the whole fusion, which
 //                  stands at the vehicle's origin. OSI has no covariances, an image no probability of existence.
-//   GroundTruth    one an instant with a record of the truth: a moving object for each, with its number in the log. The
-//                  frame is the vehicle's, as in the log, and there is no host vehicle.
+//   GroundTruth    one an instant with a record of the truth: a moving object for each, with its number in the log, and the
+//                  host vehicle kHostVehicle, whose size is a car's. The frame is the ground.
 //
 // Stamps are true times since the start of the drive. They ascend in each stream: a message that does not is left out,
 // as may happen after a restart of the fusion node. The same records in the same order give the same bytes.
@@ -20,6 +20,8 @@
 #include "recording/scene/moments.h"
 
 namespace ttf::recording::osi {
+
+inline constexpr std::uint64_t kHostVehicle = 65'535;  // no object's number
 
 struct OsiCounts {
   std::uint64_t images = 0, truths = 0;  // messages

@@ -376,6 +376,16 @@ struct TruthState {
   NodeId node{};
 };
 
+// The true state of the sensors' vehicle over ground, at the instants of TruthState; absent where it stands at the origin of
+// the ground. The origin of its axes is the middle of the rear axle; velocity and acceleration are along its own axes.
+struct EgoTruth {
+  TrueTime at{};
+  double x = 0, y = 0, heading = 0, vx = 0, vy = 0, yaw_rate = 0, acceleration = 0;
+  LocalTime local{};
+  GlobalTime global{};
+  NodeId node{};
+};
+
 // A missed instant in real time, where an ordinary kernel keeps the schedule: the node's process was late, or a
 // frame was. Loss and lateness are separate kinds.
 inline constexpr std::uint8_t kLateWakeUp = 1;  // an act was due for longer than the arrival window allows
@@ -464,6 +474,7 @@ inline constexpr std::tuple kKinds{
     Kind<CanErrorFrame>{"/can_error"},
     Kind<CanStateChanged>{"/can_state"},
     Kind<OdometryTaken>{"/odometry"},
+    Kind<EgoTruth>{"/ego"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

@@ -23,6 +23,16 @@ void Moments::on(const records::TruthState& r) {
   if (truth_.empty() || truth_.front().node == r.node) truth_.push_back(r);
 }
 
+void Moments::on(const records::EgoTruth& r) {
+  come_to(r.at);
+  ego_ = r;
+}
+
+records::EgoTruth Moments::ego() const {
+  const bool of_this_instant = ego_ && !truth_.empty() && ego_->at == truth_.front().at;
+  return of_this_instant ? *ego_ : records::EgoTruth{};
+}
+
 void Moments::finish_truth() {
   if (truth_.empty()) return;
   truth(shown(truth_.front().at), truth_);

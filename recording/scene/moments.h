@@ -33,6 +33,11 @@ class Moments : public records::Sink {
   void on(const records::FeatureUsed&) final;
   void on(const records::ReferenceFix&) final;
   void on(const records::TruthState&) final;
+  void on(const records::EgoTruth&) final;
+
+ protected:
+  // Returns the vehicle's state at the instant of truth(), while that is called; at the origin if the log has none.
+  records::EgoTruth ego() const;
 
  private:
   // The true states of all objects at an instant, as the first node recorded them.
@@ -49,6 +54,7 @@ class Moments : public records::Sink {
   void finish_list();
 
   std::vector<records::TruthState> truth_;  // all have the same instant
+  std::optional<records::EgoTruth> ego_;
   std::optional<SeenList> list_;
 };
 

@@ -45,7 +45,7 @@ expect 0 '"ground_truths": [1-9]' export "$work/q/tt.mcap" --format osi -o "$wor
 expect 0 'truth.csv' export "$work/q.mcap" --format tables -o "$work/again_tables"
 [[ $output != *warning* ]] || fail "a log with a trace is read with a warning: $output"
 cmp -s "$work/q_tables/truth.csv" "$work/again_tables/truth.csv" || fail "a log with a trace has another truth"
-expect 0 'a trace of GroundTruth: 4 objects' "${drive[@]}" --truth "$work/q.mcap" --out "$work/r"
+expect 0 'a trace of GroundTruth: 4 objects in .*, seen from vehicle 65535' "${drive[@]}" --truth "$work/q.mcap" --out "$work/r"
 expect 0 '_sd_380_[0-9]+_[0-9]+_[a-z0-9_]+_tt.osi and 19700101T000000Z_gt_' \
   export "$work/q/tt.mcap" --format osi -o "$work/pair"
 python3 "$(dirname "$0")/osi_reader.py" "$work/q.mcap" "$work/pair"
@@ -62,6 +62,9 @@ expect 2 'must end in .mcap, or name a folder' export "$work/q/tt.mcap" --format
 # From a vehicle.
 expect 0 '1 object in 321 messages over 6.4 s, seen from vehicle 1' "${drive[@]}" --truth "$work/cut_in.osi" --out "$work/c" --duration 60
 says '^warning: .*cut_in.osi: vehicle 1 moves, and .*paper_synchronised.yaml has no odometry'
+expect 0 'beside the log' export "$work/c/tt.mcap" --format osi -o "$work/c.mcap"
+expect 0 '1 object in .*, seen from vehicle 65535' "${drive[@]}" --truth "$work/c.mcap" --out "$work/r"
+says '^warning: .*vehicle 65535 moves'
 
 # Mistakes.
 expect 2 'must have a message, and is empty' "${drive[@]}" --truth /dev/null --out "$work/none"

@@ -211,6 +211,10 @@ std::string text_of(const records::TruthState& r) {
               r.local, r.global, r.node);
 }
 
+std::string text_of(const records::EgoTruth& r) {
+  return line("ego", r.at, r.x, r.y, r.heading, r.vx, r.vy, r.yaw_rate, r.acceleration, r.local, r.global, r.node);
+}
+
 std::string text_of(const records::StateChanged& r) {
   return line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence);
 }
@@ -384,6 +388,10 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::OdometryTaken{stamp, d.get<U32>(), d.get<MeasurementId>(), d.get<GlobalTime>(),
                                             d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
                                             d.get<bool>()});
+    case 30:
+      return sink.on(records::EgoTruth{d.get<TrueTime>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                       d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                       d.get<LocalTime>(), d.get<GlobalTime>(), d.get<NodeId>()});
   }
   TTF_CHECK(false, "nothing to draw of kind {}", kind);
 }

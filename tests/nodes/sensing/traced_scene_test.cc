@@ -4,8 +4,11 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "nodes/sensing/traced.h"
+#include "recording/osi/osi_export.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::nodes::sensing {
@@ -107,6 +110,47 @@ TEST(TracedScene, IsSeenFromTheHost) {
     EXPECT_NEAR(std::hypot(ego.x, ego.y), std::hypot(kRadius, 1.5), 1e-9);
     EXPECT_NEAR(ego.acceleration, 1.5 * kTurn * kTurn, 2e-4);
   }
+}
+
+// A vehicle that drives and turns: the trace is over ground, and seen from its host it is the log's again.
+TEST(TracedScene, IsThatOfTheTruthThatWasExported) {
+  const recording::records::EgoTruth ego{TrueTime{5'000'000}, 100.0, -20.0, 1.2, 9.0, -0.1, 0.3, 0.7, {}, {}, {}};
+  recording::records::TruthState car;
+  car.at = ego.at;
+  car.x = 30.0;
+  car.y = 4.0;
+  car.heading = -0.5;
+  car.speed = 6.0;
+  car.acceleration = -1.0;
+  car.length = 4.0;
+  car.width = 2.0;
+  std::string bytes;
+  recording::osi::OsiExport files([](TrueTime, std::string_view) {},
+                                  [&](TrueTime, std::string_view m) { bytes += recording::osi::framed(m); });
+  files.on(ego);
+  files.on(car);
+  files.finish();
+  const TruthTrace trace = recording::osi::parse_truth_trace(bytes, "a.osi");
+  const TracedState& is = trace.objects[0].lives[0].states[0];
+  EXPECT_NEAR(is.x, 100.0 + 30.0 * std::cos(1.2) - 4.0 * std::sin(1.2), 1e-12);
+  EXPECT_NEAR(is.heading, 0.7, 1e-12);
+  EXPECT_NEAR(is.vx, 6.0 * std::cos(0.7), 1e-12);
+  const TracedScene scene(std::make_shared<TruthTrace>(trace), TrueTime{});
+  const sim::world::EgoState again = scene.ego_at(TrueTime{});
+  EXPECT_NEAR(again.x, ego.x, 1e-12);
+  EXPECT_NEAR(again.y, ego.y, 1e-12);
+  EXPECT_NEAR(again.heading, ego.heading, 1e-12);
+  EXPECT_NEAR(again.vx, ego.vx, 1e-12);
+  EXPECT_NEAR(again.vy, ego.vy, 1e-12);
+  EXPECT_NEAR(again.acceleration, ego.acceleration, 1e-12);
+  std::vector<sim::world::ObjectState> states;
+  scene.states_at(TrueTime{}, states);
+  ASSERT_EQ(states.size(), 1u);
+  EXPECT_NEAR(states[0].x, car.x, 1e-12);
+  EXPECT_NEAR(states[0].y, car.y, 1e-12);
+  EXPECT_NEAR(states[0].heading, car.heading, 1e-12);
+  EXPECT_NEAR(states[0].speed, car.speed, 1e-12);
+  EXPECT_NEAR(states[0].acceleration, car.acceleration, 1e-12);
 }
 
 TEST(TracedScene, AllocatesNothing) {

@@ -23,7 +23,7 @@ class ByNode final : public records::Every<ByNode> {
       node = index_of(record.stamp.node);
     else if constexpr (requires { record.end.node; })  // a CAN frame or a task's run
       node = index_of(record.end.node);
-    else if constexpr (std::is_same_v<Record, records::TruthState>)
+    else if constexpr (std::is_same_v<Record, records::TruthState> || std::is_same_v<Record, records::EgoTruth>)
       node = index_of(record.node);
     processes_[node % processes_.size()]->on(record);
   }

@@ -175,7 +175,9 @@ TEST(OsiExport, SensorDataHasTheImagesTracks) {
 TEST(OsiExport, GroundTruthIsReadBack) {
   const TruthTrace trace = parse_truth_trace(log_and_trace(), "a.mcap");
   EXPECT_EQ(trace.length(), Duration::milliseconds(80));
-  EXPECT_FALSE(trace.host);
+  ASSERT_TRUE(trace.host) << "it stands at the origin";
+  EXPECT_EQ(trace.host->vehicle.id, kHostVehicle);
+  EXPECT_EQ(trace.host->vehicle.lives[0].states[4].x, -trace.host->rear_x);
   ASSERT_EQ(trace.objects.size(), 2u);
   const TracedObject& object = trace.objects[1];
   EXPECT_EQ(object.id, 1u);
