@@ -27,7 +27,7 @@ if(TTF_BUILD_PROGRAM)
   ttf_install_part(timebase ttf_timebase)
   ttf_install_part(schedules ttf_schedules)
   ttf_install_part(recording ttf_wire ttf_records ttf_recording ttf_log_proto ttf_perfetto_proto ttf_foxglove_proto
-    ttf_plots_proto)
+    ttf_plots_proto ttf_osi_proto)
   # Headers of generated code and of yaml-cpp are the rooms' own.
   install(DIRECTORY core timebase schedules recording DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
     PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE)
