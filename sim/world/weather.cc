@@ -69,6 +69,15 @@ CameraConfig in_weather(CameraConfig camera, const Weather& weather) {
   return camera;
 }
 
+MonoCameraConfig in_weather(MonoCameraConfig camera, const Weather& weather) {
+  camera.max_range_m *= weather.camera_range;
+  // A box shrinks with the range.
+  camera.half_detected_px /= weather.camera_range;
+  camera.detection_probability = std::max(0.0, 1.0 - (1.0 - camera.detection_probability) * weather.camera_misses);
+  camera.clutter_per_frame *= weather.camera_clutter;
+  return camera;
+}
+
 RadarConfig in_weather(RadarConfig radar, const Weather& weather) {
   radar.attenuation_db_per_km += weather.radar_attenuation_db_per_km;
   radar.clutter_per_list *= weather.radar_clutter;

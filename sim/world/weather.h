@@ -35,8 +35,7 @@ Weather load_weather(YamlMap& world);
 // Returns the sensor in this weather.
 LaserConfig in_weather(LaserConfig laser, const Weather& weather);
 CameraConfig in_weather(CameraConfig camera, const Weather& weather);
-MonoCameraConfig in_weather(MonoCameraConfig camera,
-                            const Weather& weather);  // as a pair: what is not missed is detected
+MonoCameraConfig in_weather(MonoCameraConfig camera, const Weather& weather);
 RadarConfig in_weather(RadarConfig radar, const Weather& weather);
 
 }  // namespace ttf::sim::world
