@@ -6,6 +6,17 @@
 #include "core/check.h"
 
 namespace ttf::nodes::host {
+namespace {
+
+// The fusion needs every sample of odometry. To the feature service the newest one is the vehicle's state.
+bool tells_a_state(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                   const schedules::model::PortBinding& port) {
+  const SensorId sensor = cluster.pdu(port.pdu).sensor;
+  return task.step == "feature_service" && sensor != kNoSensor &&
+         cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
+}
+
+}  // namespace
 
 Wiring::Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node,
                std::vector<Connection> media, const NodeTime& time, NodeRecords& records)
@@ -37,7 +48,7 @@ void Wiring::connect(const schedules::model::Cluster& cluster, const schedules::
     route->readers.push_back({index, ports.inputs.size()});
     if (activates(task, port)) route->sets_off.push_back(index);
     ports.inputs.push_back({port.port, port.pdu, &cluster.pdu(port.pdu), std::nullopt, false});
-    ports.sources.push_back({port.medium, lists->incoming(port.pdu), std::nullopt});
+    ports.sources.push_back({port.medium, lists->incoming(port.pdu), std::nullopt, tells_a_state(cluster, task, port)});
   }
   for (const schedules::model::PortBinding& port : task.writes) {
     ListMedium* const lists = find(port.medium);
@@ -105,12 +116,12 @@ std::span<const std::size_t> Wiring::arrived(const ListArrival& arrival, Microti
   if (arrival.effect != kCompleted) return {};
   tell(recording::records::Hop::kReceived, arrival.sequence);
   for (const Route::Reader& reader : route->readers) {
-    std::optional<std::uint32_t>& unread = tasks_[reader.task].sources[reader.input].unread;
-    if (unread) {
+    Source& source = tasks_[reader.task].sources[reader.input];
+    if (source.unread && !source.newest_counts) {
       ++records_.counts().overwritten_lists;
-      tell(recording::records::Hop::kOverwritten, *unread);
+      tell(recording::records::Hop::kOverwritten, *source.unread);
     }
-    unread = arrival.sequence;
+    source.unread = arrival.sequence;
   }
   return route->sets_off;
 }

@@ -63,6 +63,7 @@ class Wiring {
     schedules::model::MediumId medium;
     bus::cni::IncomingList& list;
     std::optional<std::uint32_t> unread;  // complete, not read yet
+    bool newest_counts = false;           // a list that is overwritten unread is no loss
   };
   struct Drain {
     schedules::model::MediumId medium;

@@ -86,9 +86,10 @@ ObjectState moved(const ObjectState& start, double dt) {
   return state;
 }
 
-World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication)
-    : own_speed_(config.own_speed), lights_(config.lights) {
+World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication) : own_speed_(config.own_speed) {
   if (config.road) road_.emplace(*config.road);
+  for (const traffic::LightConfig& light : config.lights)
+    lights_.push_back(light.on ? traffic::placed(light, *road_) : light);
   if (config.ego) ego_.emplace(*config.ego, road(), config.duration);
   const auto steps = static_cast<std::size_t>(config.duration.ns / kStep_ns + 2);
   for (std::size_t o = 0; o < config.objects.size(); ++o) {

@@ -85,7 +85,7 @@ TEST(SensorEntries, OneThatTheScheduleHasNoRoomForIsRefused) {
       HasSubstr("sensors.camera.period = 33.3 ms: must be absent: in paper_free_running.yaml camera measures at "
                 "each end of preprocess"));
   EXPECT_THAT(refusal("sensors: {radar: {kind: laser}}\n", "laser_radar"),
-              HasSubstr("sensors.radar.kind = laser: must be radar, as in laser_radar.yaml"));
+              HasSubstr("sensors.radar.kind = laser: must be radar"));
 }
 
 TEST(SensorEntries, WrongKeysAreNamed) {

@@ -23,9 +23,11 @@ Piece load_piece(YamlMap& yaml) {
   if (yaml.has("end_curvature"))
     piece.change = (yaml.number("end_curvature", kCurvature, "1/m") - piece.curvature) / piece.length;
   const double sharpest = std::max(std::abs(piece.curvature), std::abs(piece.curvature + piece.change * piece.length));
-  if (piece.length * sharpest > kMostTurn_rad)
+  if (piece.length * sharpest > kMostTurn_rad) {
     yaml.fail("length", fmt::format("must be at most {:.6g} m at this curvature: a piece turns {} rad at most",
                                     kMostTurn_rad / sharpest, kMostTurn_rad));
+    piece.curvature = piece.change = 0.0;  // an endless spiral would keep the reader busy
+  }
   yaml.finish();
   return piece;
 }
@@ -64,11 +66,7 @@ RoadConfig load_road(YamlMap& yaml) {
   }
   c.closed = yaml.boolean_or("closed", false);
   if (c.closed) {
-    // The end of the same road, if it were open.
-    RoadConfig open = c;
-    open.closed = false;
-    const Road road(open);
-    const Pose end = road.line_at(road.length()).pose;
+    const Pose end = end_of(c);
     const double apart = std::hypot(end.x - c.x, end.y - c.y),
                  turned = std::remainder(end.heading - c.heading, 2.0 * std::numbers::pi);
     if (apart > kJoint_m || std::abs(turned) > kJoint_rad)

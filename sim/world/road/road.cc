@@ -60,6 +60,12 @@ Pose along(const Piece& piece, const Pose& from, double way) {
 
 }  // namespace
 
+Pose end_of(const RoadConfig& road) {
+  Pose end{road.x, road.y, road.heading};
+  for (const Piece& piece : road.pieces) end = along(piece, end, piece.length);
+  return end;
+}
+
 Road::Road(const RoadConfig& config) : config_(config), end_{config.x, config.y, config.heading} {
   for (const Piece& piece : config_.pieces) {
     beginnings_.push_back({length_, end_});
@@ -76,8 +82,9 @@ LinePoint Road::line_at(double station) const {
   if (config_.closed) station -= length_ * std::floor(station / length_);
   if (station < 0.0) return {straight_on(beginnings_.front().pose, station)};
   if (station > length_) return {straight_on(end_, station - length_)};
-  std::size_t piece = beginnings_.size() - 1;
-  while (piece > 0 && beginnings_[piece].station > station) --piece;
+  const auto next = std::upper_bound(beginnings_.begin(), beginnings_.end(), station,
+                                     [](double s, const Beginning& beginning) { return s < beginning.station; });
+  const auto piece = static_cast<std::size_t>(next - beginnings_.begin() - 1);  // the first one begins at 0
   const Piece& is = config_.pieces[piece];
   const double way = station - beginnings_[piece].station;
   return {along(is, beginnings_[piece].pose, way), is.curvature + is.change * way, is.change};

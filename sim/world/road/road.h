@@ -52,6 +52,9 @@ struct Pose {
   double x = 0.0, y = 0.0, heading = 0.0;
 };
 
+// Returns the pose of the line's end.
+Pose end_of(const RoadConfig& road);
+
 struct Place {
   double station = 0.0, offset = 0.0;
 };

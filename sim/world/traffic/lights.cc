@@ -11,11 +11,6 @@ LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
     if (road == nullptr) yaml.fail("at", "needs a road in the world");
     const road::RoadConfig usual{.pieces = {road::Piece{1.0}}};
     light.on = road::load_on_lane(*on, road != nullptr ? *road : usual);
-    const road::Road line(road != nullptr ? *road : usual);
-    const road::Pose pose = line.pose_at({light.on->station, line.middle(light.on->lane)});
-    light.x = pose.x;
-    light.y = pose.y;
-    light.heading = pose.heading + (road::Road::direction(light.on->lane) > 0.0 ? std::numbers::pi : 0.0);
   } else {
     light.x = yaml.number("x", {-10'000.0, 10'000.0}, "m");
     light.y = yaml.number("y", {-10'000.0, 10'000.0}, "m");
@@ -34,6 +29,15 @@ LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
   }
   if (light.phases.empty()) yaml.fail("phases", "must have one phase or more");
   yaml.finish();
+  return light;
+}
+
+LightConfig placed(LightConfig light, const road::Road& road) {
+  if (!light.on) return light;
+  const road::Pose pose = road.pose_at({light.on->station, road.middle(light.on->lane)});
+  light.x = pose.x;
+  light.y = pose.y;
+  light.heading = pose.heading + (road::Road::direction(light.on->lane) > 0.0 ? std::numbers::pi : 0.0);
   return light;
 }
 

@@ -21,12 +21,14 @@ struct Phase {
 
 struct LightConfig {
   std::string name;
-  // Where it stands over ground, or above a lane's stop line. Its `heading` is the way it looks.
+  // Where it stands over ground. Its `heading` is the way it looks.
   double x = 0.0, y = 0.0, heading = 0.0;
-  std::optional<road::OnLane> on;
-  std::vector<Phase> phases;  // from the start of the drive on, again and again
+  std::optional<road::OnLane> on;  // instead: above this stop line
+  std::vector<Phase> phases;       // from the start of the drive on, again and again
 };
 LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road);
+// Returns a light above a stop line with its place over ground.
+LightConfig placed(LightConfig light, const road::Road& road);
 
 Light shown_at(const LightConfig& light, TrueTime since_start);
 // Returns whether the light stops one who follows it.

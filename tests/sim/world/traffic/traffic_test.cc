@@ -133,6 +133,9 @@ TEST(Following, QueuesAtALight) {
   }
   EXPECT_GT(is.state_of(ObjectId{0}, at_ms(40'000)).x, 140.0);
   EXPECT_GT(is.state_of(ObjectId{3}, at_ms(45'000)).speed, 3.0);
+  EXPECT_EQ(is.lights()[0].x, 120.0);
+  EXPECT_EQ(is.lights()[0].y, -1.75);
+  EXPECT_EQ(is.lights()[0].heading, std::numbers::pi);
   EXPECT_EQ(shown_at(is.lights()[0], at_ms(29'999)), Light::kRed);
   EXPECT_EQ(shown_at(is.lights()[0], at_ms(30'000)), Light::kGreen);
   EXPECT_EQ(shown_at(is.lights()[0], at_ms(60'000)), Light::kRed);
