@@ -1,12 +1,16 @@
-// Finds the places of tracks that may be in an observation's gate, in n log n for n tracks that are apart.
+// Finds the places of tracks that may be in an observation's gate, in a time that hardly grows with their number if they are
+// apart.
 //
-// The places are cut into strips along x, each as long as there are many, and each strip is sorted by y. So a search passes
-// few strips, and few places of each. A few places are one strip, sorted by x. The constructor allocates all storage.
+// The plane is cut into square cells, as large as a common reach from end to end, so that a search passes two by two of them.
+// The few places of a larger reach lie in no cell, and each search passes them all. Cells share buckets, of which there are a
+// few for each place. Cells that follow each other along y have buckets that do so, too. Sorting and halving would take far
+// longer: the processor cannot foresee half of their branches. The constructor allocates all storage.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,68 +27,84 @@ class NearPlaces {
  public:
   explicit NearPlaces(std::size_t most);
 
-  void clear();
+  // Forgets all places. The next ones are searched with this bound on the squared distance.
+  void begin(double gate);
   // The places come in the order of their tracks: 0, 1, 2 and so on.
   void add(const Place& place) {
-    by_track_.push_back(place);
-    largest_variance_x_ = std::max(largest_variance_x_, place.variance_x);
-    largest_variance_y_ = std::max(largest_variance_y_, place.variance_y);
-    largest_reach_ = std::max(largest_reach_, place.reach);
+    places_.push_back(place);
+    const double reach_x = place.reach + reach_of(place.variance_x), reach_y = place.reach + reach_of(place.variance_y);
+    reaches_.push_back({reach_x, reach_y});
+    sum_ += std::max(reach_x, reach_y);
   }
-  // Sorts the places that were added since clear(). Searches follow.
-  void sort();
+  // Puts the places that were added since begin() into cells. Searches follow, with variances that are not larger.
+  void arrange(double variance_x, double variance_y);
   std::span<const Place> all() const { return places_; }
 
-  // Calls try_one(place) for the places that are not beyond the reach of the least certain one, on either axis. `at` has a
-  // position and its variances. All other places are outside of a gate with this bound on the squared distance.
-  template <class Try> void near(const Place& at, double gate, const Try& try_one) const {
-    const double reach_x = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + at.variance_x)) + largest_reach_;
-    const double reach_y = kRoundedUp * std::sqrt(gate * (largest_variance_y_ + at.variance_y)) + largest_reach_;
-    const double low = at.x - reach_x, high = at.x + reach_x;
-    if (strips_.empty()) {
-      const Place* one = first_not(all(), [&](const Place& p) { return p.x < low; });
-      for (; one != all().data() + all().size() && one->x <= high; ++one)
-        if (std::abs(one->y - at.y) <= reach_y) try_one(*one);
-      return;
+  // Calls try_one(place) for the places that `at`, a position with its variances, may be in the gate of. They are not farther
+  // than the reach of both on either axis.
+  template <class Try> void near(const Place& at, const Try& try_one) {
+    const double own_x = reach_of(at.variance_x), own_y = reach_of(at.variance_y);
+    std::size_t found = 0;
+    const auto search = [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t i = first; i < last; ++i) {
+        const Spot& spot = spots_[i];
+        found_[found] = spot.track;
+        found += static_cast<std::size_t>(static_cast<int>(std::abs(spot.x - at.x) <= spot.reach.x + own_x) &
+                                          static_cast<int>(std::abs(spot.y - at.y) <= spot.reach.y + own_y));
+      }
+    };
+    const std::int64_t column = cell_of(at.x - own_x - common_), row = cell_of(at.y - own_y - common_);
+    for (std::int64_t c = 0; c < kAcross; ++c) {
+      const std::size_t bucket = bucket_of(column + c, row);
+      search(begin_[bucket], begin_[bucket + kAcross]);
     }
-    const std::span<const Strip> strips(strips_);
-    const Strip* strip = first_not(strips, [&](const Strip& s) { return s.high < low; });
-    for (; strip != strips.data() + strips.size() && strip->low <= high; ++strip) {
-      const std::span<const Place> here = all().subspan(strip->begin, strip->end - strip->begin);
-      const Place* one = first_not(here, [&](const Place& p) { return p.y < at.y - reach_y; });
-      for (; one != here.data() + here.size() && one->y <= at.y + reach_y; ++one) try_one(*one);
-    }
+    search(0, wide_);
+    for (std::size_t i = 0; i < found; ++i) try_one(places_[found_[i]]);
   }
 
  private:
-  // Makes a rounded bound exclude no pair inside a gate.
-  static constexpr double kRoundedUp = 1.0 + 1e-12;
+  static constexpr std::int64_t kAcross = 2;  // cells that a search passes on each axis
 
-  struct Strip {
-    double low = 0.0, high = 0.0;  // x
-    std::size_t begin = 0, end = 0;
+  struct Reach {
+    double x, y;  // [m]
+    bool beyond(double common) const { return std::max(x, y) > common; }
   };
-  struct Along {
-    double x = 0.0;
-    std::size_t track = 0;
+  struct Spot {
+    double x, y;
+    Reach reach;
+    std::uint32_t track;
   };
 
-  // Returns the first element of a sorted range that is not `before`. The number of halvings is that of the range alone, and
-  // none of them branches. The processor would foresee half of the branches wrongly.
-  template <class T, class Before> static const T* first_not(std::span<const T> range, const Before& before) {
-    const T* first = range.data();
-    for (std::size_t left = range.size(); left > 0;) {
-      const std::size_t half = (left + 1) / 2;
-      first += half * static_cast<std::size_t>(before(first[half - 1]));
-      left -= half;
-    }
-    return first;
+  // Rounded up, so that it excludes no pair inside a gate.
+  double reach_of(double variance) const {
+    constexpr double kRoundedUp = 1.0 + 1e-12;
+    return kRoundedUp * std::sqrt(gate_ * variance);
   }
+  // Cells beyond the farthest one count as that one.
+  std::int64_t cell_of(double coordinate) const {
+    constexpr double kFarthest = 1e9;
+    return static_cast<std::int64_t>(
+        std::floor(std::max(-kFarthest, std::min(kFarthest, coordinate * cells_per_metre_))));
+  }
+  std::size_t bucket_of(std::int64_t column, std::int64_t row) const {
+    return (static_cast<std::size_t>(column) * step_ + static_cast<std::size_t>(row)) & mask_;
+  }
+  void choose_common();
+  void count_by_bucket();
+  Spot spot_of(std::size_t track) const;
 
-  std::vector<Place> by_track_, places_;
-  std::vector<Along> along_x_;  // the next sort begins with this order, and hardly changes it
-  std::vector<Strip> strips_;   // empty if there is only one
-  double largest_variance_x_ = 0.0, largest_variance_y_ = 0.0, largest_reach_ = 0.0;
+  double gate_ = 0.0;
+  std::vector<Place> places_;   // by track
+  std::vector<Reach> reaches_;  // by track
+  double sum_ = 0.0;            // the larger reaches' sum
+  double common_ = 0.0;         // [m], the largest reach of a place in a cell
+  double cells_per_metre_ = 0.0;
+  std::size_t step_ = 0, mask_ = 0;    // buckets from column to column; their number less one
+  std::uint32_t wide_ = 0;             // so many spots, the first ones, have a larger reach
+  std::vector<std::uint32_t> bucket_;  // by track
+  std::vector<std::uint32_t> begin_;   // each bucket's first spot
+  std::vector<Spot> spots_;            // by bucket; the first buckets follow the last one once more
+  std::vector<std::uint32_t> found_;   // in a search
 };
 
 }  // namespace ttf::fusion::association

@@ -159,9 +159,15 @@ void Tracker::predict(Track& track, const HeadingStep& turn, double dt) const {
 
 void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
   const sensors::Observation* any = list.observations.empty() ? nullptr : &list.observations.front();
-  const bool centres = std::all_of(list.observations.begin(), list.observations.end(),
-                                   [](const auto& z) { return z.seen == sensors::SeenPoint::kCentre; });
-  places_.clear();
+  bool centres = true;
+  double variance_x = 0.0, variance_y = 0.0;
+  for (const sensors::Observation& z : list.observations) {
+    centres = centres && z.seen == sensors::SeenPoint::kCentre;
+    if (z.kind != sensors::ObservationKind::kPosition) continue;
+    variance_x = std::max(variance_x, z.r(0, 0));
+    variance_y = std::max(variance_y, z.r(1, 1));
+  }
+  places_.begin(gate_[2]);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     const Track& track = set.tracks[t];
     const linear::Gaussian<2> at =
@@ -170,7 +176,7 @@ void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
     const double reach = same ? 0.0 : reach_of(track.extent, gate_[2]);
     places_.add({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach, t});
   }
-  places_.sort();
+  places_.arrange(variance_x, variance_y);
 }
 
 void Tracker::sum_innovations(const TrackSet& set, const sensors::ObservationList& list) {
@@ -244,7 +250,7 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
     const sensors::Observation& z = list.observations[o];
     const auto try_one = [&](const association::Place& placed) { try_pair(set, z, z.from, o, placed); };
     if (z.kind == sensors::ObservationKind::kPosition)
-      places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, gate_[dimension_of(z.kind)], try_one);
+      places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, try_one);
     else
       std::for_each(places_.all().begin(), places_.all().end(), try_one);
   }

@@ -27,36 +27,89 @@ bool in_gate(const Place& a, const Place& b, double gate) {
   return dx * dx <= gate * (a.variance_x + b.variance_x) && dy * dy <= gate * (a.variance_y + b.variance_y);
 }
 
-// One strip and several, the same places sorted once more, and others after them.
-TEST(NearPlaces, AreAllInsideTheGateEachOnce) {
-  constexpr std::size_t kMost = 1000;
-  constexpr double kGate = 11.8;
-  NearPlaces places(kMost);
-  std::size_t tried = 0, searches = 0;
-  for (const std::size_t count : {0u, 1u, 2u, 64u, 65u, 65u, 300u, 1000u, 7u}) {
-    RandomStream stream({.seed = count, .purpose = Purpose::kTest, .entity = 0, .index = 0});
-    std::vector<Place> all;
-    places.clear();
-    for (std::size_t track = 0; track < count; ++track) places.add(all.emplace_back(drawn(stream, track)));
-    places.sort();
-    EXPECT_EQ(places.all().size(), count);
-    for (int search = 0; search < 50; ++search) {
-      const Place at = drawn(stream, 1);
-      std::vector<int> times(count);
-      places.near(at, kGate, [&](const Place& place) {
-        EXPECT_EQ(place.x, all[place.track].x);
-        ++times[place.track];
-        tried += count == kMost ? 1 : 0;
-      });
-      searches += count == kMost ? 1 : 0;
-      for (std::size_t track = 0; track < count; ++track) {
-        EXPECT_LE(times[track], 1);
-        if (!in_gate(at, all[track], kGate)) continue;
-        EXPECT_EQ(times[track], 1) << track << " of " << count;
-      }
+constexpr double kGate = 11.8, kLargestVariance = 1.1;
+
+// Holds the searches of 50 observations to all places. Returns how many places were tried in each on the average.
+double try_some(NearPlaces& places, const std::vector<Place>& all, RandomStream& stream, const Place& about = {}) {
+  constexpr int kSearches = 50;
+  places.begin(kGate);
+  for (const Place& place : all) places.add(place);
+  places.arrange(kLargestVariance, kLargestVariance);
+  EXPECT_EQ(places.all().size(), all.size());
+  int tried = 0;
+  for (int search = 0; search < kSearches; ++search) {
+    Place at = drawn(stream, 1);
+    at.x += about.x;
+    at.y += about.y;
+    std::vector<int> times(all.size());
+    places.near(at, [&](const Place& place) {
+      EXPECT_EQ(place.x, all[place.track].x);
+      ++times[place.track];
+      ++tried;
+    });
+    for (std::size_t track = 0; track < all.size(); ++track) {
+      EXPECT_LE(times[track], 1);
+      if (!in_gate(at, all[track], kGate)) continue;
+      EXPECT_EQ(times[track], 1) << track << " of " << all.size();
     }
   }
-  EXPECT_LT(tried / searches, kMost / 10) << "far places are passed over";
+  return static_cast<double>(tried) / kSearches;
+}
+
+std::vector<Place> all_drawn(RandomStream& stream, std::size_t count) {
+  std::vector<Place> all;
+  for (std::size_t track = 0; track < count; ++track) all.push_back(drawn(stream, track));
+  return all;
+}
+
+RandomStream stream_of(std::uint64_t seed) {
+  return RandomStream({.seed = seed, .purpose = Purpose::kTest, .entity = 0, .index = 0});
+}
+
+TEST(NearPlaces, AreAllInsideTheGateEachOnce) {
+  constexpr std::size_t kMost = 1000;
+  NearPlaces places(kMost);
+  for (const std::size_t count : {0u, 1u, 2u, 16u, 17u, 17u, 300u, 1000u, 7u}) {
+    RandomStream stream = stream_of(count);
+    const double tried = try_some(places, all_drawn(stream, count), stream);
+    EXPECT_LE(tried, static_cast<double>(count) / 10.0) << "far places are passed over";
+  }
+}
+
+// All in one cell; one of them far away; all of them far away, and so far that cells have no numbers any more.
+TEST(NearPlaces, MayBeAnywhere) {
+  constexpr std::size_t kCount = 100;
+  NearPlaces places(kCount);
+  RandomStream stream = stream_of(1);
+  std::vector<Place> all;
+  for (std::size_t track = 0; track < kCount; ++track) all.push_back({.reach = 60.0, .track = track});
+  EXPECT_GT(try_some(places, all, stream), 10.0);
+  all = all_drawn(stream, kCount);
+  all[7].x = -1e5;
+  all[8].y = 1e300;
+  try_some(places, all, stream);
+  for (const Place& about : {Place{.x = -7e4, .y = 3e5}, Place{.x = 1e12, .y = -1e12}}) {
+    for (Place& place : all) {
+      place.x += about.x;
+      place.y += about.y;
+    }
+    try_some(places, all, stream, about);
+    all = all_drawn(stream, kCount);
+  }
+}
+
+// One uncertain place lies in no cell; many are the common ones. Without any uncertainty, cells are as small as can be.
+TEST(NearPlaces, MayBeUncertain) {
+  constexpr std::size_t kCount = 100;
+  NearPlaces places(kCount);
+  RandomStream stream = stream_of(2);
+  std::vector<Place> all = all_drawn(stream, kCount);
+  all[3].variance_x = 1e4;
+  try_some(places, all, stream);
+  for (std::size_t track = 40; track < 80; ++track) all[track].variance_y = 1e4;
+  try_some(places, all, stream);
+  for (Place& place : all) place.variance_x = place.variance_y = place.reach = 0.0;
+  try_some(places, all, stream);
 }
 
 }  // namespace
