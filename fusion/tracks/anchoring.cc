@@ -15,7 +15,7 @@ using sensors::SeenPoint;
 struct Sureness {
   double sure, lost;
 };
-constexpr Sureness kBehindSilhouette{0.1, 0.35}, kOfSides{0.5, 1.0};
+constexpr Sureness kBehindSilhouette{kSureHeading, 0.35}, kOfSides{0.5, 1.0};
 
 struct Direction {
   double heading = 0.0, sigma = 0.0;

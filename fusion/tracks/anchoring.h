@@ -37,6 +37,9 @@ inline constexpr int kListsBeforeSilhouette = 12;
 // Spectral density of the width that a turning object shows [m^2/s]: it wanders by half a metre within a second.
 inline constexpr double kTurningSilhouette = 0.25;
 
+// A heading with a standard deviation [rad] up to this one is sure: it alone tells where an object's points are.
+inline constexpr double kSureHeading = 0.1;
+
 // An observed point relative to a track's anchor.
 struct Distance {
   Anchor to;                                               // the observed point

@@ -13,6 +13,10 @@
 
 namespace ttf::fusion::tracks {
 
+// Returns how far [m] an observed point of the object may be from the track's anchor, which is `at`: by size, with the
+// uncertainty of size and heading up to this gate. The mounting is the observing sensor's.
+double reach_of(const Track& track, const linear::Vector<2>& at, const sensors::Mounting& mounting, double gate);
+
 class Distances {
  public:
   explicit Distances(std::size_t max_tracks) : knows_(max_tracks), of_track_(max_tracks) {}

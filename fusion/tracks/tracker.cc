@@ -45,12 +45,6 @@ int lists_elsewhere_before(sensors::SeenPoint seen) {
   return seen == sensors::SeenPoint::kSilhouette ? kListsBeforeSilhouette : kListsElsewhere;
 }
 
-// The longest distance of two points of an object, by size, its uncertainty and that of the heading: at most 0.35 of the
-// diagonal (fusion/tracks/anchoring.cc, kUnknown).
-double reach_of(const Extent& extent, double gate) {
-  return extent.size.norm() * (1.0 + 0.35 * std::sqrt(gate)) + std::sqrt(gate * extent.covariance.trace());
-}
-
 }  // namespace
 
 Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
@@ -159,6 +153,7 @@ void Tracker::predict(Track& track, const HeadingStep& turn, double dt) const {
 
 void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
   const sensors::Observation* any = list.observations.empty() ? nullptr : &list.observations.front();
+  const sensors::Mounting mounting = any ? any->from : sensors::Mounting{};
   bool centres = true;
   double variance_x = 0.0, variance_y = 0.0;
   for (const sensors::Observation& z : list.observations) {
@@ -173,7 +168,7 @@ void Tracker::place(const TrackSet& set, const sensors::ObservationList& list) {
     const linear::Gaussian<2> at =
         any ? estimator_->seen_position(track.estimate, any->sensor, any->from) : estimator_->position(track.estimate);
     const bool same = centres && track.anchor.point == sensors::SeenPoint::kCentre;
-    const double reach = same ? 0.0 : reach_of(track.extent, gate_[2]);
+    const double reach = same ? 0.0 : reach_of(track, at.x, mounting, gate_[2]);
     places_.add({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach, t});
   }
   places_.arrange(variance_x, variance_y);
