@@ -16,9 +16,8 @@
 // Nothing hides an object by default: below cars and from the road, echoes reach a radar from vehicles that others hide. With
 // a `shadow` an object is hidden as for a camera (occlusion.h).
 //
-// The defaults are of the class of the far range of Continental's ARS 408 (data sheet: 250 m, 1.8 m and 1.6 degrees of
-// resolution, 0.4 m, 0.1 degrees and 0.1 km/h of accuracy, as three standard deviations), with a wider field. A point's
-// azimuth also glints. So its standard deviation is larger.
+// The defaults are assumed. Their class is that of 77 GHz long-range radars, such as the far range of Continental's ARS 408: 250 m
+// of range, and cells of 1.8 m and 1.6 degrees.
 #pragma once
 
 #include <cstddef>

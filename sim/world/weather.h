@@ -2,7 +2,7 @@
 //
 // | | rain | fog | dark | source |
 // |---|---|---|---|---|
-// | laser: range | 0.75 | 0.4 | 1 | assumed; in fog with a sight of 40 m lasers see 25 m (Bijelic, Gruber, Ritter, IV 2018) |
+// | laser: range | 0.75 | 0.4 | 1 | assumed |
 // | laser: lost echoes | 2 | 3 | 1 | assumed |
 // | camera: range | 0.75 | 0.4 | 0.6 | assumed; the dark leaves the reach of headlamps |
 // | camera: misses | 2 | 3 | 2 | assumed |
