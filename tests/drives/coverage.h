@@ -32,6 +32,7 @@ class Coverage final : public recording::records::Sink {
   struct Object {
     int uses = 0, shown = 0;
     std::set<TrackId> tracks;
+    TrackId first{}, last{};
     TrueTime first_missed{};
   };
   explicit Coverage(TrueTime from) : from_(from) {}
@@ -72,6 +73,8 @@ class Coverage final : public recording::records::Sink {
       ++object.uses;
       if (track[t]) {
         ++object.shown;
+        if (object.tracks.empty()) object.first = *track[t];
+        object.last = *track[t];
         object.tracks.insert(*track[t]);
       } else if (object.first_missed == TrueTime{}) {
         object.first_missed = use_->at;

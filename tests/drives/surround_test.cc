@@ -14,21 +14,22 @@ constexpr ObjectId kRound{0};
 
 class Surround : public testing::TestWithParam<StrategyKind> {};
 
-// A whole turn takes 8.8 s: ahead the laser, the camera with one lens and the long-range radar see the car, aside a corner
-// radar alone, behind the stereo camera, too.
+// A whole turn takes 18.8 s: ahead the laser, the camera with one lens and the long-range radar see the car, aside a corner
+// radar alone, behind the stereo camera, too. Where the laser's field begins, it sees a part of the car. A second track is
+// then beside the first one for a moment, until they are merged.
 TEST_P(Surround, WhoeverGoesRoundKeepsItsName) {
-  Drive drive("scenarios/surround.yaml", GetParam());
-  drive.scenario.duration = Duration::milliseconds(10'500);
+  const Drive drive("scenarios/surround.yaml", GetParam());
   Coverage coverage(sim::crank::kFirstCycle + Duration::milliseconds(1500));
   const DriveOutcome outcome = drive.run(coverage, 1, false);
   coverage.finish();
   ASSERT_EQ(coverage.objects.size(), 25u);
   const Coverage::Object& round = coverage.objects.at(kRound);
-  EXPECT_GT(round.uses, 200);
-  EXPECT_GE(round.shown + 5, round.uses);
-  EXPECT_EQ(round.tracks.size(), 1u);
+  EXPECT_GT(round.uses, 500);
+  EXPECT_GE(round.shown, 0.97 * round.uses);
+  EXPECT_EQ(round.first, round.last);
+  EXPECT_LE(round.tracks.size(), 4u);
   for (const auto& [id, object] : coverage.objects)
-    EXPECT_GE(object.shown, 0.95 * object.uses) << "object " << index_of(id);
+    EXPECT_GE(object.shown, 0.9 * object.uses) << "object " << index_of(id);
   EXPECT_EQ(outcome.counts.slot_problems, 0u);
   EXPECT_EQ(outcome.counts.deadlines_missed, 0u);
   EXPECT_EQ(outcome.counts.torn_lists, 0u);
