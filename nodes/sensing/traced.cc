@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "core/check.h"
+#include "sim/world/traffic/classes.h"
 
 namespace ttf::nodes::sensing {
 namespace {
 
+using recording::osi::TracedKind;
 using recording::osi::TracedObject;
 using recording::osi::TracedState;
 
@@ -31,6 +33,18 @@ TracedState on_the_way(const TracedState& a, const TracedState& b, double part, 
           straight(a.ax, b.ax),
           straight(a.ay, b.ay),
           straight(a.yaw_rate, b.yaw_rate)};
+}
+
+// A trace's vehicle may be a truck, which its size shows, and a radar sees as a car.
+sim::world::traffic::ObjectClass class_of(TracedKind kind) {
+  using sim::world::traffic::ObjectClass;
+  switch (kind) {
+    case TracedKind::kTwoWheeler: return ObjectClass::kMotorbike;
+    case TracedKind::kPedestrian: return ObjectClass::kPedestrian;
+    case TracedKind::kVehicle:
+    case TracedKind::kOther: break;
+  }
+  return ObjectClass::kCar;
 }
 
 }  // namespace
@@ -103,6 +117,10 @@ void TracedScene::states_at(TrueTime at, std::vector<sim::world::ObjectState>& o
     state.yaw_rate = is->yaw_rate;
     state.length = object.length;
     state.width = object.width;
+    state.kind = class_of(object.kind);
+    const sim::world::traffic::ClassTraits& traits = sim::world::traffic::traits_of(state.kind);
+    state.height = traits.height;
+    state.cross_section = traits.cross_section;
     out.push_back(state);
   }
 }

@@ -92,6 +92,13 @@ bool finite(const records::EgoTruth& ego) {
   return std::isfinite(ego.x + ego.y + ego.heading + ego.vx + ego.vy + ego.yaw_rate + ego.acceleration);
 }
 
+// OSI has velocities of detected objects relative to the vehicle.
+void make_relative(osi3::BaseMoving& base, const records::OdometryTaken& own) {
+  osi3::Vector3d& velocity = *base.mutable_velocity();
+  set(velocity, velocity.x() - own.speed + own.yaw_rate * base.position().y(),
+      velocity.y() - own.yaw_rate * base.position().x());
+}
+
 // The deviations of a vector along the heading, whose size and direction have deviations of their own, to first order.
 void set_deviations(osi3::Vector3d& vector, double heading, double size, double sigma, double sigma_heading) {
   const double c = std::cos(heading), s = std::sin(heading), across = size * sigma_heading;
@@ -157,6 +164,7 @@ void OsiExport::image(TrueTime valid_at, const records::ImageWritten& image) {
                                                        ? osi3::DetectedItemHeader::MEASUREMENT_STATE_PREDICTED
                                                        : osi3::DetectedItemHeader::MEASUREMENT_STATE_MEASURED);
     set_base(*object.mutable_base(), box_of(track));
+    if (own_) make_relative(*object.mutable_base(), *own_);
     osi3::BaseMoving& rmse = *object.mutable_base_rmse();
     rmse.mutable_dimension()->set_length(track.sigma_length);
     rmse.mutable_dimension()->set_width(track.sigma_width);

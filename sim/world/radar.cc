@@ -80,8 +80,6 @@ RadarConfig in_drive(RadarConfig config, const DriveKey& key) {
   return config;
 }
 
-double cross_section_of(const ObjectState&) { return 10.0; }
-
 double snr_of(const RadarConfig& config, double cross_section, double range, double azimuth) {
   const double off = 2.0 * azimuth / config.beam_width_rad, near = 100.0 / range;
   const double gain_db = -decibels(2.0) * off * off;  // one way: half of the gain at half of the width
@@ -132,7 +130,7 @@ void measure_radar(const RadarConfig& config, std::span<const ObjectState> objec
       if (!range || *range > config.max_range_m || std::abs(azimuth) > config.half_field_rad ||
           config.device.blind.hold(azimuth))
         continue;
-      const double snr = snr_of(config, cross_section_of(objects[i]) / config.most_returns, *range, azimuth);
+      const double snr = snr_of(config, objects[i].cross_section / config.most_returns, *range, azimuth);
       // Above the threshold with the probability P_d.
       const double power = -(1.0 + snr) * std::log1p(-chance);
       if (power <= threshold) continue;

@@ -68,8 +68,6 @@ struct RadarReturn {
   double power_db = 0;    // over the noise
 };
 
-// Returns an object's radar cross-section [m^2]. A car has about 10 m^2.
-double cross_section_of(const ObjectState& state);
 // Returns SNR and P_d of a point, as above.
 double snr_of(const RadarConfig& config, double cross_section, double range, double azimuth);
 double detection_probability(const RadarConfig& config, double snr);

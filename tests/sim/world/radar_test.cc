@@ -68,12 +68,12 @@ TEST(Radar, DetectsAsOftenAsTheClosedFormSays) {
     post.length = post.width = 0.1;
     const double range = std::hypot(x, 10.0), azimuth = std::atan2(10.0, x);
     const double off = azimuth / (0.5 * config.beam_width_rad);
-    const double snr = 100.0 * cross_section_of(post) * std::pow(100.0 / range, 4.0) * std::pow(0.5, 2.0 * off * off);
+    const double snr = 100.0 * post.cross_section * std::pow(100.0 / range, 4.0) * std::pow(0.5, 2.0 * off * off);
     const double expected = std::pow(config.false_alarm_probability, 1.0 / (1.0 + snr));
     int detected = 0;
     for (std::uint32_t k = 0; k < kLists; ++k) detected += static_cast<int>(list(config, {post}, k).returns.size());
     EXPECT_NEAR(detected / double{kLists}, expected, 4.0 * std::sqrt(0.25 / kLists) + 0.003) << x;
-    EXPECT_NEAR(detection_probability(config, snr_of(config, cross_section_of(post), range, azimuth)), expected, 1e-6);
+    EXPECT_NEAR(detection_probability(config, snr_of(config, post.cross_section, range, azimuth)), expected, 1e-6);
   }
 }
 
