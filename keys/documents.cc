@@ -52,13 +52,15 @@ std::vector<Chapter> scenario_chapters() {
   for (const char* place : {"world.size", "world.objects[].size"}) chapters.push_back({place, size_descriptions()});
   struct Kind {
     const char* name;
+    const char* when;
     Descriptions sensor, preprocessing;
   };
-  const Kind kinds[] = {{"camera", camera_descriptions(), camera_preprocessing_descriptions()},
-                        {"laser", laser_descriptions(), laser_preprocessing_descriptions()},
-                        {"radar", radar_descriptions(), radar_preprocessing_descriptions()},
-                        {"mono_camera", mono_camera_descriptions(), mono_camera_preprocessing_descriptions()},
-                        {"odometry", odometry_descriptions(), odometry_preprocessing_descriptions()}};
+  const Kind kinds[] = {
+      {"camera", "kind=camera", camera_descriptions(), camera_preprocessing_descriptions()},
+      {"laser", "kind=laser", laser_descriptions(), laser_preprocessing_descriptions()},
+      {"radar", "kind=radar", radar_descriptions(), radar_preprocessing_descriptions()},
+      {"mono_camera", "kind=mono_camera", mono_camera_descriptions(), mono_camera_preprocessing_descriptions()},
+      {"odometry", "kind=odometry", odometry_descriptions(), odometry_preprocessing_descriptions()}};
   // A kind's own entry, or that of any name.
   const auto add_sensor = [&](const std::string& name) {
     const std::string place = "sensors." + name;
@@ -67,7 +69,7 @@ std::vector<Chapter> scenario_chapters() {
     for (const Kind& kind : kinds) {
       const bool any = name == kAnyName;
       if (!any && name != kind.name) continue;
-      const std::string when = any ? std::string("kind=") + kind.name : "";
+      const char* when = any ? kind.when : "";
       chapters.push_back({place, kind.sensor, when});
       chapters.push_back({place + ".preprocessing", kind.preprocessing, when});
     }

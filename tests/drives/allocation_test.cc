@@ -58,7 +58,7 @@ TEST_P(Allocations, NoneWithRadars) { expect_none(Drive("scenarios/laser_and_rad
 
 TEST_P(Allocations, NoneWithACrowd) { expect_none(Drive("scenarios/crowd_25.yaml", GetParam()), 5'990); }
 
-TEST_P(Allocations, NoneOnAVehicleThatDrives) { expect_none(Drive("scenarios/turning_ego.yaml", GetParam()), 490); }
+TEST_P(Allocations, NoneOnAVehicleThatDrives) { expect_none(Drive("scenarios/turning_ego.yaml", GetParam()), 415); }
 
 // The longest lists. Each of the laser's beams hits one of two fences, whose gaps cut the scan into many
 // segments. More is seen than the observation lists and the image carry.

@@ -31,7 +31,9 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "surround_synchronised",
                                                "surround_unsynchronised",
                                                "moving_unsynchronised",
-                                               "moving_synchronised"};
+                                               "moving_synchronised",
+                                               "laser_and_radar_unsynchronised",
+                                               "laser_and_radar_synchronised"};
   return kNames;
 }
 

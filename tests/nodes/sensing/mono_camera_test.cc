@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "nodes/sensing/observation_codec.h"
-#include "schedules/file/loader.h"
+#include "tests/schedules/cluster_file.h"
 
 namespace ttf::nodes::sensing {
 namespace {
@@ -31,6 +34,41 @@ class Lane final : public Scene {
  private:
   sim::world::road::Road road_{{.pieces = {{.length = 200.0}}, .left = 0, .right = 1}};
 };
+
+// `surround` with lists of lane marks beside those of boxes.
+Cluster with_lanes() {
+  std::string text = schedules::shipped_text("surround_synchronised");
+  const auto put = [&](const std::string& before, const std::string& after) {
+    const std::size_t at = text.find(before);
+    if (at == std::string::npos) throw std::runtime_error(before);
+    text.replace(at, before.size(), after);
+  };
+  const std::string mark =
+      "    element: [{name: offset, unit: m, bits: 16, low: -32.768, resolution: 0.001},\n"
+      "      {name: heading, unit: rad, bits: 16, low: -1.6384, resolution: 0.00005},\n"
+      "      {name: curvature, unit: 1/m, bits: 16, low: -0.32768, resolution: 0.00001}";
+  put("mono_camera_emulator", "lane_camera_emulator");
+  put("mono_camera_preprocessing", "lane_camera_preprocessing");
+  put("writes: {raw: mono_boxes on mono_can}", "writes: {marks: mono_marks on mono_can, raw: mono_boxes on mono_can}");
+  put("reads: {raw: mono_boxes on mono_can}", "reads: {raw: mono_boxes on mono_can, marks: mono_marks on mono_can}");
+  put("writes: {objects: mono_objects on flexray}",
+      "writes: {objects: mono_objects on flexray, lanes: mono_lanes on flexray}");
+  put("messages: [{pdu: mono_boxes",
+      "messages: [{pdu: mono_marks, identifier: 304, sender: mono_camera, shortest_period: 39 ms}, {pdu: mono_boxes");
+  put("  stereo_frame:\n",
+      "  mono_marks:\n    fragment_bytes: 64\n    max_elements: 8\n    elements_per_fragment: 8\n"
+      "    header: *scan_header\n" +
+          mark + "]\n  stereo_frame:\n");
+  put("  stereo_objects:\n",
+      "  mono_lanes:\n    fragment_bytes: 56\n    max_elements: 4\n    elements_per_fragment: 4\n"
+      "    header: *list_header\n" +
+          mark +
+          ",\n      {name: sigma_offset, unit: m, bits: 10, resolution: 0.005},\n"
+          "      {name: sigma_heading, unit: rad, bits: 10, resolution: 0.0005},\n"
+          "      {name: sigma_curvature, unit: 1/m, bits: 10, resolution: 0.00005},\n"
+          "      {name: validity, bits: 8, resolution: 0.01}]\n  stereo_objects:\n");
+  return schedules::file::parse_cluster(std::move(text), "lanes.yaml");
+}
 
 // The camera's device and host, hand in hand.
 class LaneCamera : public testing::Test {
@@ -83,7 +121,7 @@ class LaneCamera : public testing::Test {
     return host::element_value(lanes.layout(), lanes.view(), index, *found);
   }
 
-  Cluster cluster_ = schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/surround_synchronised.yaml");
+  Cluster cluster_ = with_lanes();
   SensorId camera_ = *cluster_.find_sensor("mono_camera");
   const schedules::model::Task& task_ = cluster_.node(cluster_.sensor(camera_).device).tasks.front();
   const schedules::model::Task& host_task_ = cluster_.node(cluster_.sensor(camera_).host).tasks.front();
@@ -122,7 +160,7 @@ TEST_F(LaneCamera, MarksOfAnotherPictureAreLeftOut) {
 }
 
 TEST(LaneCameraFile, TheBoxesComeFirst) {
-  Cluster cluster = schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/surround_synchronised.yaml");
+  Cluster cluster = with_lanes();
   schedules::model::Task task = cluster.node(cluster.sensor(*cluster.find_sensor("mono_camera")).host).tasks.front();
   std::swap(task.reads[0], task.reads[1]);
   try {
