@@ -76,6 +76,10 @@ std::vector<Chapter> scenario_chapters() {
   };
   for (const Kind& kind : kinds) add_sensor(kind.name);
   add_sensor(kAnyName);
+  // Keys within a mapping that one kind alone has need no condition.
+  const std::string any = std::string("sensors.") + kAnyName;
+  chapters.push_back({any, mono_camera_descriptions()});
+  chapters.push_back({any + ".preprocessing", mono_camera_preprocessing_descriptions()});
   return chapters;
 }
 

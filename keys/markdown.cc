@@ -16,13 +16,25 @@ struct Section {
   std::vector<const Row*> rows;
 };
 
+// A key of the file with more keys within it than this is several tables: one for each key right within it.
+constexpr std::ptrdiff_t kMostRows = 240;
+
 // The key of the file that a path begins with.
 std::string top_of(const std::string& path) { return path.substr(0, path.find_first_of(".[")); }
+// That key, and the next one.
+std::string second_of(const std::string& path) {
+  const std::size_t first = path.find('.');
+  return first == std::string::npos ? path : path.substr(0, path.find_first_of(".[", first + 1));
+}
 
 std::vector<Section> sections_of(const std::vector<Row>& rows) {
   std::vector<Section> sections(1);
   for (const Row& row : rows) {
-    const std::string top = top_of(row.path);
+    std::string top = top_of(row.path);
+    const auto within = [&](const Row& other) { return top_of(other.path) == top; };
+    if (row.path != top && std::count_if(rows.begin(), rows.end(), within) > kMostRows &&
+        second_of(row.path) != row.path)
+      top = second_of(row.path);
     if (row.path == top) {
       sections.front().rows.push_back(&row);
       continue;
@@ -78,7 +90,9 @@ std::string own_page(const Document& document, const Section& section) {
 }
 
 std::string file_of(const Document& document, const Section& section) {
-  return fmt::format("{}_{}.md", document.kind, section.top);
+  std::string top = section.top;
+  std::replace(top.begin(), top.end(), '.', '_');
+  return fmt::format("{}_{}.md", document.kind, top);
 }
 
 std::string first_page(const Document& document, const std::vector<Section>& sections,

@@ -14,7 +14,7 @@ expect 2 '^error: command line: --format = json-schema: goes with one kind' keys
 expect 0 '^wrote .*/faults.json$' keys faults --format json-schema -o "$work/faults.json"
 cmp -s "$work/faults.json" "$source/schemas/faults.schema.json" || fail "keys writes another schema than the one kept"
 expect 0 '^wrote .*/keys$' keys --format markdown -o "$work/keys"
-[[ -s $work/keys/scenario_sensors.md ]] || fail "keys --format markdown writes no page of the sensors"
+[[ -s $work/keys/scenario_sensors_NAME.md ]] || fail "keys --format markdown writes no page of the sensors"
 
 [[ $failures -eq 0 ]] && echo "keys command: all as documented"
 exit $((failures > 0))
