@@ -21,7 +21,7 @@ constexpr std::ptrdiff_t kMostRows = 240;
 
 // The key of the file that a path begins with.
 std::string top_of(const std::string& path) { return path.substr(0, path.find_first_of(".[")); }
-// That key, and the next one.
+// The first two keys of a path.
 std::string second_of(const std::string& path) {
   const std::size_t first = path.find('.');
   return first == std::string::npos ? path : path.substr(0, path.find_first_of(".[", first + 1));

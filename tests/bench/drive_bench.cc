@@ -89,6 +89,22 @@ void CrowdSecond(benchmark::State& state) {
 }
 BENCHMARK(CrowdSecond)->Unit(benchmark::kMillisecond);
 
+// Six sensors round the car, 25 objects, 20 s.
+void SurroundWithoutLog(benchmark::State& state) {
+  Drive drive("scenarios/surround.yaml", static_cast<fusion::strategies::StrategyKind>(state.range(0)));
+  drive.scenario.duration = Duration::milliseconds(20'000);
+  for (auto _ : state) {
+    recording::records::Sink nobody;
+    benchmark::DoNotOptimize(drive.run(nobody).frames_sent);
+  }
+  state.counters["x real time"] =
+      benchmark::Counter(drive.scenario.duration.seconds(), benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(SurroundWithoutLog)
+    ->DenseRange(0, fusion::strategies::kStrategyCount - 1)
+    ->ArgName("strategy")
+    ->Unit(benchmark::kMillisecond);
+
 }  // namespace
 }  // namespace ttf
 
