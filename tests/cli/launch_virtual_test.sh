@@ -15,7 +15,7 @@ hash_of() {
   python3 -c 'import json, sys; print(json.load(open(sys.argv[1] + "/summary.json"))["strategies"][0]["content_hash"])' "$1"
 }
 
-for scenario in paper_scenario1 faulty_bus; do
+for scenario in paper_scenario1 faulty_bus turning_ego; do
   "$program" run "$source/scenarios/$scenario.yaml" --strategy tt --no-pictures --out "$work/run_$scenario" >/dev/null 2>&1 ||
     fail "run $scenario"
   launch "$work/$scenario" "$source/scenarios/$scenario.yaml" || fail "launch $scenario: $(cat "$work/$scenario.err")"

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-DRIVES = ["paper_scenario1", "paper_scenario2"]
+DRIVES = ["paper_scenario1", "paper_scenario2", "turning_ego", "laser_and_radar"]
 PAGES = ["README.md", "docs/reading_the_table.md"]   # show the first drive's hashes
 
 
