@@ -256,8 +256,15 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
     from += begin.size();
     blocks.push_back(page.substr(from, page.find("```", from) - from));
   }
-  ASSERT_EQ(blocks.size(), 4u);
-  const std::string drawn = scenario.substr(0, scenario.find("\nworld:") + 1) + blocks[1];
+  ASSERT_EQ(blocks.size(), 6u);
+  const sim::world::MonoCameraConfig mono =
+      parse_scenario(scenario + blocks[1], shipped("scenarios/mono.yaml")).sensors.mono_cameras.usual.model;
+  EXPECT_EQ(mono.region_count, 1u);
+  EXPECT_EQ(mono.pitch.sigma, 0.001);
+  EXPECT_EQ(parse_scenario(scenario + blocks[2], shipped("scenarios/marks.yaml"))
+                .sensors.mono_cameras.usual.model.marks.miss_probability,
+            0.05);
+  const std::string drawn = scenario.substr(0, scenario.find("\nworld:") + 1) + blocks[3];
   const sim::world::WorldConfig world = parse_scenario(drawn, shipped("scenarios/drawn.yaml")).world;
   EXPECT_EQ(world.acceleration_noise, 20.0);
   EXPECT_EQ(world.speed_memory, Duration::milliseconds(500));
@@ -266,10 +273,10 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
   EXPECT_EQ(world.objects[0].size.draw, sim::world::SizeDraw::kNormal);
   EXPECT_EQ(world.objects[1].size.draw, sim::world::SizeDraw::kNominal);
   EXPECT_EQ(world.objects[1].length, 12.0);
-  const std::string by_name = blocks[2];
+  const std::string by_name = blocks[4];
   EXPECT_NE(whole("scenarios/two_lasers.yaml").find(by_name.substr(by_name.find("  right_laser"))), std::string::npos);
   EXPECT_EQ(parse_scenario(scenario + by_name, "by_name.yaml").sensors.lasers.own.size(), 2u);
-  scenario += blocks[0] + blocks[3];
+  scenario += blocks[0] + blocks[5];
   const Scenario loaded = parse_scenario(scenario, shipped("scenarios/documented.yaml"));
   EXPECT_EQ(loaded.sensors.lasers.usual.model.device.placement.x, 3.5);
   EXPECT_EQ(loaded.sensors.lasers.usual.model.range_bias.sigma, 0.3);
