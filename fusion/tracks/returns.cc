@@ -61,9 +61,12 @@ linear::Matrix<3> spread_of(const SeenBox& outline) {
   std::array<linear::Vector<3>, kRays> points;
   int hits = 0;
   linear::Vector<3> mean = linear::Vector<3>::Zero();
-  for (int k = 0; k < kRays; ++k) {
-    const double off = low + (k + 0.5) / kRays * (high - low);
-    const linear::Vector<2> sight(std::cos(middle + off), std::sin(middle + off));
+  // Each direction is the one before, turned by a step: sines take long.
+  const double step = (high - low) / kRays, first = middle + low + 0.5 * step, c = std::cos(step), s = std::sin(step);
+  linear::Vector<2> sight(std::cos(first), std::sin(first));
+  for (int k = 0; k < kRays;
+       ++k, sight = linear::Vector<2>(c * sight.x() - s * sight.y(), s * sight.x() + c * sight.y())) {
+    const double off = low + (k + 0.5) * step;
     const double range = range_of(outline, axis, sight);
     if (!std::isfinite(range)) continue;
     const linear::Vector<2> velocity =
