@@ -88,7 +88,7 @@ def straight(_: float) -> float:
 def traces() -> dict[str, tuple[int | None, dict[int, tuple[float, list[dict[str, float]]]]]]:
     """Returns for each trace its host and its objects: the instant at which each comes, and its states from there on."""
     cutting_in = drive(6.4, {"x": 80, "y": 1.535}, braking(15, 4.01, 5.2), lane_change(2.0, 3.0, -3.0))
-    host = drive(6.4, {"x": 50, "y": -1.465}, lambda t: 20.0, straight)
+    host = drive(6.4, {"x": 50, "y": -1.465}, braking(20, 3.0, 5.0), straight)
     queue = {n: (0.0, drive(8.0, {"x": 8 + 9 * n, "y": 0}, braking(6, 1 + 0.5 * (3 - n), 2.5), straight)) for n in (1, 2, 3)}
     queue[3] = (0.0, queue[3][1][:301])
     queue[4] = (3.0, drive(5.0, {"x": 5, "y": 3.5}, braking(6, 1.0, 2.0), straight))
