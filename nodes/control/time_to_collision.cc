@@ -1,0 +1,81 @@
+#include "nodes/control/time_to_collision.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ttf::nodes::control {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// When the vehicle stands; never without braking.
+double stands_at(const InLine& vehicle) {
+  if (vehicle.speed <= 0.0) return vehicle.acceleration > 0.0 ? kNever : 0.0;
+  return vehicle.acceleration < 0.0 ? -vehicle.speed / vehicle.acceleration : kNever;
+}
+
+InLine later(const InLine& vehicle, double seconds, bool stands) {
+  if (stands) return {};
+  return {vehicle.speed + vehicle.acceleration * seconds, vehicle.acceleration};
+}
+
+// The first instant after 0 at which clearance - closing t - growth t^2 / 2 is 0.
+double first_touch(double clearance, double closing, double growth) {
+  if (growth == 0.0) return closing > 0.0 ? clearance / closing : kNever;
+  const double discriminant = closing * closing + 2.0 * growth * clearance;
+  if (discriminant < 0.0) return kNever;
+  // The form without cancellation: the clearance is positive, so of two positive roots this one is the smaller.
+  const double divisor = closing + std::sqrt(discriminant);
+  return divisor > 0.0 ? 2.0 * clearance / divisor : kNever;
+}
+
+}  // namespace
+
+double time_to_collision(double clearance, double closing_speed) {
+  if (clearance <= 0.0) return 0.0;
+  return closing_speed > 0.0 ? clearance / closing_speed : kNever;
+}
+
+double time_to_collision(double clearance, const InLine& own, const InLine& ahead) {
+  double passed = 0.0;
+  InLine rear = own, front = ahead;
+  // Speeds are quadratic until the first vehicle stands, then until the second does, and then for ever.
+  for (int piece = 0; piece < 3; ++piece) {
+    if (clearance <= 0.0) return passed;
+    const double rear_stands = stands_at(rear), front_stands = stands_at(front);
+    if (rear_stands == 0.0) rear = {};
+    if (front_stands == 0.0) front = {};
+    const double closing = rear.speed - front.speed, growth = rear.acceleration - front.acceleration;
+    double length = kNever;
+    if (rear_stands > 0.0) length = std::min(length, rear_stands);
+    if (front_stands > 0.0) length = std::min(length, front_stands);
+    const double touch = first_touch(clearance, closing, growth);
+    if (touch <= length || length == kNever) return passed + touch;
+    clearance -= closing * length + 0.5 * growth * length * length;
+    passed += length;
+    rear = later(rear, length, rear_stands <= length);
+    front = later(front, length, front_stands <= length);
+  }
+  return kNever;
+}
+
+double needed_deceleration(double clearance, double own_speed, const InLine& ahead) {
+  if (clearance <= 0.0) return kNever;
+  if (own_speed <= 0.0) return 0.0;
+  const double ahead_stands = stands_at(ahead);
+  const double closing = own_speed - ahead.speed;
+  // Either both speeds are equal at the smallest clearance, and the vehicle ahead still drives then.
+  if (closing > 0.0) {
+    const double needed = closing * closing / (2.0 * clearance) - ahead.acceleration;
+    const double equal_after = 2.0 * clearance / closing;
+    if (equal_after <= ahead_stands) return std::max(0.0, needed);
+  } else if (ahead_stands == kNever) {
+    return 0.0;
+  }
+  // Or it stands, and the own vehicle needs all of the way to its place.
+  const double its_way = ahead.speed > 0.0 ? -ahead.speed * ahead.speed / (2.0 * ahead.acceleration) : 0.0;
+  return own_speed * own_speed / (2.0 * (clearance + its_way));
+}
+
+}  // namespace ttf::nodes::control
