@@ -11,6 +11,7 @@
 #include "cli/schedule/capture_against.h"
 #include "cli/schedule/medium_check.h"
 #include "cli/schedule/schedule_input.h"
+#include "cli/schedule/sequence.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
@@ -225,6 +226,7 @@ void add_schedule(CLI::App& app, Action& action) {
   exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster");
   exporting->add_option("-o,--out", options->out, "File to write; else standard output")->check(named());
   call_on_file(*exporting, options, action, export_cluster);
+  add_sequence(*command, action);
 }
 
 }  // namespace ttf::cli::schedule
