@@ -1,0 +1,51 @@
+#include "experiments/cost/flow.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace ttf::experiments::cost {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+MatrixXd exponential(const MatrixXd& a) {
+  const double norm = a.cwiseAbs().rowwise().sum().maxCoeff();
+  TTF_CHECK(std::isfinite(norm) && norm < 1e6, "exponential of a matrix of norm {}", norm);
+  const int squarings = norm > 0.5 ? static_cast<int>(std::ceil(std::log2(2.0 * norm))) : 0;
+  const MatrixXd scaled = std::ldexp(1.0, -squarings) * a;
+  MatrixXd term = MatrixXd::Identity(a.rows(), a.cols()), sum = term;
+  for (int n = 1; n <= 16; ++n) {  // 0.5^17 / 17! is 2e-20
+    term = (term * scaled) / n;
+    sum += term;
+  }
+  for (int n = 0; n < squarings; ++n) sum = MatrixXd(sum * sum);
+  return sum;
+}
+
+FlowStep step_of(const Flow& flow, double dt) {
+  const Index n = flow.a.rows();
+  FlowStep step;
+  // exp of [-a', 1, 0; 0, -a', q; 0, 0, a] dt: the last column has int of q_step, q_step and phi, each behind exp(-a' dt).
+  MatrixXd costs = MatrixXd::Zero(3 * n, 3 * n);
+  costs.block(0, 0, n, n) = costs.block(n, n, n, n) = -flow.a.transpose();
+  costs.block(0, n, n, n).setIdentity();
+  costs.block(n, 2 * n, n, n) = flow.q;
+  costs.block(2 * n, 2 * n, n, n) = flow.a;
+  const MatrixXd integrated = exponential(dt * costs);
+  step.phi = integrated.block(2 * n, 2 * n, n, n);
+  const MatrixXd q = step.phi.transpose() * integrated.block(n, 2 * n, n, n);
+  step.q = 0.5 * (q + q.transpose());
+  const MatrixXd q_so_far = step.phi.transpose() * integrated.block(0, 2 * n, n, n);
+  step.constant = flow.noise.cwiseProduct(q_so_far).sum();
+  // exp of [-a, noise; 0, a'] dt: above right exp(-a dt) times the noise's covariance.
+  MatrixXd noises = MatrixXd::Zero(2 * n, 2 * n);
+  noises.block(0, 0, n, n) = -flow.a;
+  noises.block(0, n, n, n) = flow.noise;
+  noises.block(n, n, n, n) = flow.a.transpose();
+  const MatrixXd noise = step.phi * exponential(dt * noises).block(0, n, n, n);
+  step.noise = 0.5 * (noise + noise.transpose());
+  return step;
+}
+
+}  // namespace ttf::experiments::cost
