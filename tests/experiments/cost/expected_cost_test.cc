@@ -1,6 +1,7 @@
-// The expected cost of control loops: closed forms, published values, a sampled loop, and the tables of docs/control_cost.md.
+// The expected cost of control loops. Oracles are closed forms, published values and a sampled loop.
 #include "experiments/cost/expected_cost.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@
 
 #include "core/file_bytes.h"
 #include "core/random.h"
-#include "fmt/format.h"
 #include "tests/experiments/cost/loops.h"
 
 namespace ttf::experiments::cost {

@@ -19,23 +19,22 @@ inline Eigen::MatrixXd matrix(int rows, int columns, std::initializer_list<doubl
   return result;
 }
 
-// 1000 / (s (s + 1)) with a PD controller; white noise of density 1 at the input, cost E(y^2 + u^2) (distributed.m of Jitterbug).
-// Sampler, controller and actuator are stages of their own. The period is `h`, the grain h / 40.
+// A servo 1000 / (s (s + 1)) with a PD controller (distributed.m of Jitterbug). The input has white noise of density 1. The cost is
+// E(y^2 + u^2). The period is `h`, the grain h / 40.
 enum class ServoDelays { kConstant, kUniform, kCompensated };
 // `total`: both delays together at most, in grains. `loss`: a share of commands that the actuator does not get.
 ExpectedCost servo(double h, int total, ServoDelays delays, double loss = 0.0);
 
-// 6 / ((s + 1) (s + 2)) and the gain -1, period 1.42: the output of one instant reaches the input after a delay that is uniform
-// on 0..`most` grains of 1 / 50 (kushner.m, after Kushner and Tobias 1969).
+// 6 / ((s + 1) (s + 2)) with the gain -1 (kushner.m). The period is 1.42. The delay is uniform on 0..`most` grains of 1.42 / 50.
 ExpectedCost kushner(int most);
 
 // Ball and beam with a PID controller outside and a P controller inside (multirate.m).
 enum class BeamRates { kBothSlow, kBothFast, kMultirate };
 ExpectedCost ball_and_beam(BeamRates rates);
 
-// A vehicle with the default gains of the time gap law (nodes/control/time_gap.h) behind one whose speed is a random walk with
-// a memory of 20 s and acceleration noise of density 1 m^2/s^3. Lists every 40 ms; the command rests on one that is older by
-// `periods` of 40 ms and a delay in grains of 10 ms. The drive train has a lag of 0.3 s.
+// A vehicle with the default gains of nodes/control/time_gap.h. The lead's speed is a random walk with a memory of 20 s. Its
+// acceleration has the density 1 m^2/s^3. Lists come every 40 ms. A command rests on a list of `periods` before, and then takes
+// a delay in grains of 10 ms. The drive train lags by 0.3 s.
 struct Following {
   double gap_m = 0.0, acceleration = 0.0;  // root mean squares: the gap's error, the acceleration [m/s^2]
 };
