@@ -19,8 +19,8 @@ struct Braking {
   double deceleration = 0.0;  // [m/s^2], the largest
   double rise_s = 0.0;        // until then
 };
-// The competent and careful human driver: evaluates a risk in 0.4 s, reacts in 0.75 s, and brakes with 0.774 g within 0.6 s,
-// which is a jerk of 12.65 m/s^3. The release of the pedal decelerates by 0.4 m/s^2 meanwhile, which `Braking` leaves out.
+// The competent and careful human driver evaluates a risk in 0.4 s and reacts in 0.75 s. He then brakes with 0.774 g within 0.6 s,
+// which is a jerk of 12.65 m/s^3. The release of the pedal decelerates by 0.4 m/s^2 before. `Braking` leaves that out.
 struct CompetentDriver {
   double risk_evaluation_s = 0.4;
   double reaction_s = 0.75;
@@ -43,8 +43,8 @@ double deceleration_at(const Braking& braking, double seconds);
 // Returns the way [m] from the event to the standstill.
 double stopping_distance(const Braking& braking, double speed);
 
-// Returns whether the regulation asks a system to avoid the collision with a vehicle that cuts in with the time to collision
-// [s] when it enters the lane, and that is slower by `closing_speed` [m/s]:
+// Returns whether the regulation asks a system to avoid the collision with a vehicle that cuts in. The time to collision [s] is
+// that at the entry into the lane. The vehicle is slower by `closing_speed` [m/s]:
 //   time to collision > closing speed / (2 * 6 m/s^2) + 0.35 s.
 bool cut_in_must_be_survived(double time_to_collision, double closing_speed);
 

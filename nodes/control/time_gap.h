@@ -7,7 +7,8 @@
 // Limits are applied afterwards (limits.h). ISO 15622 asks for h >= 0.8 s, with one setting in 1.5..2.2 s.
 //
 // The gap's error e = d - d0 - h v behind a lead of constant speed obeys e'' + (h k1 + k2) e' + k1 e = 0 without lag and
-// limits. The default gains damp it more than critically: 0.23 * 1.5 + 0.74 > 2 sqrt(0.23).
+// limits. The default gains damp it
+// more than critically.
 #pragma once
 
 #include <optional>

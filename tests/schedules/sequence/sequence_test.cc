@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schedules/sequence/generator.h"
+#include "schedules/sequence/history.h"
 #include "schedules/sequence/intervals.h"
 
 namespace ttf::schedules::sequence {
@@ -185,6 +186,29 @@ TEST(Sequence, PropertiesOfAnyFrame) {
             const Duration most = std::max(ms(bound), ms(40 * sensors));
             EXPECT_LE(frame, rule == SlotRule::kText && slots > 0 ? most + ms(17) : most);
           }
+}
+
+TEST(DetectionHistory, ExpectsTheMeanOfTheLastTen) {
+  DetectionHistory history(3, ms(50));
+  EXPECT_EQ(history.primaries(), ms(150)) << "a first guess of 0.25 s on a machine five times as fast";
+  for (int i = 0; i < 12; ++i) history.add(0, ms(i < 2 ? 900 : 30 + i));  // ... 900 ms are forgotten
+  history.add(1, us(46'300));
+  EXPECT_EQ(history.primary(0), us(36'500));
+  EXPECT_EQ(history.primaries(), us(36'500 + 46'300 + 50'000));
+  EXPECT_EQ(history.secondary(0.6), us(26'560));
+  EXPECT_EQ(history.secondary(0.0), Duration{});
+}
+
+TEST(DetectionHistory, DetectionsOccupyWholeSteps) {
+  const Duration step = ms(10);
+  EXPECT_EQ(occupied(us(46'300), step), ms(50));
+  EXPECT_EQ(occupied(ms(50), step), ms(50));
+  EXPECT_EQ(occupied(us(27'700), step), ms(30));
+  EXPECT_EQ(occupied(us(1), step), ms(20)) << "at least two";
+  // Table 4's intervals of A in steps: 0.154 s and 0.061 s are published.
+  const DetectionTimes times(3, occupied(us(46'300), step), occupied(us(27'700), step));
+  EXPECT_DOUBLE_EQ(intervals(parsed("ABC"), times)[0].mean_s, 0.150);
+  EXPECT_DOUBLE_EQ(intervals(parsed("AaBaCa"), times)[0].mean_s, 0.060);
 }
 
 TEST(BestOrder, TheTwoSensorsTakeTurns) {

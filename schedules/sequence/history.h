@@ -1,0 +1,41 @@
+// The times of a detector's recent detections, from which the next frame is planned.
+//
+// A primary detection is expected to take the mean of the sensor's last ten, and a first guess before. A secondary one takes its
+// share of a primary one: the mean area of the regions over that of a picture. A detection occupies the detector for whole steps,
+// at least two: its picture is that of the first step's beginning, its result is there at the end of the last one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/time.h"
+
+namespace ttf::schedules::sequence {
+
+class DetectionHistory {
+ public:
+  static constexpr std::size_t kKept = 10;
+
+  // Allocates all that it needs.
+  DetectionHistory(int sensors, Duration first_guess);
+  void add(int sensor, Duration primary);
+  // Returns the expected time of a primary detection of this sensor, and the sum of all sensors' (P of generator.h).
+  Duration primary(int sensor) const;
+  Duration primaries() const;
+  // Returns the expected time of a secondary detection in a region with this share of a picture's area, 0..1.
+  Duration secondary(double share) const;
+
+ private:
+  struct Times {
+    std::array<Duration, kKept> last{};
+    std::size_t count = 0;  // all that were added
+  };
+  std::vector<Times> times_;
+  Duration first_guess_;
+};
+
+// Returns how long a detection occupies the detector.
+Duration occupied(Duration detection, Duration step);
+
+}  // namespace ttf::schedules::sequence
