@@ -30,6 +30,7 @@ void place_known(const fusion::sensors::KnownSensor& known, ViewedSensor& sensor
 void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor) {
   if (!attached.scenario || !attached.cluster || index >= attached.cluster->sensors.size()) return;
   const schedules::model::Sensor& of = attached.cluster->sensors[index];
+  sensor.odometry = of.kind == schedules::model::SensorKind::kOdometry;
   if (!drives::is_recorded(*attached.cluster)) {
     switch (of.kind) {
       case schedules::model::SensorKind::kLaser:

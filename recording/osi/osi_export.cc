@@ -41,12 +41,18 @@ void set(osi3::Vector3d& vector, double x, double y) {
   vector.set_z(0.0);
 }
 
-// Speed and acceleration are along the heading.
+// Speed and acceleration are along the heading, `across` is the acceleration to the left of it.
 struct Box {
-  double x, y, heading, speed, acceleration, length, width;
+  double x, y, heading, speed, acceleration, length, width, across = 0.0;
 };
 template <class Object> Box box_of(const Object& object) {
   return {object.x, object.y, object.heading, object.speed, object.acceleration, object.length, object.width};
+}
+// A true object drives along its heading, which turns with its yaw rate.
+Box true_box_of(const records::TruthState& state) {
+  Box box = box_of(state);
+  box.across = state.speed * state.yaw_rate;
+  return box;
 }
 
 void set_base(osi3::BaseMoving& base, const Box& box) {
@@ -56,7 +62,7 @@ void set_base(osi3::BaseMoving& base, const Box& box) {
   set(*base.mutable_position(), box.x, box.y);
   base.mutable_orientation()->set_yaw(box.heading);
   set(*base.mutable_velocity(), box.speed * c, box.speed * s);
-  set(*base.mutable_acceleration(), box.acceleration * c, box.acceleration * s);
+  set(*base.mutable_acceleration(), box.acceleration * c - box.across * s, box.acceleration * s + box.across * c);
 }
 
 // Returns the box over ground; places in the log are in the axes of the vehicle.
@@ -72,7 +78,8 @@ Box over_ground(Box box, const records::EgoTruth& ego) {
 constexpr double kCarLength_m = 4.39, kCarWidth_m = 1.79, kRearToMiddle_m = 1.35;
 
 // The middle of the box is before the middle of the rear axle, r, so that it has the velocity w x r and the acceleration -w^2 r
-// beside those of the axle.
+// beside those of the axle. The axle turns, too: it has the acceleration w v to the left. A log has no changes of the yaw rate
+// and of the speed across.
 void add_host(osi3::GroundTruth& message, const records::EgoTruth& ego) {
   message.mutable_host_vehicle_id()->set_value(kHostVehicle);
   osi3::MovingObject& host = *message.add_moving_object();
@@ -82,7 +89,8 @@ void add_host(osi3::GroundTruth& message, const records::EgoTruth& ego) {
   const double c = std::cos(ego.heading), s = std::sin(ego.heading), w = ego.yaw_rate;
   const double across = ego.vy + w * kRearToMiddle_m, acceleration = ego.acceleration - w * w * kRearToMiddle_m;
   set(*base.mutable_velocity(), c * ego.vx - s * across, s * ego.vx + c * across);
-  set(*base.mutable_acceleration(), c * acceleration, s * acceleration);
+  const double turning = w * ego.vx;
+  set(*base.mutable_acceleration(), c * acceleration - s * turning, s * acceleration + c * turning);
   base.mutable_orientation_rate()->set_yaw(w);
   host.set_type(osi3::MovingObject::TYPE_VEHICLE);
   set(*host.mutable_vehicle_attributes()->mutable_bbcenter_to_rear(), -kRearToMiddle_m, 0.0);
@@ -93,7 +101,7 @@ bool finite(const records::EgoTruth& ego) {
 }
 
 // OSI has velocities of detected objects relative to the vehicle.
-void make_relative(osi3::BaseMoving& base, const records::OdometryTaken& own) {
+void make_relative(osi3::BaseMoving& base, const scene::OwnMotion& own) {
   osi3::Vector3d& velocity = *base.mutable_velocity();
   set(velocity, velocity.x() - own.speed + own.yaw_rate * base.position().y(),
       velocity.y() - own.yaw_rate * base.position().x());
@@ -130,7 +138,7 @@ void OsiExport::truth(TrueTime at, std::span<const records::TruthState> states) 
     if (!scene::drawable(state)) continue;
     osi3::MovingObject& object = *message.add_moving_object();
     object.mutable_id()->set_value(index_of(state.object));
-    set_base(*object.mutable_base(), over_ground(box_of(state), ego));
+    set_base(*object.mutable_base(), over_ground(true_box_of(state), ego));
     object.mutable_base()->mutable_orientation_rate()->set_yaw(state.yaw_rate);
     object.set_type(osi3::MovingObject::TYPE_OTHER);  // the log does not say
   }
@@ -164,7 +172,7 @@ void OsiExport::image(TrueTime valid_at, const records::ImageWritten& image) {
                                                        ? osi3::DetectedItemHeader::MEASUREMENT_STATE_PREDICTED
                                                        : osi3::DetectedItemHeader::MEASUREMENT_STATE_MEASURED);
     set_base(*object.mutable_base(), box_of(track));
-    if (own_) make_relative(*object.mutable_base(), *own_);
+    if (own_motion()) make_relative(*object.mutable_base(), *own_motion());
     osi3::BaseMoving& rmse = *object.mutable_base_rmse();
     rmse.mutable_dimension()->set_length(track.sigma_length);
     rmse.mutable_dimension()->set_width(track.sigma_width);

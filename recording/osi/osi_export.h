@@ -12,7 +12,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -37,11 +36,6 @@ class OsiExport final : public scene::Moments {
 
   const OsiCounts& counts() const { return counts_; }
 
-  using Moments::on;
-  void on(const records::OdometryTaken& own) override {
-    if (!own.stopped) own_ = own;
-  }
-
  private:
   void truth(TrueTime at, std::span<const records::TruthState> states) override;
   void list(const scene::SeenList&) override {}
@@ -51,7 +45,6 @@ class OsiExport final : public scene::Moments {
   Write sensor_data_, ground_truth_;
   TrueTime last_image_{-1}, last_truth_{-1};
   OsiCounts counts_;
-  std::optional<records::OdometryTaken> own_;  // the newest one: the fusion's velocities are over ground
 };
 
 // Declares the OSI trace within a log: its metadata and its two channels.

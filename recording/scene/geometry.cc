@@ -49,6 +49,16 @@ std::vector<Point> edge(const ViewedField& field) {
   return points;
 }
 
+// The vehicle's own way is taken as the chord of its arc, in the middle direction. Its length differs from the arc's by a 24th
+// of the squared turn: 1 cm in 100 m after half a degree, 1 % after half a radian.
+Place moved_on(const Place& place, double speed, const OwnMotion& own, double seconds) {
+  const double turn = own.yaw_rate * seconds, way = speed * seconds, own_way = own.speed * seconds;
+  const double x = place.x + way * std::cos(place.heading) - own_way * std::cos(0.5 * turn);
+  const double y = place.y + way * std::sin(place.heading) - own_way * std::sin(0.5 * turn);
+  const double c = std::cos(turn), s = std::sin(turn);
+  return {c * x + s * y, c * y - s * x, place.heading - turn};
+}
+
 std::vector<Point> mounted(const Place& mounting, std::vector<Point> points) {
   const double c = std::cos(mounting.heading), s = std::sin(mounting.heading);
   for (Point& p : points) p = {mounting.x + c * p.x - s * p.y, mounting.y + s * p.x + c * p.y};

@@ -28,6 +28,14 @@ void Moments::on(const records::EgoTruth& r) {
   ego_ = r;
 }
 
+// Odometry that has stopped is coasted on.
+void Moments::on(const records::OdometryTaken& r) {
+  come_to(r.stamp.true_time);
+  if (r.stopped || !std::isfinite(r.speed) || !std::isfinite(r.yaw_rate)) return;
+  own_ = OwnMotion{r.speed, r.yaw_rate};
+  odometry(r.id.sensor);
+}
+
 records::EgoTruth Moments::ego() const {
   const bool of_this_instant = ego_ && !truth_.empty() && ego_->at == truth_.front().at;
   return of_this_instant ? *ego_ : records::EgoTruth{};

@@ -34,15 +34,20 @@ class Moments : public records::Sink {
   void on(const records::ReferenceFix&) final;
   void on(const records::TruthState&) final;
   void on(const records::EgoTruth&) final;
+  void on(const records::OdometryTaken&) final;
 
  protected:
   // Returns the vehicle's state at the instant of truth(), while that is called; at the origin if the log has none.
   records::EgoTruth ego() const;
+  // Returns the vehicle's motion as the fusion took it in last: an image's velocities are over ground. Absent in a drive
+  // whose fusion reads no odometry: they are relative to the vehicle.
+  const std::optional<OwnMotion>& own_motion() const { return own_; }
 
  private:
   // The true states of all objects at an instant, as the first node recorded them.
   virtual void truth(TrueTime at, std::span<const records::TruthState> states) = 0;
   virtual void list(const SeenList& list) = 0;
+  virtual void odometry(SensorId) {}  // the fusion took in a sample of this sensor
   virtual void fix(TrueTime, const records::ReferenceFix&) {}
   virtual void image(TrueTime valid_at, const records::ImageWritten& image) = 0;
   virtual void use(TrueTime at, const records::FeatureUsed& use) = 0;
@@ -55,6 +60,7 @@ class Moments : public records::Sink {
 
   std::vector<records::TruthState> truth_;  // all have the same instant
   std::optional<records::EgoTruth> ego_;
+  std::optional<OwnMotion> own_;
   std::optional<SeenList> list_;
 };
 

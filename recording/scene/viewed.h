@@ -13,6 +13,11 @@ struct Place {
   double x = 0.0, y = 0.0, heading = 0.0;  // [m], [rad] from x to y
 };
 
+// How the sensors' vehicle drives over ground: the speed of its origin along x, and its yaw rate.
+struct OwnMotion {
+  double speed = 0.0, yaw_rate = 0.0;  // [m/s], [rad/s]
+};
+
 // The part of the plane that a sensor sees, in its own axes.
 struct ViewedField {
   double half_angle = 0.0;                    // [rad] to either side of the sensor's axis
@@ -23,6 +28,7 @@ struct ViewedSensor {
   std::string colour;                // "#d55e00"
   std::optional<Place> mounting;     // on the vehicle; absent: unknown
   std::optional<ViewedField> field;  // absent: unknown
+  bool odometry = false;             // it measures its own vehicle, and sees no objects
 };
 
 }  // namespace ttf::recording::scene

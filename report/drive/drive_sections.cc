@@ -70,9 +70,12 @@ void scene_section(page::Page& page, const std::vector<ToldDrive>& drives) {
   page.section("The drive from above");
   std::string caption;
   if (logs > kMostScenes) caption = fmt::format("The first {} of {} drives are shown. ", kMostScenes, logs);
-  page.scenes(std::move(scenes), caption +
-                                     "In the vehicle's frame, x to the right. Tracks are moved on by their velocity "
-                                     "from image to image. Plots over time and timing diagrams show the same instant.");
+  const bool moves = std::ranges::any_of(drives, [](const ToldDrive& told) { return !told.scene.own.empty(); });
+  caption += "In the vehicle's frame, x to the right. Tracks are moved on by their velocity ";
+  caption += moves ? "over ground, and by the vehicle's own motion, from image to image. Trails and the lines to where "
+                     "tracks are after a second are relative to the vehicle. "
+                   : "from image to image. ";
+  page.scenes(std::move(scenes), caption + "Plots over time and timing diagrams show the same instant.");
 }
 
 void errors_section(page::Page& page, const std::vector<ToldDrive>& drives) {

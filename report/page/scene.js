@@ -171,7 +171,7 @@
       const lines = [];
       for (const one of drawing.seen.tracks.filter(within).slice(0, 3))
         lines.push(`track ${one.id}${one.coasting ? ", not observed of late" : one.confirmed ? "" : ", tentative"}: ` +
-          `${one.x.toFixed(1)} m ahead, ${side(one.y)}, ${one.speed.toFixed(1)} m/s, ` +
+          `${one.x.toFixed(1)} m ahead, ${side(one.y)}, ${one.speed.toFixed(1)} m/s${drawing.data.moves ? " over ground" : ""}, ` +
           `sigma ${one.sigma_x.toFixed(2)} m and ${one.sigma_y.toFixed(2)} m`);
       for (const one of drawing.seen.objects.filter(within).slice(0, 3))
         lines.push(`object ${one.id}: ${one.x.toFixed(1)} m ahead, ${side(one.y)}, ` +

@@ -78,7 +78,8 @@ const SceneControls = (() => {
     }
 
     layers() {
-      const sensors = new Set(this.scenes.flatMap((scene) => scene.sensors.map((sensor) => sensor.name)));
+      const observing = this.scenes.flatMap((scene) => scene.sensors.filter((sensor) => !sensor.odometry));
+      const sensors = new Set(observing.map((sensor) => sensor.name));
       const box = make("div", { className: "legend" });
       for (const name of [...Object.keys(LAYERS), ...sensors]) {
         const one = make("button", { type: "button", textContent: LAYERS[name] ?? `${name}: observations` });

@@ -52,6 +52,9 @@ const SceneData = (() => {
         id: Uint16Array, ...place, heading: Int16Array, speed: Int16Array, length: Uint16Array, width: Uint16Array,
         sigma_x: Uint16Array, sigma_y: Uint16Array, correlation: Int8Array, status: Uint8Array,
       });
+      // How the vehicle drove at an image: then speeds are over ground.
+      this.own = moments(json.own, { speed: Int16Array, yaw_rate: Float32Array });
+      this.moves = this.own.at.length > 0;
       this.lists = json.lists.map((list) => moments(list, place));
       this.warned = moments(json.warnings, { id: Uint16Array, collision: Float32Array, gap: Float32Array });
       this.truth.next = same(this.truth, 1);
@@ -91,15 +94,29 @@ const SceneData = (() => {
       return out;
     }
 
+    // Returns the vehicle's motion at the image m: none if the image's speeds are relative to it.
+    own_motion(m) {
+      const { own } = this, o = newest(own.at, this.images.at[m]);
+      return o < 0 ? { speed: 0, yaw_rate: 0 } : { speed: own.speed[o] / 100, yaw_rate: own.yaw_rate[o] };
+    }
+
+    // Returns a track's place so many seconds later, in the axes that the vehicle has then (recording/scene/geometry.h).
+    moved_on({ x, y, heading, speed, own }, seconds) {
+      const turn = own.yaw_rate * seconds, c = Math.cos(turn), s = Math.sin(turn);
+      const dx = x + seconds * (speed * Math.cos(heading) - own.speed * Math.cos(turn / 2));
+      const dy = y + seconds * (speed * Math.sin(heading) - own.speed * Math.sin(turn / 2));
+      return { x: c * dx + s * dy, y: c * dy - s * dx, heading: heading - turn };
+    }
+
     tracks(t) {
       const { images, unit } = this, m = newest(images.at, t), out = [];
       if (m < 0 || t - images.at[m] > OBJECT_LIFE) return out;
+      const own = this.own_motion(m);
       for (let p = images.begin[m]; p < images.begin[m + 1]; ++p) {
-        const heading = images.heading[p] / 32767 * Math.PI, speed = images.speed[p] / 100;
-        const way = speed * (t - images.at[m]);
+        const then = { x: images.x[p] * unit, y: images.y[p] * unit, heading: images.heading[p] / 32767 * Math.PI,
+          speed: images.speed[p] / 100, own };
         out.push({
-          p, m, id: images.id[p], heading, speed,
-          x: images.x[p] * unit + way * Math.cos(heading), y: images.y[p] * unit + way * Math.sin(heading),
+          p, m, id: images.id[p], ...then, ...this.moved_on(then, t - images.at[m]),
           length: images.length[p] / 100, width: images.width[p] / 100, sigma_x: images.sigma_x[p] / 100,
           sigma_y: images.sigma_y[p] / 100, correlation: images.correlation[p] / 127,
           confirmed: (images.status[p] & 1) !== 0, coasting: (images.status[p] & 2) !== 0,

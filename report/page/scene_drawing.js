@@ -160,12 +160,12 @@ const SceneDrawing = (() => {
         this.data.trail(track, t, (x, y) => { if (n++ % every === 0) c.lineTo(this.px(x), this.py(y)); });
       }
     }
-    // Points where the track is after a second.
+    // Points where the track is after a second, as the vehicle sees it.
     velocity(one) {
-      if (Math.abs(one.speed) < 0.1 || !this.large(Math.abs(one.speed))) return;
-      const { c } = this, x = this.px(one.x), y = this.py(one.y), way = one.speed * this.view.scale;
-      c.moveTo(x, y);
-      c.lineTo(x + way * Math.cos(one.heading), y - way * Math.sin(one.heading));
+      const { c } = this, after = this.data.moved_on(one, 1), way = Math.hypot(after.x - one.x, after.y - one.y);
+      if (way < 0.1 || !this.large(way)) return;
+      c.moveTo(this.px(one.x), this.py(one.y));
+      c.lineTo(this.px(after.x), this.py(after.y));
     }
     text(words, x, y, colour) {
       const { c } = this;

@@ -135,6 +135,19 @@ Json list_json(const std::vector<Moment<Point>>& moments, double unit) {
   return json;
 }
 
+Json own_json(const Scene& scene) {
+  Column<std::int16_t> speed;
+  Column<float> yaw_rate;
+  each(scene.own, [&](const OwnMotion& one) {
+    speed.add(one.speed, 100.0);
+    yaw_rate.add(one.yaw_rate);
+  });
+  Json json = Times(scene.own).json();
+  json["speed"] = speed.text();
+  json["yaw_rate"] = yaw_rate.text();
+  return json;
+}
+
 Json warnings_json(const Scene& scene) {
   Column<std::uint16_t> id;
   Column<float> collision, gap;
@@ -156,6 +169,7 @@ Json sensor_json(const Scene& scene, std::size_t index, const drawing::Names& na
   const ViewedSensor& sensor = scene.sensors[index];
   const drawing::Marker marker = drawing::sensor_marker(names, static_cast<SensorId>(index));
   Json json{{"name", sensor.name}, {"colour", sensor.colour}, {"marker", kMarkers[static_cast<std::size_t>(marker)]}};
+  if (sensor.odometry) json["odometry"] = true;
   json["edge"] = Json::array();
   if (!sensor.field || !sensor.mounting) return json;
   const auto cm = [](double metres) { return std::round(metres * 100.0) / 100.0; };
@@ -189,6 +203,7 @@ Json packed(const Scene& scene, const drawing::Names& names, const std::string& 
             {"sensors", Json::array()},
             {"truth", truth_json(scene, unit)},
             {"images", images_json(scene, unit)},
+            {"own", own_json(scene)},
             {"lists", Json::array()},
             {"warnings", warnings_json(scene)}};
   for (std::size_t s = 0; s < scene.sensors.size(); ++s) {

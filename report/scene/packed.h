@@ -3,7 +3,7 @@
 //   at       float64 [s]      one a moment; "count", uint16, has the parts of each
 //   x, y     int16            in units of "unit" [m]
 //   heading  int16            [pi / 32768]
-//   speed    int16 [cm/s], length and width uint16 [cm], sigma_x and sigma_y uint16 [cm], correlation int8 [1/127]
+//   speed    int16 [cm/s], yaw_rate float32 [rad/s], length and width uint16 [cm], sigma_x and sigma_y uint16 [cm], correlation int8 [1/127]
 //
 // Values beyond their type are shown at its end.
 #pragma once
@@ -23,6 +23,7 @@ template <class Part> constexpr std::size_t packed_bytes(std::size_t parts) {
   constexpr std::size_t kMoment = 10;
   constexpr std::size_t kPart = std::is_same_v<Part, TrueObject>   ? 8
                                 : std::is_same_v<Part, ShownTrack> ? 20
+                                : std::is_same_v<Part, OwnMotion>  ? 6
                                 : std::is_same_v<Part, Warning>    ? 10
                                                                    : 4;
   return kMoment + kPart * parts;

@@ -93,8 +93,9 @@ void SceneSink::make_room() {
     scene_.spacing = scene_.spacing == Duration{} ? Duration::milliseconds(20) : Duration{2 * scene_.spacing.ns};
     thin(scene_.truth, scene_.spacing);
     thin(scene_.images, scene_.spacing);
+    thin(scene_.own, scene_.spacing);
     thin(scene_.warnings, scene_.spacing);
-    bytes_ = bytes_of(scene_.truth) + bytes_of(scene_.images) + bytes_of(scene_.warnings);
+    bytes_ = bytes_of(scene_.truth) + bytes_of(scene_.images) + bytes_of(scene_.own) + bytes_of(scene_.warnings);
     for (auto& moments : scene_.lists) {
       thin(moments, scene_.spacing);
       bytes_ += bytes_of(moments);
@@ -127,7 +128,12 @@ void SceneSink::image(TrueTime valid_at, const recording::records::ImageWritten&
     moment.parts.push_back({r.track, narrow(r.x), narrow(r.y), narrow(r.heading), narrow(r.speed), narrow(r.length),
                             narrow(r.width), narrow(r.sigma_x), narrow(r.sigma_y), narrow(r.correlation_xy), r.status});
   }
+  if (own_motion()) add(scene_.own, Moment<OwnMotion>{valid_at, {*own_motion()}});
   add(scene_.images, std::move(moment));
+}
+
+void SceneSink::odometry(SensorId sensor) {
+  if (index_of(sensor) < scene_.sensors.size()) scene_.sensors[index_of(sensor)].odometry = true;
 }
 
 void SceneSink::use(TrueTime at, const recording::records::FeatureUsed& use) {

@@ -16,6 +16,8 @@
 
 namespace ttf::report::scene {
 
+using recording::scene::OwnMotion;
+using recording::scene::Place;
 using recording::scene::Point;
 using recording::scene::ViewedSensor;
 
@@ -45,6 +47,7 @@ struct Scene {
   std::vector<ViewedSensor> sensors;              // by SensorId
   std::vector<Moment<TrueObject>> truth;          // at the instants at which a node recorded it
   std::vector<Moment<ShownTrack>> images;         // at the instants to which they are predicted
+  std::vector<Moment<OwnMotion>> own;             // beside images whose velocities are over ground: one part
   std::vector<std::vector<Moment<Point>>> lists;  // by SensorId, at the instants of measuring
   std::vector<Moment<Warning>> warnings;          // at uses of an image; each holds until the next
   Duration spacing{};                             // least time between moments of one kind; zero: all are there
@@ -79,6 +82,7 @@ class SceneSink final : public recording::scene::Moments {
   void list(const recording::scene::SeenList& list) override;
   void image(TrueTime valid_at, const recording::records::ImageWritten& image) override;
   void use(TrueTime at, const recording::records::FeatureUsed& use) override;
+  void odometry(SensorId sensor) override;
 
   bool takes(TrueTime at);
   template <class Part> void add(std::vector<Moment<Part>>& moments, Moment<Part> moment);

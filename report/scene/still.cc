@@ -70,14 +70,15 @@ std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const d
   if (!view.tracks.empty()) {
     const bool named = view.tracks.size() <= kMostNamed;
     add(LegendEntry::Kind::kBox,
-        fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s; arrow: its way in one second",
-                    named ? "its id, " : ""),
+        fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s; arrow: its way in one second{}",
+                    named ? "its id, " : "", scene.own.empty() ? "" : ", as the vehicle sees it"),
         kTrack);
     const auto coasts = [](const ShownTrack& one) { return (one.status & recording::records::kImageCoasting) != 0; };
     if (std::ranges::any_of(view.tracks, coasts)) add(LegendEntry::Kind::kBox, "dashed: not observed of late", kTrack);
   }
   if (!view.warnings.empty()) add(LegendEntry::Kind::kBox, "warning", kWarning);
   for (std::size_t s = 0; s < scene.sensors.size(); ++s) {
+    if (scene.sensors[s].odometry) continue;
     const auto id = static_cast<SensorId>(s);
     const bool field = scene.sensors[s].field && scene.sensors[s].mounting;
     legend.push_back({LegendEntry::Kind::kMarker,
@@ -108,16 +109,16 @@ class Painter {
     outline(corners(one), {.fill = "#dddddd", .stroke = kTruth, .width = 1.1},
             fmt::format("object {}: {:.1f} m long, {:.1f} m wide", index_of(one.id), one.length, one.width), "truth");
   }
-  void track(const ShownTrack& one, std::span<const Point> trail) {
+  void track(const ShownTrack& one, const View& view, std::span<const Point> trail) {
     if (trail.size() > 1) outline(trail, {.stroke = kTrack, .width = 1.0, .opacity = 0.6}, {}, "trail", false);
     const std::vector<Point> around = recording::scene::ellipse(image_of(one));
     if (!around.empty()) outline(around, {.stroke = kTrack, .width = 0.8}, {}, "ellipse");
     const bool coasting = (one.status & recording::records::kImageCoasting) != 0;
     outline(corners(one), {.stroke = kTrack, .width = 1.6, .dash = coasting ? "4 3" : ""},
             fmt::format("track {}: {:.1f} m/s", index_of(one.id), one.speed), "track");
-    if (std::abs(one.speed) < 0.1f) return;
-    const double x = wide(one.x), y = wide(one.y), heading = wide(one.heading), speed = wide(one.speed);
-    svg_.arrow(frame_.at(x, y), frame_.at(x + speed * std::cos(heading), y + speed * std::sin(heading)),
+    const Place after_a_second = moved_on(view, one, 1.0);
+    if (std::hypot(after_a_second.x - wide(one.x), after_a_second.y - wide(one.y)) < 0.1) return;
+    svg_.arrow(frame_.at(wide(one.x), wide(one.y)), frame_.at(after_a_second.x, after_a_second.y),
                {.stroke = kTrack, .width = 1.0}, {}, "velocity");
   }
   // Writes beside an object, where there is room.
@@ -149,7 +150,7 @@ void paint(const Scene& scene, const View& view, const drawing::Names& names, co
   svg.open_group("scene", frame.area());
   for (const ViewedSensor& sensor : scene.sensors) painter.field(sensor);
   for (const TrueObject& one : view.truth) painter.truth(one);
-  for (std::size_t t = 0; t < view.tracks.size(); ++t) painter.track(view.tracks[t], view.trails[t]);
+  for (std::size_t t = 0; t < view.tracks.size(); ++t) painter.track(view.tracks[t], view, view.trails[t]);
   std::size_t observations = 0;
   for (const auto& points : view.lists) observations += points.size();
   const double size = observations <= kMostLarge ? 8.0 : 5.0;
@@ -191,7 +192,11 @@ std::string scene_svg(const Scene& scene, TrueTime at, const drawing::Names& nam
   const std::vector<std::string> titles = drawing::broken(heading, sheet.text(14), sheet.line(room), true);
   const auto caption = [&](std::string_view words) { return drawing::broken(words, sheet.text(10), sheet.line(room)); };
   const std::vector<std::string> axes = caption("The arrow head is the vehicle: x forward, y to the left (ISO 8855)."),
-                                 moved = caption("Tracks are moved on by their velocity since the newest image.");
+                                 moved = caption(
+                                     scene.own.empty()
+                                         ? "Tracks are moved on by their velocity since the newest image."
+                                         : "Since the newest image, tracks are moved on by their velocity over ground "
+                                           "and by the vehicle's own motion. Trails and arrows are relative to it.");
   const auto rows = [](std::size_t lines) { return drawing::kLineHeight * static_cast<double>(lines); };
   const double legend_top = 34 + rows(titles.size() - 1);
   const double top = legend_top + legend_height(legend, room) + 8;

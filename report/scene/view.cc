@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "recording/scene/geometry.h"
+
 namespace ttf::report::scene {
 namespace {
 
@@ -42,7 +44,9 @@ void add_tracks(const Scene& scene, TrueTime at, View& view) {
   const auto now = std::prev(next);
   if (at - now->at > kObjectLife) return;
   view.tracks = now->parts;
-  const auto since = static_cast<float>((at - now->at).seconds());
+  if (const auto later = after(scene.own, now->at); later != scene.own.begin())
+    view.own = std::prev(later)->parts.front();
+  const double since = (at - now->at).seconds();
   for (ShownTrack& track : view.tracks) {
     std::vector<Point>& trail = view.trails.emplace_back();
     for (auto image = now; at - image->at <= kTrail; --image) {
@@ -51,12 +55,19 @@ void add_tracks(const Scene& scene, TrueTime at, View& view) {
       if (image == scene.images.begin()) break;
     }
     std::ranges::reverse(trail);
-    track.x += since * track.speed * std::cos(track.heading);
-    track.y += since * track.speed * std::sin(track.heading);
+    const Place moved = moved_on(view, track, since);
+    track.x = static_cast<float>(moved.x);
+    track.y = static_cast<float>(moved.y);
+    track.heading = static_cast<float>(moved.heading);
   }
 }
 
 }  // namespace
+
+Place moved_on(const View& view, const ShownTrack& track, double seconds) {
+  const Place place{static_cast<double>(track.x), static_cast<double>(track.y), static_cast<double>(track.heading)};
+  return recording::scene::moved_on(place, static_cast<double>(track.speed), view.own, seconds);
+}
 
 View view_at(const Scene& scene, TrueTime at) {
   View view;

@@ -14,12 +14,16 @@ inline constexpr Duration kTrail = Duration::milliseconds(2000);
 
 struct View {
   std::vector<TrueObject> truth;           // between two instants of the log: on the straight line between them
-  std::vector<ShownTrack> tracks;          // the newest image's; moved on by their velocity since
+  std::vector<ShownTrack> tracks;          // the newest image's; moved on by their velocity and the vehicle's since
+  OwnMotion own;                           // at that image; none if its velocities are relative to the vehicle
   std::vector<std::vector<Point>> lists;   // by SensorId
   std::vector<Warning> warnings;           // those that name one of the tracks
   std::vector<std::vector<Point>> trails;  // each track's places in images at most kTrail old, the oldest first
 };
 View view_at(const Scene& scene, TrueTime at);
+
+// Returns the track's place in the vehicle's axes so much later.
+Place moved_on(const View& view, const ShownTrack& track, double seconds);
 
 // Returns "collision in 1.2 s", "gap of 0.4 s" or "warning".
 std::string words_of(const Warning& warning);

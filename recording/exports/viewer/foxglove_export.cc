@@ -17,6 +17,7 @@ namespace ttf::recording::exports::viewer {
 namespace {
 
 constexpr const char* kVehicle = "vehicle";
+constexpr std::uint16_t kNoTopic = 0;  // of odometry, which has no observations
 // Longer than any period of its topic that the shipped schedules have.
 constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife = Duration::milliseconds(300), kForever{};
 
@@ -55,8 +56,9 @@ FoxgloveExport::FoxgloveExport(const std::string& path, std::vector<scene::Viewe
   image_use_ = file_.topic("/image_use", *ttfusion::plots::ImageUse::descriptor());
   errors_ = file_.topic("/errors", *ttfusion::plots::Errors::descriptor());
   for (const scene::ViewedSensor& sensor : sensors_) {
-    observations_.push_back(file_.topic("/observations/" + sensor.name, update));
-    ages_.push_back(file_.topic("/ages/" + sensor.name, *ttfusion::plots::Age::descriptor()));
+    observations_.push_back(sensor.odometry ? kNoTopic : file_.topic("/observations/" + sensor.name, update));
+    ages_.push_back(sensor.odometry ? kNoTopic
+                                    : file_.topic("/ages/" + sensor.name, *ttfusion::plots::Age::descriptor()));
   }
   write_sensors();
 }
@@ -112,6 +114,7 @@ void FoxgloveExport::list(const scene::SeenList& list) {
     ++counts_.unnamed;
     return;
   }
+  if (sensors_[sensor].odometry) return;
   ::foxglove::SceneUpdate update;
   ::foxglove::SceneEntity& entity = add_entity(update, list.measured, kVehicle, sensors_[sensor].name, kListLife);
   add_crosses(entity, list.points, colour_of(sensors_[sensor].colour));
@@ -130,6 +133,7 @@ void FoxgloveExport::fix(TrueTime at, const records::ReferenceFix& r) {
 
 void FoxgloveExport::image(TrueTime at, const records::ImageWritten& r) {
   ::foxglove::SceneUpdate update;
+  const scene::OwnMotion own = own_motion().value_or(scene::OwnMotion{});
   for (const records::ImageObject& object : r.objects) {
     if (!drawable(object)) continue;
     const bool coasting = (object.status & records::kImageCoasting) != 0;
@@ -137,7 +141,7 @@ void FoxgloveExport::image(TrueTime at, const records::ImageWritten& r) {
     ::foxglove::SceneEntity& entity = add_entity(update, at, kVehicle, "track " + id, kObjectLife);
     add_box(entity, place_of(object), object.length, object.width,
             with_opacity(kTrack, coasting ? kCoastingOpacity : kBoxOpacity));
-    add_velocity(entity, place_of(object), object.speed, kTrack);
+    add_way(entity, place_of(object), scene::moved_on(place_of(object), object.speed, own, 1.0), kTrack);
     if (const std::vector<scene::Point> points = scene::ellipse(object); !points.empty())
       add_loop(entity, points, kTrack);
     add_text(entity, {object.x, object.y}, id, kTrack);
@@ -179,6 +183,7 @@ void FoxgloveExport::age(TrueTime used, SensorId sensor, Duration age) {
     ++counts_.unnamed;
     return;
   }
+  if (sensors_[index_of(sensor)].odometry) return;
   const TrueTime at = scene::shown(used);
   ttfusion::plots::Age message;
   set_stamp(*message.mutable_timestamp(), at);

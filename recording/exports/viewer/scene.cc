@@ -4,14 +4,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <system_error>
 
 namespace ttf::recording::exports::viewer {
 namespace {
 
 constexpr double kTextSize_px = 14.0, kLine_px = 2.0, kCross_m = 0.25;
-constexpr double kSlow_mps = 0.1;
+constexpr double kShort_m = 0.1;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 void set_colour(::foxglove::Color& out, Colour colour) {
@@ -83,13 +82,12 @@ void add_box(::foxglove::SceneEntity& entity, const scene::Place& place, double 
   set_colour(*box.mutable_color(), colour);
 }
 
-void add_velocity(::foxglove::SceneEntity& entity, const scene::Place& place, double speed_mps, Colour colour) {
-  const double length = std::abs(speed_mps);  // the way in a second
-  if (!(length > kSlow_mps)) return;
+void add_way(::foxglove::SceneEntity& entity, const scene::Place& from, const scene::Place& to, Colour colour) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  if (!(length > kShort_m)) return;
   const double head = std::min(0.3 * length, 1.0);
   ::foxglove::ArrowPrimitive& arrow = *entity.add_arrows();
-  set_pose(*arrow.mutable_pose(),
-           {place.x, place.y, speed_mps < 0.0 ? place.heading + std::numbers::pi : place.heading}, kHeight_m);
+  set_pose(*arrow.mutable_pose(), {from.x, from.y, std::atan2(to.y - from.y, to.x - from.x)}, kHeight_m);
   arrow.set_shaft_length(length - head);
   arrow.set_shaft_diameter(0.15);
   arrow.set_head_length(head);

@@ -22,8 +22,8 @@ void set_pose(::foxglove::Pose& out, const scene::Place& place, double z = 0.0);
 ::foxglove::SceneEntity& add_entity(::foxglove::SceneUpdate& update, TrueTime at, const std::string& frame,
                                     const std::string& id, Duration lifetime);
 void add_box(::foxglove::SceneEntity& entity, const scene::Place& place, double length, double width, Colour colour);
-// Points where the object is after a second. An object that hardly moves has none.
-void add_velocity(::foxglove::SceneEntity& entity, const scene::Place& place, double speed_mps, Colour colour);
+// Adds an arrow from place to place, if they are not too near.
+void add_way(::foxglove::SceneEntity& entity, const scene::Place& from, const scene::Place& to, Colour colour);
 void add_text(::foxglove::SceneEntity& entity, scene::Point at, const std::string& text, Colour colour);
 void add_loop(::foxglove::SceneEntity& entity, std::span<const scene::Point> points, Colour colour);
 // Adds an upright cross at each point.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "core/file_bytes.h"
@@ -185,7 +186,9 @@ TEST(OsiExport, GroundTruthIsReadBack) {
   const TracedState& last = object.lives[0].states[4];
   EXPECT_DOUBLE_EQ(last.x, 20.0 + kSpeed * std::cos(kHeading) * 0.08);
   EXPECT_DOUBLE_EQ(last.vy, kSpeed * std::sin(kHeading));
-  EXPECT_DOUBLE_EQ(last.ax, 0.5 * std::cos(kHeading));
+  const double centripetal = kSpeed * 0.01;
+  EXPECT_DOUBLE_EQ(last.ax, 0.5 * std::cos(kHeading) - centripetal * std::sin(kHeading));
+  EXPECT_DOUBLE_EQ(last.ay, 0.5 * std::sin(kHeading) + centripetal * std::cos(kHeading));
   EXPECT_EQ(last.yaw_rate, 0.01);
   // The same as `.osi`.
   std::string bytes;
@@ -195,6 +198,24 @@ TEST(OsiExport, GroundTruthIsReadBack) {
   const TruthTrace again = parse_truth_trace(bytes, "a.osi");
   EXPECT_EQ(again.instants, trace.instants);
   EXPECT_EQ(again.objects[1].lives[0].states[4].x, last.x);
+}
+
+// A vehicle drives on a circle. The middle of its box is before its rear axle.
+TEST(OsiExport, AVehicleThatTurnsHasTheCentripetalAcceleration) {
+  records::EgoTruth ego;
+  ego.at = TrueTime{} + Duration::milliseconds(1000);
+  ego.heading = 0.5 * std::numbers::pi;
+  ego.vx = 10.0;
+  ego.yaw_rate = 0.4;
+  std::string bytes;
+  OsiExport turning([](TrueTime, std::string_view) {}, [&](TrueTime, std::string_view m) { bytes += framed(m); });
+  turning.on(ego);
+  drive(turning);
+  turning.finish();
+  const TruthTrace read = parse_truth_trace(bytes, "a.osi");
+  const TracedState& host = read.host->vehicle.lives[0].states[0];
+  EXPECT_NEAR(host.ax, -0.4 * 10.0, 1e-12);  // to the left of a vehicle along y
+  EXPECT_NEAR(host.ay, 0.4 * 0.4 * read.host->rear_x, 1e-12);
 }
 
 // After a restart the fusion node's images may begin anew, earlier than the last.

@@ -65,6 +65,14 @@ struct Records {
     image.objects = objects;
     sink.on(image);
   }
+  void odometry(std::int64_t t, double speed, double yaw_rate, SensorId sensor = SensorId{1}) {
+    recording::records::OdometryTaken taken;
+    taken.stamp = stamp(t);
+    taken.id.sensor = sensor;
+    taken.speed = speed;
+    taken.yaw_rate = yaw_rate;
+    sink.on(taken);
+  }
   void use(std::int64_t t, int track, bool warning) {
     recording::records::FeatureObject object{Records::track(track, 0, 0), 1.25, kInfinity, warning};
     recording::records::FeatureUsed use;
@@ -81,6 +89,21 @@ struct Records {
     sink.on(seen);
   }
 };
+
+template <class Number> std::vector<Number> decoded(const std::string& text) {
+  static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned held = 0, bits = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    held = held << 6 | static_cast<unsigned>(kDigits.find(c));
+    bits += 6;
+    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xffu);
+  }
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  return numbers;
+}
 
 TEST(Scene, AnInstantHasTheNewestOfEverything) {
   Records log;
@@ -120,6 +143,39 @@ TEST(Scene, AnInstantHasTheNewestOfEverything) {
   EXPECT_THAT(view_at(scene, ms(2201)).tracks, IsEmpty());  // an image is old after a second
 }
 
+// A vehicle drives on a circle: 10 m/s, 0.5 rad/s. An object stands 30 m ahead.
+TEST(Scene, ADrivingVehicleMovesTheTracksOnByItsOwnMotion) {
+  Records log;
+  log.odometry(990, 10.0, 0.5);
+  log.image(1000, {Records::track(7, 30.0, 0.0)});
+  log.odometry(1040, 11.0, 0.0);  // of the next image
+  const View view = view_at(log.sink.finished(), ms(1200));
+  ASSERT_THAT(view.tracks, SizeIs(1));
+  // The vehicle has come to (20 sin 0.1, 20 (1 - cos 0.1)), and its axes have turned by 0.1 rad.
+  const double x = 30.0 - 20.0 * std::sin(0.1), y = -20.0 * (1.0 - std::cos(0.1));
+  EXPECT_NEAR(view.tracks[0].x, std::cos(0.1) * x + std::sin(0.1) * y, 2e-3);
+  EXPECT_NEAR(view.tracks[0].y, std::cos(0.1) * y - std::sin(0.1) * x, 2e-3);
+  EXPECT_NEAR(view.tracks[0].heading, -0.1, 1e-6);
+  EXPECT_EQ(view.own.yaw_rate, 0.5);
+}
+
+TEST(Scene, ArrowsOfADrivingVehicleAreRelativeAndItsOdometrySeesNoObjects) {
+  Records log;
+  log.odometry(990, 10.0, 0.0);
+  log.image(1000, {Records::track(7, 30.0, 0.0), Records::track(8, 60.0, 10.0)});
+  const Scene scene = log.sink.finished();
+  const std::string svg = scene_svg(scene, ms(1000), synthetic_names(), "drive");
+  EXPECT_EQ(count(svg, "class=\"velocity\""), 1u);  // the standing one comes nearer, the other stays ahead
+  EXPECT_THAT(svg, HasSubstr("as the vehicle sees it"));
+  EXPECT_THAT(svg, HasSubstr("laser: observations"));
+  EXPECT_THAT(svg, testing::Not(HasSubstr("camera: observations")));  // this odometry's name
+  const nlohmann::ordered_json json = packed(scene, synthetic_names(), "tt", 0);
+  EXPECT_FALSE(json["sensors"][0].contains("odometry"));
+  EXPECT_TRUE(json["sensors"][1]["odometry"]);
+  EXPECT_THAT(decoded<std::int16_t>(json["own"]["speed"]), ElementsAre(1000));
+  EXPECT_THAT(decoded<float>(json["own"]["yaw_rate"]), ElementsAre(0.0f));
+}
+
 TEST(Scene, AFullSceneKeepsFewerInstantsAndEveryWarningsEnds) {
   SceneLimits limits;
   limits.bytes = 4000;
@@ -148,21 +204,6 @@ TEST(Scene, ASceneThatIsFullAtItsSparsestEnds) {
   EXPECT_EQ(scene.spacing, SceneSink::kSparsest);
   EXPECT_EQ(scene.images.size(), 1000u / 30u + 1u);  // the one that was too much is the last
   EXPECT_THAT(scene.thinned_words(), HasSubstr("The scene ends at 10.6 s, the drive at 60 s."));
-}
-
-template <class Number> std::vector<Number> decoded(const std::string& text) {
-  static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned held = 0, bits = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    held = held << 6 | static_cast<unsigned>(kDigits.find(c));
-    bits += 6;
-    if (bits >= 8) bytes += static_cast<char>(held >> (bits -= 8) & 0xffu);
-  }
-  std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
-  return numbers;
 }
 
 TEST(Scene, PackedNumbersComeBack) {

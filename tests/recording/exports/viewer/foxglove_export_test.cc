@@ -335,6 +335,24 @@ TEST(FoxgloveExport, AnUnfinishedFileDoesNotStay) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST(FoxgloveExport, ADrivingVehicleSeesAStandingObjectComeNearer) {
+  std::vector<scene::ViewedSensor> sensors = two_sensors();
+  sensors.push_back({"odometry", "#aa3377", std::nullopt, std::nullopt, true});
+  Scene scene(std::move(sensors));
+  records::OdometryTaken taken;
+  taken.stamp = Scene::at(kFusion, 9 * kMs);
+  taken.speed = 8.0;
+  scene.out.on(taken);
+  scene.image(10 * kMs, 12 * kMs, {object(7, 40.0)});
+  const SceneFile file = scene.finished();
+  EXPECT_THAT(file.problems, IsEmpty());
+  const ::foxglove::ArrowPrimitive& arrow = file.of("/tracks").at(0).second.entities(0).arrows(0);
+  EXPECT_DOUBLE_EQ(arrow.shaft_length() + arrow.head_length(), 8.0);
+  EXPECT_NEAR(std::abs(arrow.pose().orientation().z()), 1.0, 1e-12);  // backwards
+  EXPECT_TRUE(file.topics.contains("/observations/laser"));
+  EXPECT_FALSE(file.topics.contains("/observations/odometry"));
+}
+
 // The numbers are those of npm @foxglove/schemas 2.1.0. foxglove_schemas_test.sh compares with the package itself.
 TEST(FoxgloveExport, SchemasAreFoxglovesByNameAndNumber) {
   Scene scene(two_sensors());
