@@ -1,8 +1,11 @@
 #include "drives/step_catalog.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/check.h"
+#include "core/errors.h"
 #include "drives/drive.h"
 #include "drives/known_fields.h"
 #include "drives/played_recording.h"
@@ -52,6 +55,35 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"feature_service", {"image"}, {}, false, {"odometry"}},
   };
   return kPorts;
+}
+
+void check_steps(const schedules::model::Cluster& cluster) {
+  schedules::model::bind_ports(cluster, step_ports());
+  const SensorId odometry = nodes::fusion::fused_odometry(cluster);
+  Findings findings;
+  for (const schedules::model::Node& node : cluster.nodes) {
+    const schedules::model::Task* fusion = nullptr;
+    bool reads = false;
+    for (const schedules::model::Task& task : node.tasks) {
+      if (task.step == "fusion") {
+        if (fusion == nullptr) fusion = &task;
+        reads = reads || nodes::fusion::odometry_of(cluster, task) != kNoSensor;
+      }
+      if (task.step != "feature_service" || odometry != kNoSensor) continue;
+      for (const schedules::model::PortBinding& binding : task.reads)
+        if (binding.port == "odometry")
+          findings.add({cluster.file, binding.line,
+                        fmt::format("nodes.{}.tasks.{}.reads.odometry", node.name, task.name),
+                        cluster.pdu(binding.pdu).name,
+                        "must be read by the fusion, too: without odometry there, the image's velocities are relative "
+                        "to the vehicle already"});
+    }
+    if (fusion != nullptr && !reads && odometry != kNoSensor)
+      findings.add({cluster.file, fusion->line, fmt::format("nodes.{}.tasks.{}.reads", node.name, fusion->name), "",
+                    fmt::format("must have {}, as another node's fusion has: all place their lists by it, or none does",
+                                cluster.sensor(odometry).name)});
+  }
+  findings.throw_if_any();
 }
 
 bool is_recorded(const schedules::model::Cluster& cluster) {

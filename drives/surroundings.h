@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "drives/observer.h"
 #include "drives/scenario.h"
@@ -28,5 +29,8 @@ struct Surroundings {
 Surroundings surroundings_of(const Scenario& scenario, const schedules::model::Cluster& cluster, std::uint64_t seed,
                              std::uint32_t replication,
                              const std::shared_ptr<const recording::rows::RecordedInput>& recorded);
+
+// Returns a sentence if the sensors' vehicle moves, of the scenario or of a trace, and the fusion reads no odometry; else "".
+std::string motion_warning(const Scenario& scenario, const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::drives

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/counted.h"
@@ -46,22 +45,6 @@ std::string truth_text(const Scenario& scenario) {
                                                        : fmt::format("{} objects are", scenario.world.objects.size()));
   if (scenario.duration < trace.length()) text += fmt::format("; the drive ends at {}", in_seconds(scenario.duration));
   return text;
-}
-
-std::string truth_warning(const Scenario& scenario, const schedules::model::Cluster& cluster) {
-  constexpr double kMoving_mps = 0.1;
-  if (!scenario.truth || !scenario.truth->host) return "";
-  const std::vector<recording::osi::TracedState>& way = scenario.truth->host->vehicle.lives.front().states;
-  const bool moves = std::ranges::any_of(way, [](const auto& s) { return std::hypot(s.vx, s.vy) > kMoving_mps; });
-  const bool measured = std::ranges::any_of(cluster.sensors, [](const schedules::model::Sensor& sensor) {
-    return sensor.kind == schedules::model::SensorKind::kOdometry;
-  });
-  if (!moves || measured) return "";
-  return fmt::format(
-      "{}: vehicle {} moves, and {} has no odometry: its tracks have velocities relative to the vehicle, and the truth "
-      "has "
-      "them over ground",
-      scenario.truth->name, scenario.truth->host->vehicle.id, cluster.file);
 }
 
 }  // namespace ttf::drives

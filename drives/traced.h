@@ -6,7 +6,6 @@
 
 #include "drives/scenario.h"
 #include "recording/osi/truth_trace.h"
-#include "schedules/model/cluster.h"
 
 namespace ttf::drives {
 
@@ -17,9 +16,6 @@ void take_truth(Scenario& scenario, std::shared_ptr<const recording::osi::TruthT
 
 // Returns a sentence about the trace and its use. Precondition: the scenario has one.
 std::string truth_text(const Scenario& scenario);
-
-// Returns a sentence if the trace's vehicle moves and the cluster has no odometry; else "".
-std::string truth_warning(const Scenario& scenario, const schedules::model::Cluster& cluster);
 
 inline constexpr Duration kShortestDrive = Duration::milliseconds(100);
 

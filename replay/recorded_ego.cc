@@ -64,13 +64,15 @@ std::optional<EgoState> RecordedEgo::at(GlobalTime time) const {
 RecordedEgo recorded_ego_of(const recording::rows::EgoRows& rows, const std::string& file, ReplayConfig& config) {
   if (rows.poses) {
     if (config.tracker.odometry)
-      throw InputError({config.file, 0, "tracker.odometry", "", "must be absent: " + file + " has poses"});
+      throw InputError(
+          {config.file, config.tracker.odometry_line, "tracker.odometry", "", "must be absent: " + file + " has poses"});
     fusion::ego::OdometryErrors exact;
     exact.speed_scale_sigma = exact.yaw_rate_bias_sigma = 0.0;
     return {rows, exact};
   }
   if (config.tracker.cross_noise)
-    throw InputError({config.file, 0, "tracker.cross_noise", "",
+    throw InputError({config.file, config.tracker.cross_noise_line, "tracker.cross_noise",
+                      fmt::format("{:g}", *config.tracker.cross_noise),
                       "must be absent with the odometry of " + file + ": the vehicle's axes turn"});
   if (!config.tracker.odometry) config.tracker.odometry.emplace();
   config.tracker.odometry->period = period_of(rows.rows);
@@ -79,14 +81,18 @@ RecordedEgo recorded_ego_of(const recording::rows::EgoRows& rows, const std::str
 
 void carry(RecordedLists& recorded, std::vector<recording::rows::ObservationRow>& rows, const RecordedEgo& ego,
            const std::string& name) {
-  const auto covered = [&](GlobalTime time, int line) {
+  Findings findings;
+  const auto check = [&](GlobalTime time, int line) {
     if (time >= ego.first() && time <= ego.last()) return;
-    throw InputError({name, line, "time", seconds_of(time),
-                      fmt::format("must be in {}..{} s: the vehicle's motion is known there", seconds_of(ego.first()),
-                                  seconds_of(ego.last()))});
+    findings.add({name, line, "time", seconds_of(time),
+                  fmt::format("must be in {}..{} s: the vehicle's motion is known there", seconds_of(ego.first()),
+                              seconds_of(ego.last()))});
   };
+  for (const recording::rows::ObservationRow& row : rows) check(GlobalTime{row.time_ns}, row.line);
+  if (findings.empty())  // else the rows have told it
+    for (const RecordedList& list : recorded.lists) check(list.measured, 0);
+  findings.throw_if_any();
   for (recording::rows::ObservationRow& row : rows) {
-    covered(GlobalTime{row.time_ns}, row.line);
     if (!row.truth) continue;
     const fusion::sensors::Mounting vehicle = ego.at(GlobalTime{row.time_ns})->vehicle;
     const Vector<2> at = vehicle.position + fusion::sensors::turned({row.truth->x, row.truth->y}, vehicle.yaw);
@@ -98,7 +104,6 @@ void carry(RecordedLists& recorded, std::vector<recording::rows::ObservationRow>
     row.truth->velocity = {velocity.x(), velocity.y()};
   }
   for (RecordedList& list : recorded.lists) {
-    covered(list.measured, 0);
     const EgoState state = *ego.at(list.measured);
     list.vehicle = state.vehicle;
     for (fusion::sensors::Observation& observation : list.observations) {

@@ -27,7 +27,7 @@ schedules::model::Cluster checked_cluster(const std::string& file) {
   schedules::model::Cluster cluster = schedules::file::load_cluster(file);
   if (auto findings = schedules::check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
   drives::check_described(cluster);
-  schedules::model::bind_ports(cluster, drives::step_ports());
+  drives::check_steps(cluster);
   return cluster;
 }
 

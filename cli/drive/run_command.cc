@@ -22,6 +22,7 @@
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
+#include "drives/surroundings.h"
 #include "drives/traced.h"
 #include "recording/log/writer.h"
 #include "recording/records/tee.h"
@@ -104,7 +105,7 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
   std::string warning;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     const schedules::model::Cluster cluster = checked_cluster(plan.scenario, strategy);
-    if (warning.empty()) warning = drives::truth_warning(plan.scenario, cluster);
+    if (warning.empty()) warning = drives::motion_warning(plan.scenario, cluster);
     drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
     nodes::foreign::check_steps(cluster, steps);
     if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);

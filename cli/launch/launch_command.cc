@@ -26,6 +26,7 @@
 #include "cli/supervision/signal_watch.h"
 #include "cli/supervision/supervisor.h"
 #include "core/decimal.h"
+#include "drives/surroundings.h"
 #include "drives/traced.h"
 #if TTF_WITH_DDS
 #include "cli/launch/launch_virtual.h"
@@ -107,7 +108,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
   if (plan.set.scenario.truth) fmt::print(stderr, "{}\n", drives::truth_text(plan.set.scenario));
-  if (const std::string warning = drives::truth_warning(plan.set.scenario, plan.set.cluster); !warning.empty())
+  if (const std::string warning = drives::motion_warning(plan.set.scenario, plan.set.cluster); !warning.empty())
     print_warnings(warning);
   const auto earlier = supervision::earlier_launch(plan.set.folder);
   supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());

@@ -82,12 +82,19 @@ schedules::model::Cluster consistent_cluster(const std::string& file) {
 schedules::model::Cluster checked_schedule(const ScheduleOptions& options) {
   try {
     schedules::model::Cluster cluster = consistent_cluster(options.file);
-    schedules::model::bind_ports(cluster, drives::step_ports());
+    drives::check_steps(cluster);
     return cluster;
   } catch (const InputError& error) {
     if (options.json) print_findings(error);
     throw;
   }
+}
+
+nlohmann::ordered_json contributions_json(const std::vector<schedules::analysis::Contribution>& parts) {
+  nlohmann::ordered_json json;
+  for (const schedules::analysis::Contribution& part : parts)
+    json.push_back({{"name", part.name}, {"best_ms", in_ms(part.best)}, {"worst_ms", in_ms(part.worst)}});
+  return json;
 }
 
 int check(const ScheduleOptions& options) {
@@ -115,12 +122,14 @@ int check(const ScheduleOptions& options) {
                                {"first_use_ms", {in_ms(path.use_best), in_ms(path.use_worst)}},
                                {"newest_at_any_use_worst_ms", in_ms(path.newest_worst)},
                                {"buffered_use_worst_ms", in_ms(path.buffered_use_worst)}};
-    for (const schedules::analysis::Contribution& contribution : path.to_use)
-      one["contributions"].push_back({{"name", contribution.name},
-                                      {"best_ms", in_ms(contribution.best)},
-                                      {"worst_ms", in_ms(contribution.worst)}});
+    if (auto parts = contributions_json(path.to_use); !parts.is_null()) one["contributions"] = std::move(parts);
     json["ages"].push_back(std::move(one));
   }
+  for (const schedules::analysis::AgePath& path : schedules::analysis::odometry_ages(cluster))
+    json["odometry_ages"].push_back({{"sensor", cluster.sensor(path.sensor).name},
+                                     {"available_ms", {in_ms(path.fusion_best), in_ms(path.fusion_worst)}},
+                                     {"read_ms", {in_ms(path.fused_best), in_ms(path.fused_worst)}},
+                                     {"contributions", contributions_json(path.to_fusion)}});
   fmt::print("{}\n", json.dump(2));
   return 0;
 }

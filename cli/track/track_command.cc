@@ -174,7 +174,8 @@ int run_track(const TrackOptions& options) {
   if (!options.ego.empty())
     ego = replay::recorded_ego_of(recording::rows::read_ego_rows(options.ego), options.ego, config);
   else if (config.tracker.odometry)
-    throw InputError({config.file, 0, "tracker.odometry", "", "must be absent without --ego"});
+    throw InputError(
+        {config.file, config.tracker.odometry_line, "tracker.odometry", "", "must be absent without --ego"});
   if (of_scans)
     prepare_for_scans(config, usual);
   else

@@ -199,7 +199,7 @@ PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector
   if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
   drive.cluster = schedules::file::parse_cluster(edited(edits, true, file), file);
   if (auto findings = schedules::check::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
-  schedules::model::bind_ports(drive.cluster, drives::step_ports());
+  drives::check_steps(drive.cluster);
   drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
   nodes::foreign::check_steps(drive.cluster, steps_);
   return drive;

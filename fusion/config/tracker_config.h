@@ -124,6 +124,8 @@ struct TrackerConfig {
   // The less certain one of two confirmed tracks in one place ends (fusion/tracks/overlaps.h). Absent: both are kept,
   // unless the lists are recorded scans.
   std::optional<bool> end_overlaps;
+  // Where the file has these keys, for findings about the cluster or the recording; 0: nowhere.
+  int cross_noise_line = 0, odometry_line = 0;
 };
 
 }  // namespace ttf::fusion::config

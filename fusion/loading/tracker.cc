@@ -118,6 +118,7 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   c.filter = yaml.choice_or<FilterKind>("filter", c.filter,
                                         {{"extended", FilterKind::kExtended}, {"unscented", FilterKind::kUnscented}});
   c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
+  if (yaml.has("cross_noise")) c.cross_noise_line = yaml.line("cross_noise");
   if (yaml.has("cross_noise")) c.cross_noise = yaml.number("cross_noise", {1e-6, 1e4});
   c.turn_noise = yaml.number_or("turn_noise", c.turn_noise, {1e-6, 100.0}, "rad^2/s^3");
   c.mode_seconds = yaml.number_or("mode_seconds", c.mode_seconds, {0.01, 1e4}, "s");
@@ -157,6 +158,7 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   if (yaml.has("sizes")) c.sizes = load_sizes(yaml.map("sizes"));
+  if (yaml.has("odometry")) c.odometry_line = yaml.line("odometry");
   if (yaml.has("odometry")) c.odometry = load_odometry(yaml.map("odometry"));
   if (c.odometry && c.cross_noise) yaml.fail("cross_noise", "must be absent with odometry: the vehicle's axes turn");
   load_systematic(yaml, c, sensors);

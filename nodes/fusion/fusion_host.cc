@@ -1,5 +1,7 @@
 #include "nodes/fusion/fusion_host.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -51,23 +53,23 @@ Duration period_of(const schedules::model::Cluster& cluster, const schedules::mo
   return sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
 }
 
-// Gives the tracker the cluster's odometry.
+// Gives the tracker the odometry that the fusion reads.
 void set_odometry(const schedules::model::Cluster& cluster, ttf::fusion::config::TrackerConfig& tracker,
                   const std::string& scenario_file) {
-  const auto found = std::find_if(cluster.sensors.begin(), cluster.sensors.end(), [](const auto& sensor) {
-    return sensor.kind == schedules::model::SensorKind::kOdometry;
-  });
-  if (found == cluster.sensors.end()) {
+  const SensorId id = fused_odometry(cluster);
+  if (id == kNoSensor) {
     if (tracker.odometry)
-      throw InputError({scenario_file, 0, "tracker.odometry", "",
-                        "must be absent: " + cluster.file + " has no sensor of the kind odometry"});
+      throw InputError({scenario_file, tracker.odometry_line, "tracker.odometry", "",
+                        "must be absent: no fusion task of " + cluster.file + " reads odometry"});
     return;
   }
   if (tracker.cross_noise)
-    throw InputError({scenario_file, 0, "tracker.cross_noise", "",
+    throw InputError({scenario_file, tracker.cross_noise_line, "tracker.cross_noise",
+                      fmt::format("{:g}", *tracker.cross_noise),
                       "must be absent with the odometry of " + cluster.file + ": the vehicle's axes turn"});
+  const schedules::model::Sensor& odometry = cluster.sensor(id);
   if (!tracker.odometry) tracker.odometry.emplace();
-  tracker.odometry->period = std::max(period_of(cluster, *found), found->longest);
+  tracker.odometry->period = std::max(period_of(cluster, odometry), odometry.longest);
 }
 
 // Returns the number of rounds between the sender's stamp and `measured`.
@@ -80,11 +82,26 @@ std::int64_t rounds_between(const schedules::model::PduLayout& layout, const bus
 
 }  // namespace
 
+SensorId odometry_of(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
+  for (const schedules::model::PortBinding& binding : task.reads)
+    if (const SensorId sensor = cluster.pdu(binding.pdu).sensor;
+        sensor != kNoSensor && cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry)
+      return sensor;
+  return kNoSensor;
+}
+
+SensorId fused_odometry(const schedules::model::Cluster& cluster) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      if (task.step == "fusion")
+        if (const SensorId sensor = odometry_of(cluster, task); sensor != kNoSensor) return sensor;
+  return kNoSensor;
+}
+
 std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedules::model::Cluster& cluster) {
   std::vector<ttf::fusion::strategies::SensorTiming> timings;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     const schedules::model::Sensor& sensor = cluster.sensor(path.sensor);
-    if (sensor.kind == schedules::model::SensorKind::kOdometry) continue;  // it sees no objects
     const GlobalTime first = sensor.scheduled
                                  ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
                                  : GlobalTime{};

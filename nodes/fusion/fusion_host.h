@@ -29,7 +29,13 @@ namespace ttf::nodes::fusion {
 // how long to wait for a list).
 std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedules::model::Cluster& cluster);
 
-// Returns the tracker of a scenario with its sensors by their ids in this cluster, and with odometry if the cluster has it.
+// Returns the odometry that a task reads; kNoSensor: it reads none.
+SensorId odometry_of(const schedules::model::Cluster& cluster, const schedules::model::Task& task);
+// Returns the odometry that a fusion task of the cluster reads; kNoSensor: none reads any, and images are relative to the
+// vehicle.
+SensorId fused_odometry(const schedules::model::Cluster& cluster);
+
+// Returns the tracker of a scenario with its sensors by their ids in this cluster, and with odometry if the fusion reads it.
 // Throws InputError, naming the scenario's file, for a sensor name that the cluster lacks, and for keys that its vehicle
 // contradicts.
 ttf::fusion::config::TrackerConfig tracker_in(const schedules::model::Cluster& cluster,

@@ -24,8 +24,9 @@ class Ages {
   explicit Ages(const model::Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
 
   std::optional<AgePath> of(SensorId id) {
-    const Path path = path_of(cluster_, id);
+    Path path = path_of(cluster_, id);
     if (path.stages.empty()) return std::nullopt;
+    if (!observes(id)) path.used = 0;
     AgePath ages;
     ages.sensor = id;
     const model::Sensor& sensor = cluster_.sensor(id);
@@ -46,6 +47,9 @@ class Ages {
     ages.newest_worst = ages.use_worst + until_next_newest(path, id);
     return ages;
   }
+
+  // Whether the sensor observes objects. Odometry measures its own vehicle: no image shows its samples.
+  bool observes(SensorId id) const { return cluster_.sensor(id).kind != model::SensorKind::kOdometry; }
 
   // BUFF releases the oldest held measurement of a sensor at `at`, `age` after the measurement.
   struct Release {
@@ -201,7 +205,8 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   Ages ages(cluster);
   std::vector<AgePath> paths;
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
-    if (auto path = ages.of(static_cast<SensorId>(s))) paths.push_back(std::move(*path));
+    if (const auto id = static_cast<SensorId>(s); ages.observes(id))
+      if (auto path = ages.of(id)) paths.push_back(std::move(*path));
   std::vector<Ages::Release> releases;
   for (const AgePath& path : paths) ages.releases(path.sensor, releases);
   const Duration held = ages.held_for_arrivals(paths);
@@ -218,9 +223,18 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   return paths;
 }
 
+std::vector<AgePath> odometry_ages(const model::Cluster& cluster) {
+  Ages ages(cluster);
+  std::vector<AgePath> paths;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (const auto id = static_cast<SensorId>(s); !ages.observes(id))
+      if (auto path = ages.of(id)) paths.push_back(std::move(*path));
+  return paths;
+}
+
 std::string ages_text(const model::Cluster& cluster) {
-  const std::vector<AgePath> paths = measurement_ages(cluster);
-  if (paths.empty()) return "";
+  const std::vector<AgePath> paths = measurement_ages(cluster), odometry = odometry_ages(cluster);
+  if (paths.empty() && odometry.empty()) return "";
   std::string text = fmt::format("{:<52}{:>10}{:>10}\n", "age of a measurement [ms]", "best", "worst");
   const auto row = [&](const std::string& name, Duration best, Duration worst) {
     text += fmt::format("{:<52}{:>10.3f}{:>10.3f}\n", name, in_ms(best), in_ms(worst));
@@ -239,6 +253,12 @@ std::string ages_text(const model::Cluster& cluster) {
     bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
     if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
     if (path.reaches_use) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
+  }
+  for (const AgePath& path : odometry) {
+    text += fmt::format("{}: odometry, never held for order\n", cluster.sensor(path.sensor).name);
+    for (const Contribution& part : path.to_fusion) row("    " + part.name, part.best, part.worst);
+    row("  available", path.fusion_best, path.fusion_worst);
+    row("  read", path.fused_best, path.fused_worst);
   }
   return text;
 }

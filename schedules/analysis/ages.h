@@ -84,9 +84,11 @@ struct AgePath {
   bool reaches_use = false;          // otherwise everything about use is zero
 };
 
-// Returns the paths in the order of Cluster::sensors, without sensors whose lists reach no fusing task. The
+// Returns the paths of observations in the order of Cluster::sensors, without sensors whose lists reach no fusing task. The
 // cluster must have passed check().
 std::vector<AgePath> measurement_ages(const model::Cluster& cluster);
+// Returns the paths of odometry, likewise. They end where a sample is read: it is not held, and no image shows it.
+std::vector<AgePath> odometry_ages(const model::Cluster& cluster);
 
 // Returns the ages as a table in milliseconds, for people.
 std::string ages_text(const model::Cluster& cluster);

@@ -11,7 +11,6 @@ namespace {
 
 constexpr Range<double> kPlace{-kFarthest_m, kFarthest_m};
 constexpr Range<Duration> kMemory{Duration::milliseconds(20), Duration::milliseconds(3'600'000)};
-const road::RoadConfig kNoRoad{.pieces = {road::Piece{1.0}}};
 constexpr std::int64_t kMostObjects = 65'534;  // whose ids are no false detection's
 
 // Loads an object without its place, and without what draws its size.
@@ -92,11 +91,14 @@ WorldConfig load_world(YamlMap& yaml) {
   for (YamlMap& map : yaml.maps_if("objects")) {
     ObjectConfig object;
     object.name = map.text("name");
+    const auto same = std::ranges::find(config.objects, object.name, &ObjectConfig::name);
+    if (!object.name.empty() && same != config.objects.end())
+      map.fail("name", fmt::format("must differ from the name of objects[{}]", same - config.objects.begin()));
     load_class(map, object);
     load_kind(map, object);
     if (auto on = map.map_if("at")) {
       if (!config.road) map.fail("at", "needs a road in the world");
-      object.on = traffic::load_lane_config(map, *on, config.road.value_or(kNoRoad));
+      object.on = traffic::load_lane_config(map, *on, config.road.value_or(road::kMissingRoad));
     } else {
       object.x = map.number("x", kPlace, "m");
       object.y = map.number("y", kPlace, "m");
@@ -114,7 +116,7 @@ WorldConfig load_world(YamlMap& yaml) {
     config.objects.push_back(std::move(object));
   }
   if (auto field = yaml.map_if("field")) load_field(*field, size, config.objects);
-  if (config.own_speed != 0.0 && !drive_along_x(config))
+  if (config.own_speed != 0.0 && !config.ego && !drive_along_x(config))
     yaml.fail("own_speed", "must be 0, since an object turns or does not head along x");
   const auto all = static_cast<std::int64_t>(config.objects.size());
   const Range<std::int64_t> there{std::min<std::int64_t>(all, 1), all};

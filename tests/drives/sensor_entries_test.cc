@@ -10,6 +10,10 @@
 #include "core/file_bytes.h"
 #include "drives/drive.h"
 #include "drives/scenario.h"
+#include "drives/step_catalog.h"
+#include "drives/surroundings.h"
+#include "fusion/loading/tracker.h"
+#include "nodes/fusion/fusion_host.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::drives {
@@ -66,6 +70,8 @@ TEST(SensorEntries, ThoseOfTheClusterAreTaken) {
   EXPECT_EQ(refusal("sensors: {laser: {kind: laser}, camera: {kind: camera, period: 40 ms}}\n"), "taken");
   EXPECT_EQ(refusal("sensors: {left_laser: {kind: laser, period: 80 ms}, right_laser: {kind: laser}}\n"), "taken");
   EXPECT_EQ(refusal("sensors: {laser: {}, camera: {}}\n", "twin_cameras"), "taken") << "it has no laser";
+  EXPECT_EQ(refusal("sensors: {radar: {}, mono_camera: {}, odometry: {}}\n"), "taken")
+      << "an entry may be for no sensor";
   EXPECT_EQ(refusal("sensors: {laser: {period: 1 s}}\n", "laser_radar"), "taken") << "a recording has its own instants";
 }
 
@@ -121,6 +127,61 @@ TEST(SensorEntries, SayHowPicturesShowThem) {
   EXPECT_THAT(styles("sensors: {right_laser: {kind: laser, marker: diamond}, camera: {}}\n"),
               ElementsAre(Style{}, Style{"laser", "", "diamond"}));
   EXPECT_THAT(styles("sensors: {camera: {colour: green}}\n"), ElementsAre(Style{}, Style{}, Style{"", "green", ""}));
+}
+
+// Leaves the odometry out of what the tasks with this step read.
+schedules::model::Cluster without_odometry(std::string_view step) {
+  schedules::model::Cluster cluster = schedules::file::load_cluster(kFolder + "moving_synchronised.yaml");
+  cluster.file = "moving.yaml";
+  for (schedules::model::Node& node : cluster.nodes)
+    for (schedules::model::Task& task : node.tasks)
+      if (task.step == step) std::erase_if(task.reads, [](const auto& read) { return read.port == "odometry"; });
+  return cluster;
+}
+
+TEST(Odometry, AServiceReadsItBesideAFusionThatDoes) {
+  EXPECT_NO_THROW(check_steps(without_odometry("")));
+  EXPECT_NO_THROW(check_steps(without_odometry("feature_service")));
+  try {
+    check_steps(without_odometry("fusion"));
+    FAIL() << "is taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::MatchesRegex("moving.yaml:[0-9]+: nodes.feature.tasks.use.reads.odometry = "
+                                                    "odometry_list: must be read by the fusion, too: .*"));
+  }
+}
+
+TEST(Odometry, AFusionThatReadsNoneHasATrackerWithoutIt) {
+  EXPECT_TRUE(nodes::fusion::tracker_in(without_odometry(""), {}, "car.yaml").odometry);
+  EXPECT_FALSE(nodes::fusion::tracker_in(without_odometry("fusion"), {}, "car.yaml").odometry);
+  const auto refused = [](const std::string& tracker, std::string_view step) -> std::string {
+    try {
+      Findings none;
+      YamlMap root = StrictYaml::parse(tracker, "car.yaml").root(none);
+      (void)nodes::fusion::tracker_in(without_odometry(step), fusion::loading::load_tracker(root), "car.yaml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(refused("motion: ctra\nodometry: {lever: 20}\n", "fusion"),
+            "car.yaml:2: tracker.odometry: must be absent: no fusion task of moving.yaml reads odometry");
+  EXPECT_EQ(
+      refused("cross_noise: 0.5\n", ""),
+      "car.yaml:1: tracker.cross_noise = 0.5: must be absent with the odometry of moving.yaml: the vehicle's axes "
+      "turn");
+}
+
+TEST(Odometry, AVehicleThatMovesWithoutItIsTold) {
+  const schedules::model::Cluster measured = without_odometry(""), unread = without_odometry("fusion");
+  Scenario scenario = with("");
+  EXPECT_EQ(motion_warning(scenario, unread), "");
+  scenario.world.ego.emplace();
+  EXPECT_EQ(motion_warning(scenario, unread), "") << "it stands";
+  scenario.world.ego->speed = 5.0;
+  EXPECT_EQ(motion_warning(scenario, measured), "");
+  EXPECT_THAT(motion_warning(scenario, unread), HasSubstr("world.ego: moves, and moving.yaml has no odometry that its "
+                                                          "fusion reads"));
 }
 
 }  // namespace

@@ -58,5 +58,16 @@ TEST_P(TurningEgo, OdometryThatStopsIsToldAndCoasted) {
   EXPECT_LT(summary.nees, 4.0);
 }
 
+// Odometry that the fusion does not read does not hold its lists back: tracks are relative to the vehicle.
+TEST(TurningEgoUnread, ListsAreFusedWithoutOdometry) {
+  Drive drive = past_a_parked_car(StrategyKind::kTt);
+  for (schedules::model::Node& node : drive.cluster.nodes)
+    for (schedules::model::Task& task : node.tasks)
+      if (task.step == "fusion") std::erase_if(task.reads, [](const auto& read) { return read.port == "odometry"; });
+  const evaluation::accuracy::DriveSummary summary = summary_of(drive);
+  EXPECT_EQ(summary.odometry_samples, 0u);
+  EXPECT_GT(summary.matched, 40u);
+}
+
 }  // namespace
 }  // namespace ttf::drives

@@ -100,22 +100,35 @@ TEST(RecordedEgo, TracksLiveOverGround) {
 
 TEST(RecordedEgo, EveryRowIsWithinTheMotion) {
   ReplayConfig config;
-  std::vector<ObservationRow> rows{position_row("a", 6000, 6000, 1.0, 2.0)};
+  std::vector<ObservationRow> rows{position_row("a", 6000, 6000, 1.0, 2.0), position_row("a", 7000, 7000, 1.0, 2.0)};
   rows[0].line = 7;
+  rows[1].line = 8;
   RecordedLists lists = recorded_lists_of_rows(rows, config);
   const RecordedEgo ego = recorded_ego_of(motion(true), "ego.csv", config);
   try {
     carry(lists, rows, ego, "o.csv");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "o.csv:7: time = 6: must be in 0..5.5 s: the vehicle's motion is known there");
+    ASSERT_EQ(error.findings().size(), 2u);
+    EXPECT_EQ(error.findings()[1].sentence(),
+              "o.csv:8: time = 7: must be in 0..5.5 s: the vehicle's motion is known there");
   }
 }
 
 TEST(RecordedEgo, ContradictionsAreRefused) {
   ReplayConfig across = parse_replay_config("tracker: {cross_noise: 0.1}\n", "c.yaml", {}), both = exact_config();
-  EXPECT_THROW(recorded_ego_of(motion(false), "ego.csv", across), InputError);
-  EXPECT_THROW(recorded_ego_of(motion(true), "ego.csv", both), InputError);
+  const auto sentence = [](ReplayConfig& config, bool poses) -> std::string {
+    try {
+      recorded_ego_of(motion(poses), "ego.csv", config);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(
+      sentence(across, false),
+      "c.yaml:1: tracker.cross_noise = 0.1: must be absent with the odometry of ego.csv: the vehicle's axes turn");
+  EXPECT_EQ(sentence(both, true), "c.yaml:1: tracker.odometry: must be absent: ego.csv has poses");
 }
 
 TEST(EgoRows, AreReadInAnyOrder) {

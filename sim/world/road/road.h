@@ -35,6 +35,8 @@ struct RoadConfig {
   double lane_width = 3.5;  // [m]
   bool closed = false;
 };
+// Stands for a road that a file lacks, after a finding says so: it has every lane.
+inline const RoadConfig kMissingRoad{.pieces = {Piece{1.0}}, .left = 8, .right = 8};
 // Reads the road, and checks that a closed one ends where it begins.
 RoadConfig load_road(YamlMap& yaml);
 // Reads the number of one of the road's lanes.

@@ -9,8 +9,7 @@ LightConfig load_light(YamlMap& yaml, const road::RoadConfig* road) {
   light.name = yaml.text("name");
   if (auto on = yaml.map_if("at")) {
     if (road == nullptr) yaml.fail("at", "needs a road in the world");
-    const road::RoadConfig usual{.pieces = {road::Piece{1.0}}};
-    light.on = road::load_on_lane(*on, road != nullptr ? *road : usual);
+    light.on = road::load_on_lane(*on, road != nullptr ? *road : road::kMissingRoad);
   } else {
     light.x = yaml.number("x", {-10'000.0, 10'000.0}, "m");
     light.y = yaml.number("y", {-10'000.0, 10'000.0}, "m");

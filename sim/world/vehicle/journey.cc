@@ -87,9 +87,8 @@ Parameters load_vehicle(YamlMap& yaml) {
 }
 
 const road::RoadConfig& needed(YamlMap& yaml, std::string_view key, const road::RoadConfig* road) {
-  static const road::RoadConfig kUsual{.pieces = {road::Piece{1.0}}};
   if (road == nullptr) yaml.fail(key, "needs a road in the world");
-  return road == nullptr ? kUsual : *road;
+  return road == nullptr ? road::kMissingRoad : *road;
 }
 
 Segment load_segment(YamlMap& yaml, const road::RoadConfig* road) {

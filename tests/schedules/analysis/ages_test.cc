@@ -236,5 +236,19 @@ TEST(Ages, ASensorNobodyFusesIsLeftOut) {
   EXPECT_TRUE(measurement_ages(cluster).empty());
 }
 
+// The fusion reads a sample of odometry at once, and no image shows it.
+TEST(Ages, OdometryIsNoObservation) {
+  model::Cluster cluster = small(false);
+  const AgePath observed = measurement_ages(cluster)[0];
+  cluster.sensors[0].kind = model::SensorKind::kOdometry;
+  EXPECT_TRUE(measurement_ages(cluster).empty());
+  const auto ages = odometry_ages(cluster);
+  ASSERT_EQ(ages.size(), 1u);
+  EXPECT_EQ(ages[0].fused_worst, observed.fused_worst);
+  EXPECT_FALSE(ages[0].reaches_use);
+  EXPECT_EQ(ages[0].buffered_fused_worst, Duration{});
+  EXPECT_EQ(ages_text(cluster).find("BUFF"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ttf::schedules::analysis

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "nodes/sensing/scene.h"
 #include "tests/sim/world/drives.h"
@@ -15,6 +16,7 @@ namespace ttf::sim::world {
 namespace {
 
 using testing::HasSubstr;
+using testing::SizeIs;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -31,6 +33,15 @@ std::string sentence_about(const std::string& text) {
     return error.what();
   }
   return "";
+}
+
+std::vector<Finding> sentences_about(const std::string& text) {
+  try {
+    world_from(text);
+  } catch (const InputError& error) {
+    return error.findings();
+  }
+  return {};
 }
 
 TEST(Ego, StandsAtTheOriginUnlessItDrives) {
@@ -140,8 +151,22 @@ TEST(Ego, RefusesWhatContradictsIt) {
               HasSubstr("own_speed = 5: must be 0 or absent beside an ego"));
   EXPECT_THAT(sentence_about("ego: {profile: [{duration: 1 s, yaw_rate: 0.1, steering: 0.1}]}"),
               HasSubstr("ego.profile[0].steering = 0.1: must be absent beside `yaw_rate`"));
+  EXPECT_THAT(sentences_about("own_speed: 5\nego: {}\nobjects: [{name: a, x: 9, y: 0, heading: 1}]"), SizeIs(1));
   EXPECT_THAT(sentence_about("ego: {start: {speed: 60}}"), HasSubstr("ego.start.speed = 60"));
   EXPECT_THAT(sentence_about("ego: {vehicle: {model: kinematic, mass: 1000}}"), HasSubstr("ego.vehicle.mass"));
+}
+
+TEST(World, AMissingRoadIsOneSentence) {
+  for (const std::string text :
+       {"objects: [{name: a, at: {lane: -2, s: 10}}]", "ego: {start: {at: {lane: 2, s: 0}}}",
+        "ego: {profile: [{duration: 1 s, lane: 3}]}",
+        "traffic_lights: [{name: l, at: {lane: 1, s: 5}, phases: [{light: red, duration: 1 s}]}]"})
+    EXPECT_THAT(sentences_about(text), SizeIs(1)) << text;
+}
+
+TEST(World, ObjectsHaveNamesOfTheirOwn) {
+  EXPECT_THAT(sentence_about("objects: [{name: a, x: 9, y: 0}, {name: b, x: 20, y: 0}, {name: a, x: 30, y: 0}]"),
+              HasSubstr("objects[2].name = a: must differ from the name of objects[0]"));
 }
 
 }  // namespace
