@@ -47,4 +47,9 @@ std::string truth_text(const Scenario& scenario) {
   return text;
 }
 
+std::string subject_of(const Scenario& scenario) {
+  if (!scenario.truth) return scenario.description;
+  return fmt::format("The world of {}, with the sensors and the tracker of {}", scenario.truth->name, scenario.name);
+}
+
 }  // namespace ttf::drives

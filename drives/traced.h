@@ -17,6 +17,9 @@ void take_truth(Scenario& scenario, std::shared_ptr<const recording::osi::TruthT
 // Returns a sentence about the trace and its use. Precondition: the scenario has one.
 std::string truth_text(const Scenario& scenario);
 
+// Returns the scenario's description, or with a trace whose world the drive is in.
+std::string subject_of(const Scenario& scenario);
+
 inline constexpr Duration kShortestDrive = Duration::milliseconds(100);
 
 }  // namespace ttf::drives

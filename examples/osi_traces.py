@@ -104,7 +104,12 @@ def main() -> int:
         return 2
     host, objects = known[sys.argv[1]]
     last = max(round(begin / STEP_S) + len(states) for begin, states in objects.values())
-    with open(sys.argv[2], "wb") as file:
+    try:
+        file = open(sys.argv[2], "wb")
+    except OSError as error:
+        print(f"error: {sys.argv[2]}: cannot be written: {error.strerror}", file=sys.stderr)
+        return 2
+    with file:
         for k in range(last):
             now = {}
             for identity, (begin, states) in objects.items():

@@ -149,7 +149,7 @@ std::vector<StrategyResult> driven(const RunOptions& options, const Planned& pla
 void print_words(const std::vector<Planned>& plans, const std::vector<ScenarioResults>& all) {
   for (std::size_t s = 0; s < plans.size(); ++s) {
     const drives::Scenario& scenario = plans[s].scenario;
-    fmt::print("{}{}\n{}{}", plans.size() > 1 ? scenario.name + ": " : "", scenario.description,
+    fmt::print("{}{}\n{}{}", plans.size() > 1 ? scenario.name + ": " : "", drives::subject_of(scenario),
                recordings_text(all[s].results), startup_text(all[s].results, scenario.startup.cold));
   }
   fmt::print("{}", comparison_table(all));

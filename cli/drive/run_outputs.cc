@@ -13,6 +13,7 @@
 #include "cli/drive/startup_outputs.h"
 #include "cli/drive_progress.h"
 #include "cli/tracking_outputs.h"
+#include "drives/traced.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
 #include "report/drawing/render.h"
@@ -396,7 +397,7 @@ std::vector<std::string> picture_files(std::string_view strategy) {
 void write_pictures(const drives::Scenario& scenario, const std::vector<StrategyResult>& results,
                     const std::string& folder) {
   std::vector<report::page::IndexEntry> entries;
-  entries.push_back({scenario.description, "", "", comparison_table(results), {"summary.json"}});
+  entries.push_back({drives::subject_of(scenario), "", "", comparison_table(results), {"summary.json"}});
   const auto picture = [&](const std::string& name, const std::string& heading, const std::string& caption,
                            const std::string& svg) {
     report::drawing::write_picture(svg, folder + "/" + name + ".svg");

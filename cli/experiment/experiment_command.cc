@@ -52,6 +52,11 @@ void keep_freed_memory() {
 }
 
 int run_experiment(const ExperimentOptions& options) {
+  if (!options.truth.empty())
+    throw InputError(
+        {"command line", 0, "--truth", options.truth,
+         "is for `ttfusion run`, `launch` and `node`: an experiment draws the world of each replication, and "
+         "a trace is one world"});
   keep_freed_memory();
   experiments::mpi::Ranks ranks;
   if (ranks.size() > 1) return run_on_ranks(options, ranks);
@@ -94,6 +99,8 @@ void add_experiment(CLI::App& app, Action& action) {
       command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
   auto* resume = command->add_flag("--resume", options->resume, "Continue the results that are in --out");
   command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)")->check(named());
+  command->add_option("--truth", options->truth, "Refused: a trace is for `ttfusion run`, `launch` and `node`")
+      ->group("");
   drive::add_step_options(*command, options->steps);
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);

@@ -19,6 +19,7 @@ struct ExperimentOptions {
   std::string shard;
   std::vector<std::string> merge;
   std::optional<std::string> replay;
+  std::string truth;  // refused
   drive::StepOptions steps;
   unsigned jobs = 0;
   std::uint32_t replications = 0;  // 0: as many as in the file

@@ -62,7 +62,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}\n{}{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
+  fmt::print("{}\n{}{}{}", drives::subject_of(set.scenario), startup_text(results, set.scenario.startup.cold),
              comparison_table(results), real_time_text(result));
   if (!set.scenario.faults.empty())
     fmt::print("\n{}", drive::faults_text(name_of(set.strategy), result.faults, result.fault_free, set.cluster));

@@ -54,7 +54,8 @@ CommandOutline outline_of(const CLI::App& app, const std::string& name) {
   outline.about = app.get_description();
   outline.notes = app.get_footer();
   for (const CLI::Option* option : app.get_options())
-    (option->get_positional() ? outline.arguments : outline.options).push_back(outline_of(*option));
+    if (!option->get_group().empty())  // else it is there to be refused
+      (option->get_positional() ? outline.arguments : outline.options).push_back(outline_of(*option));
   for (const std::string_view folder : folders_of(name))
     for (std::string& file : shipped_names(folder)) outline.shipped.push_back(std::move(file));
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))

@@ -1,5 +1,7 @@
 #include "report/drive/scenario_words.h"
 
+#include <fmt/format.h>
+
 #include "core/errors.h"
 #include "core/strict_yaml.h"
 
@@ -14,6 +16,9 @@ ScenarioWords scenario_in(const recording::merge::MergedLogs& log) {
       YamlMap root = StrictYaml::parse(attachment.bytes, attachment.name).root(findings);
       if (!root.has("world") && !root.has("evaluate_from")) continue;
       words.description = root.text_or("description", "");
+      if (const std::string& trace = log.manifest().truth_name; !trace.empty())
+        words.description =
+            fmt::format("The world of {}, with the sensors and the tracker of {}", trace, log.manifest().scenario_name);
       const Duration from =
           root.duration_or("evaluate_from", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});
       words.duration = root.duration_or("duration", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});

@@ -14,7 +14,8 @@ drive=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt --no-pictures)
 # A world seen from the ground. Its ids are told, and the scenario's object is not there.
 expect 0 'truth of .*/lane_change.osi, a trace of GroundTruth as its messages show: 1 object in 401 messages over 8 s, seen from the ground' \
   "${drive[@]}" --truth "$work/lane_change.osi" --duration 8 --out "$work/a"
-says "the scenario's object is not there" 'position RMSE'
+says "the scenario's object is not there" 'position RMSE' 'The world of .*/lane_change.osi, with the sensors and the tracker of paper_scenario2'
+[[ $output != *'turns off'* ]] || fail "the description of a world that is not there: $output"
 python3 -c '
 import json, sys
 summary = json.load(open(sys.argv[1]))
@@ -67,6 +68,11 @@ expect 0 '1 object in .*, seen from vehicle 65535' "${drive[@]}" --truth "$work/
 says '^warning: .*vehicle 65535 moves'
 
 # Mistakes.
+output=$(python3 "$source/examples/osi_traces.py" queue "$work/no/folder/queue.osi" 2>&1)
+[[ $? -eq 2 && $output == "error: $work/no/folder/queue.osi: cannot be written: No such file or directory" ]] ||
+  fail "a trace into no folder: $output"
+expect 2 '--truth = .*queue.osi: is for `ttfusion run`, `launch` and `node`: an experiment draws the world of each' \
+  experiment "$source/experiments/process_noise.yaml" --truth "$work/queue.osi"
 expect 2 'must have a message, and is empty' "${drive[@]}" --truth /dev/null --out "$work/none"
 head -c 3000 "$work/lane_change.osi" >"$work/cut.osi"
 expect 2 'was cut off within message 15 at byte 2[0-9]*: a trace must be whole, and `head -c' \
