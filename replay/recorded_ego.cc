@@ -64,8 +64,8 @@ std::optional<EgoState> RecordedEgo::at(GlobalTime time) const {
 RecordedEgo recorded_ego_of(const recording::rows::EgoRows& rows, const std::string& file, ReplayConfig& config) {
   if (rows.poses) {
     if (config.tracker.odometry)
-      throw InputError(
-          {config.file, config.tracker.odometry_line, "tracker.odometry", "", "must be absent: " + file + " has poses"});
+      throw InputError({config.file, config.tracker.odometry_line, "tracker.odometry", "",
+                        "must be absent: " + file + " has poses"});
     fusion::ego::OdometryErrors exact;
     exact.speed_scale_sigma = exact.yaw_rate_bias_sigma = 0.0;
     return {rows, exact};

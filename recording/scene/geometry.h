@@ -28,7 +28,7 @@ std::array<Point, 4> rectangle(const Place& place, double length, double width);
 // Returns the edge of a field in the sensor's axes: an arc at its longest range, and back at its shortest.
 std::vector<Point> edge(const ViewedField& field);
 // Returns the place of an object `seconds` later, in the axes that the vehicle has then. The object drives straight along its
-// heading with `speed`. That is over ground if `own` is the vehicle's motion; it is relative to the vehicle without a motion.
+// heading with `speed`, over ground. With an `own` motion of zero, the speed is relative to the vehicle.
 Place moved_on(const Place& place, double speed, const OwnMotion& own, double seconds);
 
 // Returns the points, given in the axes of `mounting`, in the vehicle's.

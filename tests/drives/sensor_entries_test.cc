@@ -129,7 +129,7 @@ TEST(SensorEntries, SayHowPicturesShowThem) {
   EXPECT_THAT(styles("sensors: {camera: {colour: green}}\n"), ElementsAre(Style{}, Style{}, Style{"", "green", ""}));
 }
 
-// Leaves the odometry out of what the tasks with this step read.
+// Takes the odometry from the tasks with this step.
 schedules::model::Cluster without_odometry(std::string_view step) {
   schedules::model::Cluster cluster = schedules::file::load_cluster(kFolder + "moving_synchronised.yaml");
   cluster.file = "moving.yaml";

@@ -17,7 +17,7 @@ namespace ttf::recording::exports::viewer {
 namespace {
 
 constexpr const char* kVehicle = "vehicle";
-constexpr std::uint16_t kNoTopic = 0;  // of odometry, which has no observations
+constexpr std::uint16_t kNoTopic = 0;  // odometry has no observations
 // Longer than any period of its topic that the shipped schedules have.
 constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife = Duration::milliseconds(300), kForever{};
 

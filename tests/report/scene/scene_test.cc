@@ -148,7 +148,7 @@ TEST(Scene, ADrivingVehicleMovesTheTracksOnByItsOwnMotion) {
   Records log;
   log.odometry(990, 10.0, 0.5);
   log.image(1000, {Records::track(7, 30.0, 0.0)});
-  log.odometry(1040, 11.0, 0.0);  // of the next image
+  log.odometry(1040, 11.0, 0.0);  // the next image has it
   const View view = view_at(log.sink.finished(), ms(1200));
   ASSERT_THAT(view.tracks, SizeIs(1));
   // The vehicle has come to (20 sin 0.1, 20 (1 - cos 0.1)), and its axes have turned by 0.1 rad.
