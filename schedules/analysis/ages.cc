@@ -255,10 +255,10 @@ std::string ages_text(const model::Cluster& cluster) {
     if (path.reaches_use) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
   }
   for (const AgePath& path : odometry) {
-    text += fmt::format("{}: odometry, never held for order\n", cluster.sensor(path.sensor).name);
+    text += fmt::format("{}\n", cluster.sensor(path.sensor).name);
     for (const Contribution& part : path.to_fusion) row("    " + part.name, part.best, part.worst);
     row("  available", path.fusion_best, path.fusion_worst);
-    row("  read", path.fused_best, path.fused_worst);
+    row("  read; it is not held for order", path.fused_best, path.fused_worst);
   }
   return text;
 }
