@@ -59,9 +59,8 @@ void Surroundings::show(Observer& observer, const Scenario& scenario, const sche
 std::string motion_warning(const Scenario& scenario, const schedules::model::Cluster& cluster) {
   if (is_recorded(cluster) || nodes::fusion::fused_odometry(cluster) != kNoSensor) return "";
   const std::string without = fmt::format(
-      "moves, and {} has no odometry that its fusion reads: its tracks have velocities relative to the vehicle, and "
-      "the "
-      "truth has them over ground",
+      "moves, and {} has no odometry that its fusion reads: its tracks have velocities relative to the vehicle, "
+      "and the truth has them over ground",
       cluster.file);
   if (scenario.truth) {
     if (!scenario.truth->host || !moves(scenario.truth->host->vehicle)) return "";

@@ -3,7 +3,8 @@
 //   at       float64 [s]      one a moment; "count", uint16, has the parts of each
 //   x, y     int16            in units of "unit" [m]
 //   heading  int16            [pi / 32768]
-//   speed    int16 [cm/s], yaw_rate float32 [rad/s], length and width uint16 [cm], sigma_x and sigma_y uint16 [cm], correlation int8 [1/127]
+//   speed    int16 [cm/s], yaw_rate float32 [rad/s], length and width uint16 [cm], sigma_x and sigma_y uint16 [cm],
+//   correlation int8 [1/127]
 //
 // Values beyond their type are shown at its end.
 #pragma once

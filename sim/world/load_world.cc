@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -88,12 +90,13 @@ WorldConfig load_world(YamlMap& yaml) {
     yaml.fail("own_speed", "must be 0 or absent beside an ego, which has a speed of its own");
   SizeConfig size;
   if (auto all = yaml.map_if("size")) size = load_size(*all);
+  std::map<std::string, std::size_t> places;  // in `objects`, by name
   for (YamlMap& map : yaml.maps_if("objects")) {
     ObjectConfig object;
     object.name = map.text("name");
-    const auto same = std::ranges::find(config.objects, object.name, &ObjectConfig::name);
-    if (!object.name.empty() && same != config.objects.end())
-      map.fail("name", fmt::format("must differ from the name of objects[{}]", same - config.objects.begin()));
+    const auto [same, added] = places.try_emplace(object.name, config.objects.size());
+    if (!added && !object.name.empty())
+      map.fail("name", fmt::format("must differ from the name of objects[{}]", same->second));
     load_class(map, object);
     load_kind(map, object);
     if (auto on = map.map_if("at")) {
