@@ -36,12 +36,6 @@ double range_of(const SeenBox& outline, const linear::Vector<2>& axis, const lin
   return enter > leave || enter <= 0.0 ? kNever : enter;
 }
 
-sensors::Observation added(const sensors::Observation& observation, const linear::Matrix<3>& spread) {
-  sensors::Observation result = observation;
-  result.r += spread / observation.returns;
-  return result;
-}
-
 }  // namespace
 
 linear::Matrix<3> spread_of(const SeenBox& outline) {
@@ -85,9 +79,8 @@ linear::Matrix<3> spread_of(const SeenBox& outline) {
   return spread;
 }
 
-sensors::Observation with_spread(const sensors::Observation& observation, const Track& track,
-                                 const estimators::Estimator& estimator, const sensors::Mounting& mounting) {
-  if (observation.returns == 0) return observation;
+linear::Matrix<3> spread_of(const Track& track, const estimators::Estimator& estimator,
+                            const sensors::Mounting& mounting) {
   const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
   const CentrePosition centre = centre_position(track, estimate);
   SeenBox outline;
@@ -99,7 +92,19 @@ sensors::Observation with_spread(const sensors::Observation& observation, const 
   outline.turn_rate = headed && track.heading.known ? track.heading.rate : 0.0;
   outline.velocity = estimate.x.segment<2>(2) - mounting.velocity +
                      outline.turn_rate * on_its_left(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
-  return added(observation, spread_of(outline));
+  return spread_of(outline);
+}
+
+sensors::Observation with_spread(const sensors::Observation& observation, const linear::Matrix<3>& spread) {
+  sensors::Observation result = observation;
+  if (observation.returns > 0) result.r += spread / observation.returns;
+  return result;
+}
+
+sensors::Observation with_spread(const sensors::Observation& observation, const Track& track,
+                                 const estimators::Estimator& estimator, const sensors::Mounting& mounting) {
+  if (observation.returns == 0) return observation;
+  return with_spread(observation, spread_of(track, estimator, mounting));
 }
 
 sensors::Observation with_spread(const sensors::Observation& observation, const Extent& extent) {
@@ -107,7 +112,15 @@ sensors::Observation with_spread(const sensors::Observation& observation, const 
   SeenBox outline;
   outline.centre << observation.z(0), 0.0;  // to the spread, the bearing is no matter
   outline.box = {extent.size, kEighth};
-  return added(observation, spread_of(outline));
+  return with_spread(observation, spread_of(outline));
+}
+
+const linear::Matrix<3>& Spreads::of(std::size_t index, const Track& track, const estimators::Estimator& estimator,
+                                     const sensors::Mounting& mounting) {
+  OfTrack& known = of_track_[index];
+  if (known.list != list_ || known.position != mounting.position || known.velocity != mounting.velocity)
+    known = {list_, mounting.position, mounting.velocity, spread_of(track, estimator, mounting)};
+  return known.spread;
 }
 
 }  // namespace ttf::fusion::tracks

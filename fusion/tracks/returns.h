@@ -9,6 +9,10 @@
 // sight, which shows both of its sides.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/mounted.h"
 #include "fusion/tracks/track.h"
@@ -25,10 +29,40 @@ struct SeenBox {
 // Returns C. Around the sensor there is no outline, and C is zero.
 linear::Matrix<3> spread_of(const SeenBox& outline);
 
-// Returns the observation with C / n added, as one of this track; of one without returns, an equal one.
+// Returns C over the outline of this track, seen from a sensor that is mounted so.
+linear::Matrix<3> spread_of(const Track& track, const estimators::Estimator& estimator,
+                            const sensors::Mounting& mounting);
+
+// Returns the observation with C / n added; of one without returns, an equal one.
+sensors::Observation with_spread(const sensors::Observation& observation, const linear::Matrix<3>& spread);
+// The same, as one of this track.
 sensors::Observation with_spread(const sensors::Observation& observation, const Track& track,
                                  const estimators::Estimator& estimator, const sensors::Mounting& mounting);
 // The same, of an object that is new.
 sensors::Observation with_spread(const sensors::Observation& observation, const Extent& extent);
+
+// C of the tracks, for the observations of one list. C depends on the track and on the sensor, not on the observation. So it
+// is computed once, however many observations are tried with the track.
+class Spreads {
+ public:
+  explicit Spreads(std::size_t max_tracks) : of_track_(max_tracks) {}
+
+  // Forgets all of them, for a list.
+  void begin() { ++list_; }
+  // Forgets that of a track that changes, the index-th of its set.
+  void forget(std::size_t index) { of_track_[index].list = 0; }
+  // Returns spread_of() to the bit. It is valid until the next call.
+  const linear::Matrix<3>& of(std::size_t index, const Track& track, const estimators::Estimator& estimator,
+                              const sensors::Mounting& mounting);
+
+ private:
+  struct OfTrack {
+    std::uint64_t list = 0;  // for which the rest is; 0: for none
+    linear::Vector<2> position = linear::Vector<2>::Zero(), velocity = linear::Vector<2>::Zero();  // the sensor's
+    linear::Matrix<3> spread = linear::Matrix<3>::Zero();
+  };
+  std::uint64_t list_ = 0;
+  std::vector<OfTrack> of_track_;
+};
 
 }  // namespace ttf::fusion::tracks

@@ -11,6 +11,7 @@
 #include "fusion/tracks/anchoring.h"
 #include "fusion/tracks/existence.h"
 #include "fusion/tracks/overlaps.h"
+#include "fusion/tracks/polar_gate.h"
 
 namespace ttf::fusion::tracks {
 namespace {
@@ -50,11 +51,14 @@ int lists_elsewhere_before(sensors::SeenPoint seen) {
 Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
     : config_(config), estimator_(estimators::make_estimator(config)), max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
-      assignment_(max_observations, max_tracks_), places_(max_tracks_), distances_(max_tracks_),
+      assignment_(max_observations, max_tracks_), places_(max_tracks_), distances_(max_tracks_), spreads_(max_tracks_),
       joint_(config.association == config::Association::kJpda ? max_observations : 0,
              config.association == config::Association::kJpda ? max_tracks_ : 0),
       twins_(config, max_tracks_), visibility_(config, max_tracks_), taken_(max_observations),
       near_track_(max_observations), observation_of_(max_tracks_) {
+  bounds_ranges_ = config.filter == config::FilterKind::kExtended &&
+                   config.motion != config::MotionModel::kInteracting &&
+                   config.systematic == config::SystematicErrorsAre::kIgnored;
   candidates_.reserve(max_observations * max_tracks_);
   squares_.reserve(max_observations * max_tracks_);
   if (config.association == config::Association::kJpda) {
@@ -118,7 +122,10 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
     const sensors::Observation* counts = nullptr;
     if (z) {
       correct_heading(track, *z);
-      if (z->has_heading) distances_.forget(t);
+      if (z->has_heading) {
+        distances_.forget(t);
+        spreads_.forget(t);
+      }
       counts = &refer(track, t, *z, static_cast<std::size_t>(observation));
       distances_.forget(t);
     }
@@ -187,8 +194,9 @@ void Tracker::sum_innovations(const TrackSet& set, const sensors::ObservationLis
 
 // Outside the gate on one axis means outside the gate. This cheap bound comes first: with the track's reach, and then with
 // the distance of the observed point from its anchor. Most pairs end here, so that the rest is out of line.
-inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z, const sensors::Mounting& mounting,
+inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z, const linear::Vector<2>& sight,
                               std::size_t row, const association::Place& placed) {
+  const sensors::Mounting& mounting = z.from;
   const double gate = gate_[dimension_of(z.kind)];
   const bool is_position = z.kind == sensors::ObservationKind::kPosition;
   const auto outside = [&](double dx, double dy, double variance_x, double variance_y) {
@@ -206,12 +214,17 @@ inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z
                                z.r(1, 1) + spread_y))
       return;
   }
+  if (!is_position && bounds_ranges_) {
+    const linear::Matrix<3>* spread =
+        z.returns > 0 ? &spreads_.of(placed.track, set.tracks[placed.track], *estimator_, mounting) : nullptr;
+    if (beyond_gate(z, sight, placed, distance, spread, gate)) return;
+  }
   judge_pair(set.tracks[placed.track], z, row, static_cast<int>(placed.track), distance, mounting);
 }
 
 [[gnu::noinline]] void Tracker::judge_pair(const Track& track, const sensors::Observation& seen, std::size_t row,
                                            int column, const Distance* distance, const sensors::Mounting& mounting) {
-  const std::optional<sensors::Observation> spread = spread_on(track, seen);
+  const std::optional<sensors::Observation> spread = spread_on(track, static_cast<std::size_t>(column), seen);
   const sensors::Observation& z = spread ? *spread : seen;
   std::optional<sensors::Observation> moved;
   if (distance) moved = expected(z, *distance, mounting);
@@ -241,13 +254,18 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
   if (weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor, {}, list.vehicle);
   place(set, list);
   distances_.begin(set.tracks.size());
+  spreads_.begin();
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
-    const auto try_one = [&](const association::Place& placed) { try_pair(set, z, z.from, o, placed); };
-    if (z.kind == sensors::ObservationKind::kPosition)
+    linear::Vector<2> sight = linear::Vector<2>::Zero();  // of ranges alone
+    const auto try_one = [&](const association::Place& placed) { try_pair(set, z, sight, o, placed); };
+    if (z.kind == sensors::ObservationKind::kPosition) {
       places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, try_one);
-    else
-      std::for_each(places_.all().begin(), places_.all().end(), try_one);
+      continue;
+    }
+    const double bearing = z.z(1) + z.from.yaw;
+    sight << std::cos(bearing), std::sin(bearing);
+    std::for_each(places_.all().begin(), places_.all().end(), try_one);
   }
   assignment_.solve(candidates_, list.observations.size(), set.tracks.size());
   if (joint) joint_.solve(pairs_, list.observations.size(), set.tracks.size());
@@ -279,7 +297,7 @@ void Tracker::judge_existence(Track& track, std::size_t column, const sensors::O
   double ratio = 0.0;
   if (z) {
     const Distance* distance = distance_of(track, column, *z);
-    const std::optional<sensors::Observation> spread = spread_on(track, *z);
+    const std::optional<sensors::Observation> spread = spread_on(track, column, *z);
     const sensors::Observation& seen = spread ? *spread : *z;
     const std::optional<estimators::Fit> fit =
         estimator_->fit(track.estimate, distance ? expected(seen, *distance, z->from) : seen);
@@ -339,7 +357,7 @@ const sensors::Observation& Tracker::refer(Track& track, std::size_t column, con
   Referred& taken = taken_[row];
   taken.elsewhere = taken.moved = taken.spread = false;
   taken.from = track.anchor;
-  const std::optional<sensors::Observation> spread = spread_on(track, z);
+  const std::optional<sensors::Observation> spread = spread_on(track, column, z);
   track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
   if (distance)
     count_elsewhere(track, spread ? *spread : z, *distance,

@@ -113,7 +113,7 @@ class Tracker {
   void place(const TrackSet& set, const sensors::ObservationList& list);
   void associate(const TrackSet& set, const sensors::ObservationList& list);
   void sum_innovations(const TrackSet& set, const sensors::ObservationList& list);
-  void try_pair(const TrackSet& set, const sensors::Observation& observation, const sensors::Mounting& mounting,
+  void try_pair(const TrackSet& set, const sensors::Observation& observation, const linear::Vector<2>& sight,
                 std::size_t row, const association::Place& placed);
   void judge_pair(const Track& track, const sensors::Observation& observation, std::size_t row, int column,
                   const Distance* distance, const sensors::Mounting& mounting);
@@ -132,6 +132,12 @@ class Tracker {
     if (observation.returns == 0) return std::nullopt;
     return with_spread(observation, track, *estimator_, observation.from);
   }
+  // The same of a track of the present list's set, which it has not changed yet.
+  std::optional<sensors::Observation> spread_on(const Track& track, std::size_t column,
+                                                const sensors::Observation& observation) {
+    if (observation.returns == 0) return std::nullopt;
+    return with_spread(observation, spreads_.of(column, track, *estimator_, observation.from));
+  }
   std::optional<Distance> distance_of(const Track& track, const sensors::Observation& observation) const {
     return distance_to(track, *estimator_, observation, observation.from);
   }
@@ -140,13 +146,15 @@ class Tracker {
   config::TrackerConfig config_;
   std::shared_ptr<const estimators::Estimator> estimator_;  // stateless: copies of the tracker share it
   std::size_t max_observations_, max_tracks_;
-  double gate_[4] = {};  // by dimension of the observation
+  double gate_[4] = {};         // by dimension of the observation
+  bool bounds_ranges_ = false;  // beyond_gate() holds for the filter
   association::Assignment assignment_;
   std::vector<association::Candidate> candidates_;
   std::vector<double> squares_;  // nu' S^-1 nu of each candidate
   Innovations innovations_;
   association::NearPlaces places_;  // where the tracks' anchors are
   Distances distances_;
+  Spreads spreads_;
   association::JointAssociation joint_;  // without storage unless jpda
   std::vector<association::Pair> pairs_;
   std::vector<estimators::Explanation> explanations_;

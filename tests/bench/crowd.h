@@ -26,12 +26,16 @@ struct Outlines {
   Lanes lanes;
   sensors::SeenPoint point = sensors::SeenPoint::kEnd;
 
-  sensors::Observation of(const estimators::State& car, RandomStream& stream) const {
+  static tracks::Box box_of(const estimators::State& car) { return {{4.5, 1.8}, std::atan2(car(3), car(2))}; }
+  linear::Vector<2> middle_of(const estimators::State& car) const {
     const linear::Vector<2> centre = car.head<2>();
-    const tracks::Box box{{4.5, 1.8}, std::atan2(car(3), car(2))};
+    const tracks::Box box = box_of(car);
+    return tracks::point_of(tracks::anchor_of(point, centre, box.heading, {0.0, 0.0}), {}, centre, box)->at;
+  }
+  sensors::Observation of(const estimators::State& car, RandomStream& stream) const {
+    const linear::Vector<2> centre = car.head<2>(), at = middle_of(car);
+    const tracks::Box box = box_of(car);
     const bool end = point == sensors::SeenPoint::kEnd;
-    const tracks::Anchor anchor = tracks::anchor_of(point, centre, box.heading, {0.0, 0.0});
-    const auto at = tracks::point_of(anchor, {}, centre, box)->at;
     sensors::Observation z =
         position(at.x() + lanes.sigma * stream.normal(), at.y() + lanes.sigma * stream.normal(), lanes.sigma);
     z.seen = point;

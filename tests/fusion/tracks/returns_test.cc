@@ -8,7 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "fusion/metrics/chi_square.h"
 #include "fusion/tracks/anchoring.h"
+#include "fusion/tracks/polar_gate.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion::tracks {
@@ -84,6 +86,84 @@ TEST(Returns, AMeanOfManyHasLess) {
   const linear::Matrix<3> added = with_spread(one, extent).r - one.r;
   EXPECT_GT(added(0, 0), 0.1);
   EXPECT_TRUE((with_spread(four, extent).r - four.r).isApprox(0.25 * added, 1e-12));
+}
+
+// A car that a sensor sees at a drawn place, and that was seen by another one before.
+Track drawn_track(RandomStream& stream) {
+  Track track;
+  const double range = 3.0 + 60.0 * stream.uniform(), bearing = 2.4 * stream.uniform() - 1.2;
+  estimators::State x = estimators::State::Zero();
+  x << range * std::cos(bearing), range * std::sin(bearing), 8.0 * stream.normal(), 8.0 * stream.normal(), 0.0, 0.0;
+  estimators::Covariance p = estimators::Covariance::Zero();
+  p.diagonal() << 0.01 + 2.0 * stream.uniform(), 0.01 + 2.0 * stream.uniform(), 1.0, 1.0, 0.0, 0.0;
+  p(0, 1) = p(1, 0) = 0.9 * std::sqrt(p(0, 0) * p(1, 1)) * (2.0 * stream.uniform() - 1.0);
+  track.estimate = estimate_of(config::MotionModel::kConstantVelocity, x, p);
+  track.extent.size << 4.4, 1.8;
+  track.extent.covariance << 0.2, 0.02, 0.02, 0.05;
+  track.heading.known = stream.uniform() < 0.8;
+  track.heading.value = kPi * (2.0 * stream.uniform() - 1.0);
+  track.heading.variance = 0.1 * stream.uniform();
+  track.anchor = anchor_of(stream.uniform() < 0.5 ? sensors::SeenPoint::kEnd : sensors::SeenPoint::kSilhouette,
+                           x.head<2>(), track.heading.value, {1.0, 0.5});
+  return track;
+}
+
+TEST(Spreads, AreComputedOnceForATrackAndASensor) {
+  const auto estimator = estimators::make_estimator({});
+  RandomStream stream({3, 0, Purpose::kTest, 0, 0});
+  Track track = drawn_track(stream);
+  const sensors::Mounting front{{3.5, 0.0}}, corner{{3.5, 0.9}, 0.5};
+  Spreads spreads(2);
+  spreads.begin();
+  const linear::Matrix<3> before = spreads.of(1, track, *estimator, front);
+  EXPECT_EQ(before, spread_of(track, *estimator, front));
+  EXPECT_EQ(spreads.of(1, track, *estimator, corner), spread_of(track, *estimator, corner)) << "another sensor";
+  (void)spreads.of(1, track, *estimator, front);
+  track.extent.size(0) = 12.0;
+  EXPECT_EQ(spreads.of(1, track, *estimator, front), before) << "of the same list";
+  spreads.forget(1);
+  EXPECT_EQ(spreads.of(1, track, *estimator, front), spread_of(track, *estimator, front));
+  track.extent.size(0) = 4.0;
+  spreads.begin();
+  EXPECT_EQ(spreads.of(1, track, *estimator, front), spread_of(track, *estimator, front)) << "of the next list";
+}
+
+// What the cheap test excludes, the filter would, too; and it excludes nearly all that is far off.
+TEST(PolarGate, ExcludesNoPairThatIsInTheGate) {
+  const auto estimator = estimators::make_estimator({});
+  const double gate = metrics::chi_square_quantile(0.9973, 3);
+  RandomStream stream({4, 0, Purpose::kTest, 0, 0});
+  int inside = 0, beyond = 0, far = 0;
+  for (int draw = 0; draw < 20'000; ++draw) {
+    const Track track = drawn_track(stream);
+    const linear::Gaussian<2> at = estimator->position(track.estimate);
+    sensors::Observation z;
+    const sensors::Mounting from{{stream.normal(), stream.normal()}, stream.normal(), 0.0};
+    const linear::Vector<2> off = at.x - from.position;
+    const double scale = stream.uniform() < 0.5 ? 1.0 : 8.0;
+    z = radar(std::abs(off.norm() + scale * stream.normal()),
+              std::atan2(off.y(), off.x()) - from.yaw + scale * stream.normal() / off.norm(), 8.0 * stream.normal(),
+              0.05 + 0.3 * stream.uniform(), 0.002 + 0.02 * stream.uniform(), 5.0);
+    z.seen = sensors::SeenPoint::kSilhouette;
+    z.returns = static_cast<std::uint8_t>(stream.integer(0, 3));
+    z.from = from;
+    const linear::Matrix<3> spread = spread_of(track, *estimator, from);
+    const auto distance = distance_to(track, *estimator, z, from);
+    sensors::Observation judged = with_spread(z, spread);
+    if (distance) judged = expected(judged, *distance, from);
+    const auto squared = estimator->distance_squared(track.estimate, judged);
+    const double bearing = z.z(1) + from.yaw;
+    const bool excluded =
+        beyond_gate(z, {std::cos(bearing), std::sin(bearing)}, {at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), 5.0, 0},
+                    distance ? &*distance : nullptr, z.returns > 0 ? &spread : nullptr, gate);
+    if (!squared) continue;
+    inside += *squared <= gate ? 1 : 0;
+    beyond += excluded ? 1 : 0;
+    far += *squared > 4.0 * gate ? 1 : 0;
+    ASSERT_FALSE(excluded && *squared <= gate) << draw << ": " << *squared;
+  }
+  EXPECT_GT(inside, 2000);
+  EXPECT_GT(beyond, far / 2);
 }
 
 // A car drives off, and a radar alone tells of one to four of its points. Its tracks are as certain as they say.
