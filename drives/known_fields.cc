@@ -10,8 +10,10 @@ namespace {
 
 using fusion::sensors::Field;
 
+// A sensor that is switched off reaches nothing.
 Field with_blind(Field field, const sim::world::Device& device) {
   static_assert(Field::kMostBlind == sim::world::BlindSides::kMost);
+  if (!device.enabled) field.max_range = 0.0;
   field.blind_sectors = device.blind.count;
   for (std::size_t i = 0; i < device.blind.count; ++i)
     field.blind[i] = {device.blind.sectors[i].from, device.blind.sectors[i].to};
@@ -53,7 +55,7 @@ fusion::config::TrackerConfig tracker_of(const Scenario& scenario, const schedul
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     fusion::sensors::KnownSensor& known = tracker.sensors[s];
     const schedules::model::Sensor& sensor = cluster.sensors[s];
-    if (!known.field) known.field = field_of(scenario.sensors, sensor);
+    if (!known.field || !scenario.sensors.enabled(sensor)) known.field = field_of(scenario.sensors, sensor);
     if (sensor.kind == schedules::model::SensorKind::kRadar && known.range_rate_span == Field::kUnbounded)
       known.range_rate_span = scenario.sensors.radars.of(sensor.name).model.rate_span_mps;
   }

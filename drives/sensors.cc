@@ -160,6 +160,17 @@ class Check {
 
 }  // namespace
 
+bool Sensors::enabled(const schedules::model::Sensor& sensor) const {
+  switch (sensor.kind) {
+    case SensorKind::kLaser: return lasers.of(sensor.name).model.device.enabled;
+    case SensorKind::kCamera: return cameras.of(sensor.name).model.device.enabled;
+    case SensorKind::kRadar: return radars.of(sensor.name).model.device.enabled;
+    case SensorKind::kMonoCamera: return mono_cameras.of(sensor.name).model.device.enabled;
+    case SensorKind::kOdometry: break;
+  }
+  return true;
+}
+
 Sensors load_sensors(YamlMap& yaml) {
   Sensors sensors;
   load_usual(yaml, SensorKind::kLaser, sensors.lasers);

@@ -69,6 +69,9 @@ struct Sensors {
   SensorsOfKind<sim::world::RadarConfig, nodes::radar::RadarPreprocessingConfig> radars;
   SensorsOfKind<sim::world::MonoCameraConfig, nodes::camera::MonoCalibration> mono_cameras;
   SensorsOfKind<sim::world::OdometryConfig, nodes::sensing::OdometryPreprocessingConfig> odometries;
+
+  // Returns whether the sensor measures; odometry always does.
+  bool enabled(const schedules::model::Sensor& sensor) const;
 };
 
 // Reads `sensors`, and into the result `preprocessing`.

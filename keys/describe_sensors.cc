@@ -6,6 +6,8 @@ namespace {
 // Every sensor has these, whatever its kind.
 constexpr Description kSensor[] = {
     {"kind", "The entry is of this kind, as its name says."},
+    {"enabled",
+     "The sensor measures; false switches it off: its lists are empty, and the fusion expects nothing of it."},
     {"mounting", "The sensor sits here on the vehicle; absent, at its origin."},
     {"time_bias", "The sensor measures this long after the instant of its time stamp."},
     {"time_bias_sigma", "Each drive draws a further bias of the time stamp with this standard deviation."},

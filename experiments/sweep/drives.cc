@@ -43,9 +43,10 @@ std::string_view kind_words(std::string_view key) {
 }
 
 // The recursion of expected errors knows no range rates.
-bool measures_positions_alone(const schedules::model::Cluster& cluster) {
-  return std::none_of(cluster.sensors.begin(), cluster.sensors.end(), [](const schedules::model::Sensor& sensor) {
-    return sensor.kind == schedules::model::SensorKind::kRadar;
+bool measures_positions_alone(const PreparedDrive& drive) {
+  const auto& sensors = drive.cluster.sensors;
+  return std::none_of(sensors.begin(), sensors.end(), [&](const schedules::model::Sensor& sensor) {
+    return sensor.kind == schedules::model::SensorKind::kRadar && drive.scenario.sensors.enabled(sensor);
   });
 }
 
@@ -229,7 +230,7 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     std::vector<recording::records::Sink*> sinks{&measures};
     std::optional<ExpectedError> expected;
     if ((asked_for("face_mse_expected") || asked_for("position_mse_expected")) &&
-        ExpectedError::is_defined(drive.scenario) && measures_positions_alone(drive.cluster))
+        ExpectedError::is_defined(drive.scenario) && measures_positions_alone(drive))
       sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);

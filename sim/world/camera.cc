@@ -57,6 +57,7 @@ CameraConfig load_camera(YamlMap& yaml) {
   c.disparity_bias.fixed = yaml.number_or("disparity_bias", 0.0, {-5.0, 5.0}, "px");
   c.disparity_bias.sigma = yaml.number_or("disparity_bias_sigma", 0.0, {0.0, 5.0}, "px");
   c.device = load_device(yaml);
+  if (!c.device.enabled) c.clutter_per_frame = 0.0;
   return c;
 }
 

@@ -100,6 +100,10 @@ MonoCameraConfig load_mono_camera(YamlMap& yaml) {
   c.pitch.fixed = yaml.number_or("pitch", 0.0, {-0.05, 0.05}, "rad");
   c.pitch.sigma = yaml.number_or("pitch_sigma", 0.0, {0.0, 0.02}, "rad");
   c.device = load_device(yaml);
+  if (!c.device.enabled) {
+    c.clutter_per_frame = c.marks.false_per_list = 0.0;
+    c.marks.miss_probability = 1.0;
+  }
   return c;
 }
 

@@ -22,6 +22,7 @@ void see_from(const Placement& placement, std::vector<ObjectState>& objects) {
 
 Device load_device(YamlMap& yaml) {
   Device device;
+  device.enabled = yaml.boolean_or("enabled", true);
   if (auto mounting = yaml.map_if("mounting")) {
     device.placement.x = mounting->number_or("x", 0.0, {-50.0, 50.0}, "m");
     device.placement.y = mounting->number_or("y", 0.0, {-50.0, 50.0}, "m");
@@ -37,6 +38,10 @@ Device load_device(YamlMap& yaml) {
       device.blind.sectors[device.blind.count++] = {from, to};
     else
       yaml.fail("blind", fmt::format("must have at most {} sectors", BlindSides::kMost));
+  }
+  if (!device.enabled) {
+    device.blind = {.count = 1};
+    device.blind.sectors[0] = {-std::numbers::pi, std::numbers::pi};
   }
   return device;
 }

@@ -26,13 +26,15 @@ struct DriveError {
   double fixed = 0.0, sigma = 0.0;
 };
 
-// The properties of every sensor. The stamp errs by `time` [s]: a measurement stamped t was made at t + time.
+// The properties of every sensor. The stamp errs by `time` [s]: a measurement stamped t was made at t + time. One that is not
+// enabled is blind all around, and its lists are empty.
 struct Device {
   Placement placement;
   DriveError time;
   BlindSides blind;
+  bool enabled = true;
 };
-// Reads `mounting`, `time_bias`, `time_bias_sigma` and `blind`.
+// Reads `enabled`, `mounting`, `time_bias`, `time_bias_sigma` and `blind`.
 Device load_device(YamlMap& yaml);
 // Reads `time_bias` and `time_bias_sigma` [s].
 DriveError load_time_error(YamlMap& yaml);

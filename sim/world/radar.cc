@@ -69,6 +69,7 @@ RadarConfig load_radar(YamlMap& yaml) {
   c.rate_bias.fixed = yaml.number_or("range_rate_bias", 0.0, {-5.0, 5.0}, "m/s");
   c.rate_bias.sigma = yaml.number_or("range_rate_bias_sigma", 0.0, {0.0, 5.0}, "m/s");
   c.device = load_device(yaml);
+  if (!c.device.enabled) c.clutter_per_list = 0.0;
   return c;
 }
 
