@@ -257,7 +257,7 @@ void Tracker::associate(const TrackSet& set, const sensors::ObservationList& lis
   spreads_.begin();
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
-    linear::Vector<2> sight = linear::Vector<2>::Zero();  // of ranges alone
+    linear::Vector<2> sight = linear::Vector<2>::Zero();  // positions need none
     const auto try_one = [&](const association::Place& placed) { try_pair(set, z, sight, o, placed); };
     if (z.kind == sensors::ObservationKind::kPosition) {
       places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, try_one);

@@ -1,8 +1,11 @@
 // Simulated radars in a whole cluster, from echoes to images, in each weather and with blind sides.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
+#include "core/yaml_edit.h"
 #include "drives/known_fields.h"
 #include "tests/drives/drive_fixture.h"
 
@@ -42,6 +45,44 @@ TEST_P(RadarDrive, FollowsThemByRadarAlone) {
   EXPECT_LT(summary.position_rmse_truth, 2.0);
   EXPECT_GT(summary.own.innovations, 0.4);  // judged with too much care: docs/radar.md
   EXPECT_LT(summary.own.innovations, 1.3);
+}
+
+// Counts the observations of each sensor.
+class Observations final : public recording::records::Sink {
+ public:
+  using recording::records::Sink::on;
+  void on(const recording::records::ObservationSeen& seen) override { ++of[index_of(seen.id.sensor)]; }
+  std::array<int, 8> of{};
+};
+
+std::string switched_off(const std::string& text, const std::vector<std::string>& sensors) {
+  std::string edited = text;
+  for (const std::string& sensor : sensors)
+    edited = with_value(edited, "four_kinds.yaml", "sensors." + sensor + ".enabled", "false");
+  return edited;
+}
+
+// Their lists are empty, in any weather, and the tracker expects nothing of them.
+TEST(SwitchedOff, SensorsOfEveryKindMeasureNothing) {
+  const Drive whole("scenarios/four_kinds.yaml", StrategyKind::kAdva);
+  const std::vector<std::string> sensors{"laser", "mono_camera", "stereo_camera", "radar"};
+  for (std::size_t on = 0; on < sensors.size(); ++on) {
+    std::vector<std::string> off = sensors;
+    off.erase(off.begin() + static_cast<std::ptrdiff_t>(on));
+    Drive drive = whole;
+    drive.scenario =
+        parse_scenario(with_value(switched_off(whole.scenario.text, off), "four_kinds.yaml", "world.weather", "rain"),
+                       whole.scenario.file);
+    drive.scenario.duration = Duration::milliseconds(1000);
+    const fusion::config::TrackerConfig tracker = tracker_of(drive.scenario, drive.cluster);
+    Observations seen;
+    drive.run(seen);
+    for (std::size_t s = 0; s < sensors.size(); ++s) {
+      const auto id = index_of(*drive.cluster.find_sensor(sensors[s]));
+      EXPECT_EQ(seen.of[id] > 0, s == on) << sensors[s] << ", with " << sensors[on] << " alone";
+      EXPECT_EQ(tracker.sensors[id].field->max_range > 0.0, s == on) << sensors[s];
+    }
+  }
 }
 
 TEST(RadarLate, EveryMethodIsNearlyRewinding) {

@@ -33,7 +33,9 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "moving_unsynchronised",
                                                "moving_synchronised",
                                                "laser_and_radar_unsynchronised",
-                                               "laser_and_radar_synchronised"};
+                                               "laser_and_radar_synchronised",
+                                               "four_kinds_unsynchronised",
+                                               "four_kinds_synchronised"};
   return kNames;
 }
 

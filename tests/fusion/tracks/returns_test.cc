@@ -128,7 +128,7 @@ TEST(Spreads, AreComputedOnceForATrackAndASensor) {
   EXPECT_EQ(spreads.of(1, track, *estimator, front), spread_of(track, *estimator, front)) << "of the next list";
 }
 
-// What the cheap test excludes, the filter would, too; and it excludes nearly all that is far off.
+// The filter would exclude the same pairs, too. Most pairs that are far off are among them.
 TEST(PolarGate, ExcludesNoPairThatIsInTheGate) {
   const auto estimator = estimators::make_estimator({});
   const double gate = metrics::chi_square_quantile(0.9973, 3);
