@@ -72,6 +72,9 @@ def interval(mean, half_width, sign=""):
 
 
 def brief(value, sign=""):
+    """A figure without an interval; where no drive has one, as the error of an object that none tracks, a dash."""
+    if value is None:
+        return "-"
     return f"{value:{sign}.{decimals(value, None)}f}" if value else "0"
 
 

@@ -57,6 +57,16 @@ class Tables(unittest.TestCase):
         self.assertEqual(table("means age error of free tt; where: road=icy, density=1; names: age=age [ms]"),
                          "| paradigm | age [ms] | error |\n|---|---|---|\n| free | 35.0 | 1.50 |\n| tt | 42.0 | 2.00 |\n")
 
+    def test_a_figure_that_no_drive_has_is_a_dash(self):
+        made = answer()
+        made["points"][0]["paradigms"]["tt"]["error"] = estimate(None, None)
+        text = result_tables.Table(result_tables.Directive("values error of tt; where: road=dry"), made).text()
+        self.assertIn("| 1 | - |\n| 100 | 2.00 ± 0.20 |", text)
+
+    def test_means_are_of_the_drives_that_have_a_value(self):
+        self.assertEqual(results.mean([1.0, float("nan"), 3.0]), 2.0)
+        self.assertNotEqual(results.mean([float("nan")]), results.mean([float("nan")]))
+
     def test_changes_and_interactions_of_an_axis(self):
         def percent(mean, half):
             return {"mean": mean, "low": mean - half, "high": mean + half}
