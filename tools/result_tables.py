@@ -72,7 +72,7 @@ def interval(mean, half_width, sign=""):
 
 
 def brief(value, sign=""):
-    """A figure without an interval; where no drive has one, as the error of an object that none tracks, a dash."""
+    """Writes a figure without an interval. It is a dash if no drive has one."""
     if value is None:
         return "-"
     return f"{value:{sign}.{decimals(value, None)}f}" if value else "0"

@@ -133,7 +133,7 @@ def kept_rows(page):
 
 
 def mean(values):
-    """Of the drives that have a value: an object that is never tracked has no error."""
+    """Averages the drives that have a value. An object that is never tracked has no error."""
     values = [value for value in values if not math.isnan(value)]
     return sum(values) / len(values) if values else float("nan")
 
