@@ -89,6 +89,10 @@ constexpr Description kRadarPreprocessing[] = {
     {"across_gate",
      "They differ across the line of sight by no more than this, and three standard deviations of their azimuths."},
     {"range_rate_gate", "They differ in range rate by no more than this."},
+    {"transverse_speed",
+     "Objects pass the sensor across the line of sight this fast at most: by as much for each radian between them, "
+     "returns of "
+     "one object may differ more in range rate."},
 };
 
 constexpr Description kMonoCamera[] = {
@@ -165,6 +169,9 @@ constexpr Description kLaserPreprocessing[] = {
      "A group of returns is split at a step this deep, if two outlines fit it and one does not; 0: never."},
     {"thinnest", "A group of returns that is all in view and thinner is no vehicle; 0: none is too thin."},
     {"roughest", "A group of returns is no vehicle if its best outline leaves more than this, root mean square."},
+    {"cut_silhouettes",
+     "An object is told, too, of which the field's edge or something nearer hides an end, and no face or corner is "
+     "seen."},
 };
 
 constexpr Description kCameraPreprocessing[] = {

@@ -51,6 +51,7 @@ constexpr Description kTracker[] = {
     {"odometry.acceleration_sigma", "The vehicle's acceleration after the newest sample has this standard deviation."},
     {"odometry.yaw_acceleration_sigma",
      "The vehicle's yaw acceleration after the newest sample has this standard deviation."},
+    {"odometry.slip", "In a bend, the rear tyres slip by this angle for each m/s^2 of lateral acceleration."},
     {"odometry.lever", "The noise of the yaw rate moves objects at this distance; nearer ones move less."},
     {"odometry.longest_age", "The odometry has stopped when its newest sample is older than this."},
     {"extent_noise", "The length and width of an object wander with this spectral density."},

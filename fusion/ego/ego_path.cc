@@ -16,15 +16,18 @@ using linear::Vector;
 
 double square(double x) { return x * x; }
 
-// Returns int speed (cos h, sin h) over `seconds`, where the heading h begins at zero, and speed and yaw rate change linearly.
-Vector<2> travelled(double speed, double by_speed, double yaw_rate, double by_yaw_rate, double seconds) {
+// Returns int v (cos h, sin h) - slip v^2 w (-sin h, cos h) over `seconds`, where the heading h begins at zero, and the speed v
+// and the yaw rate w change linearly.
+Vector<2> travelled(double speed, double by_speed, double yaw_rate, double by_yaw_rate, double slip, double seconds) {
   constexpr double kInner = 0.33998104358485626, kOuter = 0.86113631159405258;  // sqrt(3/7 -+ 2/7 sqrt(6/5))
   constexpr double kHeavy = 0.32607257743127307, kLight = 0.17392742256872693;  // (18 +- sqrt(30)) / 72
   constexpr double kNodes[] = {-kOuter, -kInner, kInner, kOuter}, kWeights[] = {kLight, kHeavy, kHeavy, kLight};
   Vector<2> sum = Vector<2>::Zero();
   for (int i = 0; i < 4; ++i) {
     const double s = 0.5 * seconds * (1.0 + kNodes[i]), heading = (yaw_rate + 0.5 * by_yaw_rate * s) * s;
-    sum += kWeights[i] * seconds * (speed + by_speed * s) * Vector<2>(std::cos(heading), std::sin(heading));
+    const double v = speed + by_speed * s, c = std::cos(heading), sine = std::sin(heading);
+    sum += kWeights[i] * seconds * v * Vector<2>(c, sine);
+    if (slip != 0.0) sum -= kWeights[i] * seconds * slip * v * v * (yaw_rate + by_yaw_rate * s) * Vector<2>(-sine, c);
   }
   return sum;
 }
@@ -60,19 +63,22 @@ sensors::Mounting EgoPath::moved_on(const Knot& from, const OdometrySample* next
   if (next && next->at - from.sample.at <= errors_.longest_age) {
     const double whole = (next->at - from.sample.at).seconds();
     const double by_speed = (next->speed - speed) / whole, by_yaw_rate = (next->yaw_rate - yaw_rate) / whole;
-    way = travelled(speed, by_speed, yaw_rate, by_yaw_rate, dt);
+    way = travelled(speed, by_speed, yaw_rate, by_yaw_rate, errors_.slip, dt);
     turn += 0.5 * by_yaw_rate * dt * dt;
     speed += by_speed * dt;
     yaw_rate += by_yaw_rate * dt;
   } else {
     const motion::TurnMoments moments = motion::turn_moments(turn);
     way = speed * dt * Vector<2>(moments.c[0], moments.s[0]);
+    if (errors_.slip != 0.0) way += aside(speed, yaw_rate) * dt * Vector<2>(-moments.s[0], moments.c[0]);
   }
   sensors::Mounting vehicle;
   vehicle.position = from.position + sensors::turned(way, from.heading);
   vehicle.yaw = motion::to_half_turn(from.heading + turn);
   vehicle.yaw_rate = yaw_rate;
   vehicle.velocity = speed * Vector<2>(std::cos(vehicle.yaw), std::sin(vehicle.yaw));
+  if (errors_.slip != 0.0)
+    vehicle.velocity += aside(speed, yaw_rate) * Vector<2>(-std::sin(vehicle.yaw), std::cos(vehicle.yaw));
   return vehicle;
 }
 

@@ -5,7 +5,8 @@
 //   motion       linear    linear    as in s2
 //
 // Between two samples, speed and yaw rate are linear, and
-//   heading(t) = int yaw_rate,   position(t) = int speed (cos heading, sin heading).
+//   heading(t) = int yaw_rate,   position(t) = int speed (cos heading, sin heading) + aside (-sin heading, cos heading).
+// Aside is the drift of the rear axle (OdometryErrors::slip).
 // The first integral is exact. Four-point Gauss-Legendre quadrature takes the second one, with an error of eighth order in the
 // angle turned between samples. Beyond the newest sample, speed and yaw rate stay, and the way is an arc. So it was in a gap
 // that is longer than OdometryErrors::longest_age: lists that were placed while the odometry had stopped stay in their places.
@@ -66,6 +67,8 @@ class EgoPath {
     double heading = 0.0;
   };
   const Knot& at_index(std::size_t i) const { return knots_[(first_ + i) % knots_.size()]; }
+  // [m/s], of the rear axle's middle to the left.
+  double aside(double speed, double yaw_rate) const { return -errors_.slip * speed * speed * yaw_rate; }
   sensors::Mounting moved_on(const Knot& from, const OdometrySample* next, GlobalTime time) const;
 
   OdometryErrors errors_;

@@ -1,6 +1,7 @@
 // Odometry tells how a vehicle drives: the speed of its rear axle's middle along its x axis, and its yaw rate. Its errors are
 //   measured speed = (1 + speed_scale) speed + white noise,   measured yaw rate = yaw rate + yaw_rate_bias + white noise.
-// The slip of the rear axle is neglected.
+// In a bend the rear axle drifts outwards. With linear tyres, the angle of slip is a constant times the lateral acceleration
+// v w, so that the axle's middle moves at -slip v^2 w to the left.
 #pragma once
 
 #include "core/time.h"
@@ -24,6 +25,7 @@ struct OdometryErrors {
   // By so much the vehicle accelerates and turns harder unseen, after the newest sample.
   double acceleration_sigma = 2.0;                     // [m/s^2]
   double yaw_acceleration_sigma = 0.5;                 // [rad/s^2]
+  double slip = 0.0;                                   // [rad s^2/m], of the rear tyres; 0: they do not slip
   double lever = 50.0;                                 // [m], to the objects that the noise of the frame is stated for
   Duration longest_age = Duration::milliseconds(200);  // an older newest sample means that the odometry has stopped
 

@@ -78,6 +78,7 @@ ego::OdometryErrors load_odometry(YamlMap yaml) {
   e.yaw_rate_bias_sigma = yaml.number_or("yaw_rate_bias_sigma", e.yaw_rate_bias_sigma, {0.0, 0.5}, "rad/s");
   e.acceleration_sigma = yaml.number_or("acceleration_sigma", e.acceleration_sigma, {0.0, 50.0}, "m/s^2");
   e.yaw_acceleration_sigma = yaml.number_or("yaw_acceleration_sigma", e.yaw_acceleration_sigma, {0.0, 50.0}, "rad/s^2");
+  e.slip = yaml.number_or("slip", e.slip, {0.0, 0.1}, "rad s^2/m");
   e.lever = yaml.number_or("lever", e.lever, {0.0, 1000.0}, "m");
   e.longest_age =
       yaml.duration_or("longest_age", e.longest_age, {Duration::milliseconds(1), Duration::milliseconds(10'000)});

@@ -32,6 +32,7 @@ LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml) {
   c.parts.split_step_m = yaml.number_or("split_step", c.parts.split_step_m, {0.0, 5.0}, "m");
   c.shape.thinnest_m = yaml.number_or("thinnest", c.shape.thinnest_m, {0.0, 2.0}, "m");
   c.shape.roughest_m = yaml.number_or("roughest", c.shape.roughest_m, {0.01, 100.0}, "m");
+  c.cut_silhouettes = yaml.boolean_or("cut_silhouettes", c.cut_silhouettes);
   return c;
 }
 
@@ -100,6 +101,11 @@ void LaserPreprocessor::take(const Segment& segment, int splits, std::vector<Las
   if (shape == VehicleShape::kThin || shape == VehicleShape::kRough) {
     ++(shape == VehicleShape::kThin ? fates_.thin : fates_.rough);
     outlines_.push_back(points);
+    return;
+  }
+  const bool silhouette = object.seen == ttf::fusion::sensors::SeenPoint::kSilhouette;
+  if (!config_.cut_silhouettes && silhouette && (ends[0].hidden || ends[1].hidden)) {
+    ++fates_.cut;
     return;
   }
   out.push_back(object);

@@ -24,6 +24,9 @@ struct LaserPreprocessingConfig {
   double half_field_rad = 1.05;    // the scan reaches so far; an outline that it cuts has no end there
   int fewest_points = 3;           // smaller segments are no objects, nor are segments of a single beam
   double longest_extent_m = 12.0;  // longer segments are walls and hedges, not vehicles
+  // A silhouette that the field's edge or something nearer cuts is a part of its object. Its middle errs by up to half of
+  // the hidden part, in every scan while the vehicle drives past.
+  bool cut_silhouettes = true;
 };
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
 
@@ -35,6 +38,7 @@ struct SegmentFates {
   std::size_t large = 0;        // longer than longest_extent_m
   std::size_t thin = 0;         // thinner than a vehicle
   std::size_t rough = 0;        // no outline fits
+  std::size_t cut = 0;          // silhouettes with a hidden end, where these are left out
   std::size_t segments() const;
   SegmentFates& operator+=(const SegmentFates& other);
 };
@@ -44,11 +48,12 @@ struct NamedFate {
   std::string_view name, words;
   std::size_t SegmentFates::*count;
 };
-inline constexpr std::array<NamedFate, 5> kOtherFates{{{"small", "too few returns", &SegmentFates::small},
+inline constexpr std::array<NamedFate, 6> kOtherFates{{{"small", "too few returns", &SegmentFates::small},
                                                        {"single_beam", "single beams", &SegmentFates::single_beam},
                                                        {"large", "too long", &SegmentFates::large},
                                                        {"thin", "too thin", &SegmentFates::thin},
-                                                       {"rough", "too rough", &SegmentFates::rough}}};
+                                                       {"rough", "too rough", &SegmentFates::rough},
+                                                       {"cut", "cut", &SegmentFates::cut}}};
 
 class LaserPreprocessor {
  public:

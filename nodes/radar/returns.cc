@@ -17,6 +17,7 @@ RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml) {
   c.range_gate_m = yaml.number_or("range_gate", c.range_gate_m, {0.0, 50.0}, "m");
   c.across_gate_m = yaml.number_or("across_gate", c.across_gate_m, {0.0, 50.0}, "m");
   c.rate_gate_mps = yaml.number_or("range_rate_gate", c.rate_gate_mps, {0.0, 50.0}, "m/s");
+  c.transverse_speed_mps = yaml.number_or("transverse_speed", c.transverse_speed_mps, {0.0, 100.0}, "m/s");
   return c;
 }
 
@@ -29,10 +30,11 @@ bool ReturnJoiner::together(const Return& a, const Return& b) const {
   // Three standard deviations of a difference.
   constexpr double kThree = 4.25;
   const double range = std::min(a.range, b.range);
+  const double turn = std::abs(a.azimuth - b.azimuth);
   return std::abs(a.range - b.range) <= config_.range_gate_m &&
-         range * std::abs(a.azimuth - b.azimuth) <=
-             config_.across_gate_m + kThree * range * config_.azimuth_sigma_rad &&
-         std::abs(std::remainder(a.range_rate - b.range_rate, config_.rate_span_mps)) <= config_.rate_gate_mps;
+         range * turn <= config_.across_gate_m + kThree * range * config_.azimuth_sigma_rad &&
+         std::abs(std::remainder(a.range_rate - b.range_rate, config_.rate_span_mps)) <=
+             config_.rate_gate_mps + config_.transverse_speed_mps * turn;
 }
 
 // Range rates are averaged about the first return's: a fold may lie between them.

@@ -1,7 +1,9 @@
 // Joins a radar's returns to objects, one observation each.
 //
 // Returns are joined if range, distance across the line of sight and range rate differ by no more than their gates. The gates
-// hold for pairs, so that a chain of returns is one object. An object is at the mean of its n returns, with the standard
+// hold for pairs, so that a chain of returns is one object. Seen from a vehicle that drives past, the range rates of one object
+// differ by its velocity across the line of sight times the difference of azimuths: the gate of the range rate grows by
+// as much. An object is at the mean of its n returns, with the standard
 // deviations of the sensor over sqrt(n). Where the returns lie on the object is the tracker's matter, which knows its size and
 // heading (fusion/tracks/returns.h).
 #pragma once
@@ -22,6 +24,7 @@ struct RadarPreprocessingConfig {
   double range_gate_m = 5.0;     // a car's length
   double across_gate_m = 2.5;    // and three standard deviations of the azimuths' difference
   double rate_gate_mps = 1.0;
+  double transverse_speed_mps = 0.0;  // objects pass the sensor this fast, at most
 };
 RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml);
 

@@ -49,6 +49,26 @@ TEST(EgoPath, GoesOnAlongAnArc) {
   }
 }
 
+// At constant speed and yaw rate, the drift is the way without slip, turned by a quarter and times the slip angle.
+TEST(EgoPath, DriftsOutwardsWhereTyresSlip) {
+  OdometryErrors errors;
+  errors.slip = 0.005;
+  const double angle = -errors.slip * 8.0 * 0.4;
+  for (const std::int64_t last : {100, 2000}) {  // beyond the newest sample, and among samples
+    EgoPath plain({}), path(errors);
+    for (std::int64_t ms = 0; ms <= last; ms += 20) {
+      plain.accept({at_ms(ms), 8.0, 0.4});
+      path.accept({at_ms(ms), 8.0, 0.4});
+    }
+    const sensors::Mounting without = plain.at(at_ms(1500))->vehicle, vehicle = path.at(at_ms(1500))->vehicle;
+    const linear::Vector<2> drift(-without.position.y(), without.position.x());
+    EXPECT_LT((vehicle.position - without.position - angle * drift).norm(), 1e-11) << last;
+    EXPECT_NEAR(vehicle.yaw, without.yaw, 1e-15);
+    const linear::Vector<2> left(-std::sin(vehicle.yaw), std::cos(vehicle.yaw));
+    EXPECT_NEAR(left.dot(vehicle.velocity), 8.0 * angle, 1e-12);
+  }
+}
+
 // Law 1.
 TEST(EgoPath, IsFinalUntilTheNewestSample) {
   RandomStream draw({.seed = 1});

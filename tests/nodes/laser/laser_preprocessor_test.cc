@@ -121,6 +121,23 @@ TEST(LaserPreprocessor, AnEndBehindANearerObjectIsNoEndOfAFace) {
   }
 }
 
+// The field ends in the middle of a rear 30 m away.
+TEST(LaserPreprocessor, ASilhouetteThatIsCutMayBeLeftOut) {
+  LaserPreprocessingConfig config;
+  const std::vector<sim::world::ObjectState> cars = {car_at(30.0 * std::cos(1.05), 30.0 * std::sin(1.05), 1.05),
+                                                     car_at(30.0, 0.0, 0.0, 4.4, 1.8, 1)};
+  std::vector<LaserObject> objects;
+  LaserPreprocessor(config, kMostPoints).process(emulated_scan({}, cars, 0), objects);
+  EXPECT_EQ(objects.size(), 2U);
+  config.cut_silhouettes = false;
+  LaserPreprocessor leaves_out(config, kMostPoints);
+  leaves_out.process(emulated_scan({}, cars, 0), objects);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_LT(std::abs(objects[0].y), 1.0);
+  EXPECT_EQ(leaves_out.fates().cut, 1U);
+  EXPECT_EQ(leaves_out.fates().segments(), 2U);
+}
+
 TEST(LaserPreprocessor, KeysOfEarlierVersionsSayWhereTheyWent) {
   for (const char* key : {"nominal_length", "length_sigma", "nominal_width", "width_sigma"}) {
     const StrictYaml yaml = StrictYaml::parse(std::string("{") + key + ": 1}", "test.yaml");
