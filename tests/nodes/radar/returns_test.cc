@@ -35,14 +35,14 @@ TEST(RadarReturns, BeyondEachGateAreOfOthers) {
   EXPECT_EQ(joined({{50.0, 0.0, 0.0}, {50.0, 0.07, 0.0}}).size(), 2U);
 }
 
-// At 10 m, 0.3 rad are 3 m. A car there that the vehicle passes at 8 m/s has range rates 2.4 m/s apart.
+// At 10 m, 0.25 rad are 2.5 m. A car there that the vehicle passes at 8 m/s has range rates 2 m/s apart.
 TEST(RadarReturns, OfAnObjectThatIsPassedDifferInRangeRate) {
-  const std::vector<Return> passed = {{10.0, -1.4, -1.4}, {10.0, -1.7, 1.0}};
+  const std::vector<Return> passed = {{10.0, -1.4, -1.0}, {10.0, -1.65, 1.0}};
   EXPECT_EQ(joined(passed).size(), 2U);
   RadarPreprocessingConfig config;
   config.transverse_speed_mps = 8.0;
   EXPECT_EQ(joined(passed, config).size(), 1U);
-  EXPECT_EQ(joined({{10.0, -1.4, -1.4}, {10.0, -1.4, 1.0}}, config).size(), 2U) << "in one direction";
+  EXPECT_EQ(joined({{10.0, -1.4, -1.0}, {10.0, -1.4, 1.0}}, config).size(), 2U) << "in one direction";
 }
 
 TEST(RadarReturns, AFoldMayLieBetweenRangeRates) {
