@@ -32,19 +32,6 @@ double reach_of(const Track& track, const linear::Vector<2>& at, const sensors::
   return diagonal + std::sqrt(gate) * (by_heading + std::sqrt(track.extent.covariance.trace()));
 }
 
-bool far_off(const sensors::Observation& z, const association::Place& placed, const Extent& extent, double gate) {
-  constexpr double kMargin = 1.25, kNear = 2.0;  // sigma points are not linear, and the reach is that of two dimensions
-  const double x = placed.x - z.from.position.x(), y = placed.y - z.from.position.y(), reach = kMargin * placed.reach;
-  const double predicted = std::sqrt(x * x + y * y), nearest = predicted - reach;
-  if (nearest < kNear * reach + 1.0) return false;
-  const double bearing = z.z(1) + z.from.yaw, c = std::cos(bearing), s = std::sin(bearing);
-  const double dx = x - z.z(0) * c, dy = y - z.z(0) * s, apart = std::sqrt(dx * dx + dy * dy) - reach;
-  const double spread =
-      placed.variance_x + placed.variance_y + (z.returns > 0 ? 0.25 * extent.size.squaredNorm() / z.returns : 0.0);
-  const double by_bearing = spread / (nearest * nearest) + z.r(1, 1), by_range = spread + z.r(0, 0);
-  return apart > 0.0 && apart * apart > kMargin * gate * (by_range + z.z(0) * (predicted + reach) * by_bearing);
-}
-
 void Distances::begin(std::size_t tracks) {
   for (std::size_t t = 0; t < tracks; ++t) forget(t);
 }

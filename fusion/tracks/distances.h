@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "fusion/association/near_places.h"
 #include "fusion/tracks/anchoring.h"
 
 namespace ttf::fusion::tracks {
@@ -17,12 +16,6 @@ namespace ttf::fusion::tracks {
 // Returns how far [m] an observed point of the object may be from the track's anchor, which is `at`: by size, with the
 // uncertainty of size and heading up to this gate. The mounting is the observing sensor's.
 double reach_of(const Track& track, const linear::Vector<2>& at, const sensors::Mounting& mounting, double gate);
-
-// Returns whether a range and a bearing are outside the gate of a track for certain: both would have to err by more than the
-// gate allows for the distance between the two. Its bounds are of the track's variances, of the observed point on its object
-// (the place's reach), and of a radar's returns, a quarter of the squared diagonal. Where both are so near to the sensor that
-// directions say little, the answer is no. The exact distance takes a hundred times as long.
-bool far_off(const sensors::Observation& z, const association::Place& placed, const Extent& extent, double gate);
 
 class Distances {
  public:

@@ -204,7 +204,6 @@ inline void Tracker::try_pair(const TrackSet& set, const sensors::Observation& z
   };
   const auto beyond = [&](double distance) { return std::max(0.0, std::abs(distance) - placed.reach); };
   if (is_position && outside(beyond(z.z(0) - placed.x), beyond(z.z(1) - placed.y), z.r(0, 0), z.r(1, 1))) return;
-  if (!is_position && far_off(z, placed, set.tracks[placed.track].extent, gate)) return;
   const Distance* distance = nullptr;
   if (placed.reach > 0.0) {
     distance = distances_.of(placed.track, set.tracks[placed.track], *estimator_, z, mounting);

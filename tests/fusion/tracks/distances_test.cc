@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "fusion/tracks/returns.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion::tracks {
@@ -31,38 +30,6 @@ Track drawn(RandomStream& stream, double sigma_heading, SeenPoint anchored, cons
   track.heading.variance = sigma_heading * sigma_heading;
   track.anchor = anchor_of(anchored, x.head<2>(), track.heading.value, mounting.position);
   return track;
-}
-
-// Radar observations near and far from cars; what is far off is outside the gate.
-TEST(FarOff, IsOutsideTheGate) {
-  constexpr double kGate = 16.3;
-  const auto estimator = estimators::make_estimator({});
-  RandomStream stream({.seed = 2, .purpose = Purpose::kTest, .entity = 0, .index = 0});
-  int outside = 0, told = 0;
-  for (int draw = 0; draw < 20'000; ++draw) {
-    const sensors::Mounting mounting{{-0.9, 0.9}, 2.2};
-    const SeenPoint anchored = draw % 2 == 0 ? SeenPoint::kCorner : SeenPoint::kSilhouette;
-    const Track track = drawn(stream, 0.5 * stream.uniform(), anchored, mounting);
-    const linear::Gaussian<2> at = estimator->position(track.estimate);
-    const linear::Vector<2> sight = at.x - mounting.position;
-    sensors::Observation z = radar(std::max(0.5, sight.norm() + 10.0 * stream.normal()),
-                                   std::atan2(sight.y(), sight.x()) - mounting.yaw + 0.3 * stream.normal(),
-                                   sight.normalized().dot(state_of(track).segment<2>(2)), 0.1, 0.008, 0.05);
-    z.seen = SeenPoint::kSilhouette;
-    z.from = mounting;
-    z.returns = static_cast<std::uint8_t>(draw % 5);
-    const association::Place place{at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), reach_of(track, at.x, mounting, 11.8), 0};
-    const bool far = far_off(z, place, track.extent, kGate);
-    const sensors::Observation seen = with_spread(z, track, *estimator, mounting);
-    const std::optional<Distance> distance = distance_to(track, *estimator, seen, mounting);
-    const std::optional<double> squared =
-        estimator->distance_squared(track.estimate, distance ? expected(seen, *distance, mounting) : seen);
-    const bool is_outside = !squared || !(*squared <= kGate);
-    EXPECT_TRUE(is_outside || !far) << draw;
-    outside += is_outside;
-    told += far;
-  }
-  EXPECT_GT(told, outside / 10);
 }
 
 TEST(Reach, ContainsEveryPointOfACarWithASureHeading) {
