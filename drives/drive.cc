@@ -122,6 +122,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   check_late(scenario, cluster, strategy);
   check_fusion(cluster, strategy);
   check_sensors(scenario, cluster);
+  check_loop(scenario, cluster);
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -139,6 +140,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   check_late(scenario, cluster, config.strategy);
   check_fusion(cluster, config.strategy);
   check_sensors(scenario, cluster);
+  check_loop(scenario, cluster);
   std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;
@@ -159,6 +161,10 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
+  if (sim::world::vehicle::Driven* const driven = around.world ? around.world->world().driven() : nullptr)
+    simulation_config.actuate = [driven, start = drive_start(cluster)](const nodes::host::Actuation& actuation) {
+      driven->actuate({TrueTime{} + (actuation.from - start), actuation.acceleration, actuation.steering});
+    };
   simulation_config.others = config.others;
   simulation_config.compares_clocks = config.compares_clocks;
   simulation_config.cans_bit_by_bit = config.cans_bit_by_bit;

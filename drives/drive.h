@@ -58,6 +58,11 @@ void check_late(const Scenario& scenario, const schedules::model::Cluster& clust
 // Checks that the strategy works with the activation of the cluster's fusion task: TT does not if lists activate
 // it. Throws InputError; run_drive() calls it too.
 void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy);
+// Checks that commands drive the scenario's vehicle where the cluster has an actuator, and only there: one actuator, which is
+// done with a command before the vehicle answers, and sensors that see no future. Throws InputError; run_drive() calls it too.
+void check_loop(const Scenario& scenario, const schedules::model::Cluster& cluster);
+// Checks that a drive in real time has no vehicle that commands drive. Throws InputError.
+void check_open_loop(const Scenario& scenario);
 // Checks that the cluster describes tasks: a bus description passes the schedule's checks, but no node could run it. Throws
 // InputError; run_drive() calls it too.
 void check_described(const schedules::model::Cluster& cluster);

@@ -28,9 +28,10 @@ void Observer::follow(const sim::world::Reference& reference, const sim::world::
 void Observer::on(const recording::records::FusionStep& step) {
   if (reference_ == nullptr) return;
   while (true) {
-    const sim::world::Fix fix = reference_->fix(next_fix_, *world_);
     const Duration since_start = start_ - TrueTime{};
-    if (fix.available + since_start > step.stamp.true_time) return;
+    // The vehicle may not have been driven as far as a fix to come.
+    if (reference_->available(next_fix_) + since_start > step.stamp.true_time) return;
+    const sim::world::Fix fix = reference_->fix(next_fix_, *world_);
     recording::records::ReferenceFix record;
     record.measured_true = fix.measured + since_start;
     record.measured_local = LocalTime{record.measured_true.ns};

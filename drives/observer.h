@@ -1,5 +1,5 @@
 // Adds records that no node can make. The truth is recorded whenever a sensor measures and whenever the feature
-// service uses an image. With it goes that of the sensors' vehicle, unless it stands at the origin. A fix of the reference is
+// service uses an image, and whenever an actuator reads commands. With it goes that of the sensors' vehicle, unless it stands at the origin. A fix of the reference is
 // recorded when the fusion node first could have it.
 //
 // A truth record names the node and clock that set its instant (records::TruthState). Nodes that measure at one
@@ -31,6 +31,7 @@ class Observer final : public recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::Measured& measured) override { truth(measured.stamp); }
   void on(const recording::records::FeatureUsed& used) override { truth(used.stamp); }
+  void on(const recording::records::CommandTaken& taken) override { truth(taken.stamp); }
   void on(const recording::records::FusionStep& step) override;
 
  private:

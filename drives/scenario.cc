@@ -69,6 +69,14 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.feature = nodes::service::load_feature(*feature);
     feature->finish();
   }
+  if (auto cruise = root.map_if("adaptive_cruise_control")) {
+    scenario.cruise = nodes::driving::load_cruise(*cruise);
+    cruise->finish();
+  }
+  if (auto emergency = root.map_if("emergency_braking")) {
+    scenario.emergency = nodes::driving::load_emergency(*emergency);
+    emergency->finish();
+  }
   if (auto judgement = root.map_if("judgement")) {
     scenario.cut_off = fusion::loading::load_cut_off(*judgement);
     judgement->finish();

@@ -16,6 +16,8 @@
 #include "fusion/config/tracker_config.h"
 #include "fusion/metrics/cut_off.h"
 #include "fusion/strategies/strategy.h"
+#include "nodes/driving/adaptive_cruise_control.h"
+#include "nodes/driving/emergency_braking.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
@@ -47,6 +49,8 @@ struct Scenario {
   nodes::sensing::RecordedNoises recorded_noises;
   nodes::sensing::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
+  nodes::driving::CruiseConfig cruise;
+  nodes::driving::EmergencyConfig emergency;
   fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged
   // The world of another simulator, in place of all in `world` that moves (drives/traced.h); null: none.
   std::shared_ptr<const recording::osi::TruthTrace> truth;

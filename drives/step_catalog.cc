@@ -9,6 +9,9 @@
 #include "drives/drive.h"
 #include "drives/known_fields.h"
 #include "drives/played_recording.h"
+#include "nodes/driving/actuator.h"
+#include "nodes/driving/adaptive_cruise_control.h"
+#include "nodes/driving/emergency_braking.h"
 #include "nodes/foreign/foreign_step.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/host/signals.h"
@@ -25,6 +28,11 @@ namespace {
 
 std::string_view name_of(const schedules::model::Cluster& cluster, SensorId sensor) {
   return sensor == kNoSensor ? std::string_view() : cluster.sensor(sensor).name;
+}
+// Returns the sensors' vehicle; the usual one, where the scenario has none that drives.
+const sim::world::vehicle::EgoConfig& ego_of(const Scenario& scenario) {
+  static const sim::world::vehicle::EgoConfig kUsual;
+  return scenario.world.ego ? *scenario.world.ego : kUsual;
 }
 // Returns the name of the sensor whose raw list the task reads.
 std::string_view name_read(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
@@ -53,6 +61,9 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"fusion", {}, {}, true},
       {"image_output", {}, {"image"}, false},
       {"feature_service", {"image"}, {}, false, {"odometry"}},
+      {"adaptive_cruise_control", {"image", "odometry"}, {"command"}, false},
+      {"emergency_braking", {"image", "odometry"}, {"command"}, false},
+      {"actuator", {"command"}, {}, false, {"emergency"}},
   };
   return kPorts;
 }
@@ -155,6 +166,17 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       steps.push_back(std::make_shared<nodes::fusion::ImageOutput>(cluster, task, fusion_host()));
     } else if (task.step == "feature_service") {
       steps.push_back(std::make_shared<nodes::service::FeatureService>(cluster, task, scenario.feature));
+    } else if (task.step == "adaptive_cruise_control") {
+      nodes::driving::CruiseConfig cruise = scenario.cruise;
+      cruise.path.front_m = ego_of(scenario).front;
+      steps.push_back(std::make_shared<nodes::driving::AdaptiveCruiseControl>(cluster, task, cruise));
+    } else if (task.step == "emergency_braking") {
+      nodes::driving::EmergencyConfig emergency = scenario.emergency;
+      emergency.path.front_m = ego_of(scenario).front;
+      steps.push_back(std::make_shared<nodes::driving::EmergencyBraking>(cluster, task, emergency));
+    } else if (task.step == "actuator") {
+      steps.push_back(std::make_shared<nodes::driving::Actuator>(
+          cluster, task, ego_of(scenario).actuator.value_or(sim::world::vehicle::ActuatorConfig{})));
     } else if (schedules::model::names_library(task.step)) {
       steps.push_back(std::make_shared<nodes::foreign::ForeignStep>(cluster, node, task, config.steps));
     } else {

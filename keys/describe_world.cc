@@ -37,6 +37,22 @@ constexpr Description kEgo[] = {
     {"profile[].steering", "The front wheels turn to this angle; absent, it follows its lane.", "0.1"},
     {"profile[].lane", "The vehicle follows this lane, and changes to it where it is on another one.", "-2"},
     {"profile[].within", "A change takes this long, on half a wave of a cosine."},
+    {"actuator", "Commands on the bus drive the vehicle through this actuator, instead of `profile`."},
+    {"actuator.dead_time", "Nothing happens for this time after the actuator has read a command."},
+    {"actuator.lag", "Acceleration and front wheels approach a command with this time constant."},
+    {"actuator.gain", "The vehicle accelerates by this share of what it is asked for."},
+    {"actuator.largest_acceleration", "A command asks for no larger acceleration."},
+    {"actuator.largest_deceleration", "A command asks for no larger deceleration."},
+    {"actuator.largest_steering", "A command asks for no larger angle of the front wheels, to either side."},
+    {"actuator.oldest", "A command is refused whose instant is further off than this when it is read."},
+    {"actuator.without_command", "The actuator does this without commands, whatever keeps them away."},
+    {"actuator.without_command.reaction",
+     "The actuator goes on with the last command, lets it fade, or brakes with the wheels as they are."},
+    {"actuator.without_command.after", "The reaction begins this long after the last command began."},
+    {"actuator.without_command.decay", "A command fades with this time constant."},
+    {"actuator.without_command.deceleration", "The actuator brakes by this."},
+    {"front", "The front bumper is this far ahead of the rear axle: gaps begin there."},
+    {"width", "The vehicle is this wide."},
 };
 
 constexpr Description kRoad[] = {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/decimal_option.h"
+#include "cli/drive/driving_outputs.h"
 #include "cli/drive/fault_tables.h"
 #include "core/decimal.h"
 #include "core/errors.h"
@@ -158,10 +159,14 @@ DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model:
       measures_(drives::evaluation_start(scenario), evaluation::accuracy::kGate_m, until, scenario.cut_off),
       stages_(schedules::analysis::measurement_ages(cluster), strategy == fusion::strategies::StrategyKind::kBuff,
               drives::evaluation_start(scenario)),
-      startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {}
+      startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {
+  if (scenario.world.ego && scenario.world.ego->actuator)
+    driving_.emplace(driving_config(scenario), drives::evaluation_start(scenario));
+}
 
 std::vector<recording::records::Sink*> DriveJudge::sinks() {
   std::vector<recording::records::Sink*> sinks{&measures_, &stages_, &startup_};
+  if (driving_) sinks.push_back(&*driving_);
   if (!scenario_.faults.empty()) sinks.push_back(&faults_);
   return sinks;
 }
@@ -170,6 +175,7 @@ void DriveJudge::finish(StrategyResult& result) {
   result.summary = measures_.finish();
   result.stages = stages_.finish();
   result.startup = startup_.nodes();
+  if (driving_) result.driving = driving_->finish();
   faults_.finish(sim::crank::kFirstCycle + scenario_.duration);
   result.faults = faults_.findings();
   result.fault_free = fault_free_nodes(result.faults, plan_, cluster_);

@@ -12,6 +12,7 @@
 #include "evaluation/accuracy/drive_measures.h"
 #include "evaluation/ages/stage_account.h"
 #include "evaluation/cluster/startup_account.h"
+#include "evaluation/driving/driving_account.h"
 #include "evaluation/faults/fault_account.h"
 #include "nodes/foreign/libraries.h"
 #include "recording/log/manifest.h"
@@ -84,6 +85,7 @@ class DriveJudge {
   evaluation::accuracy::DriveMeasures measures_;
   evaluation::ages::StageAccount stages_;
   evaluation::cluster::StartupAccount startup_;
+  std::optional<evaluation::driving::DrivingAccount> driving_;  // if commands drive the vehicle
   evaluation::faults::FaultAccount faults_;
 };
 

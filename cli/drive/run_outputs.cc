@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/drive/driving_outputs.h"
 #include "cli/drive/fault_tables.h"
 #include "cli/drive/real_time_outputs.h"
 #include "cli/drive/recording_outputs.h"
@@ -278,6 +279,9 @@ std::string table_of(const std::vector<Column>& columns, std::size_t in_group) {
     if (any || !row.rare) table.add(std::move(cells));
   }
   for (std::vector<std::string>& row : can_loads(columns)) table.add(std::move(row));
+  std::vector<const StrategyResult*> results;
+  for (const Column& column : columns) results.push_back(column.result);
+  for (std::vector<std::string>& row : driving_rows(results)) table.add(std::move(row));
   return table.text();
 }
 
@@ -372,6 +376,7 @@ nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t s
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
+    if (result.driving) one["driving"] = driving_json(*result.driving);
     if (result.recording) one["recording"] = recording_json(result, scenario.tracker);
     if (result.real_time) one["real_time"] = real_time_json(result);
     if (!scenario.faults.empty()) {

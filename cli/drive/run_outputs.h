@@ -14,6 +14,7 @@
 #include "evaluation/accuracy/service_account.h"
 #include "evaluation/ages/stage_account.h"
 #include "evaluation/cluster/startup_account.h"
+#include "evaluation/driving/driving_account.h"
 #include "evaluation/faults/fault_account.h"
 #include "evaluation/lateness/lateness_account.h"
 #include "fusion/strategies/strategy.h"
@@ -26,8 +27,9 @@ struct StrategyResult {
   schedules::model::Cluster cluster;
   drives::DriveOutcome outcome;
   evaluation::accuracy::DriveSummary summary;
-  std::vector<evaluation::ages::SensorStages> stages;     // latency by stage, for each sensor
-  std::vector<evaluation::cluster::NodeStartup> startup;  // nodes that started up or changed their state
+  std::vector<evaluation::ages::SensorStages> stages;           // latency by stage, for each sensor
+  std::vector<evaluation::cluster::NodeStartup> startup;        // nodes that started up or changed their state
+  std::optional<evaluation::driving::DrivingFindings> driving;  // only where commands drive the vehicle
   evaluation::faults::FaultFindings faults;
   std::vector<NodeId> fault_free;                                   // until the end; nodes on FlexRay only
   std::optional<evaluation::lateness::RealTimeFindings> real_time;  // only for a drive in real time

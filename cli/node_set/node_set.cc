@@ -119,6 +119,7 @@ std::vector<NodeId> external_nodes(const std::string& text, const NodeSet& set) 
 }
 
 void check_fit_for_real_time(const NodeSet& set) {
+  drives::check_open_loop(set.scenario);
   if (auto findings = schedules::check::check_real_time(set.cluster, set.time_scale_ppm); !findings.empty())
     throw InputError(std::move(findings));
   if (!set.scenario.faults.empty())

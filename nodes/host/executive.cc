@@ -40,7 +40,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
       time_(config.node, config.oscillator, config.true_clock), records_(*config.cluster, time_, sink),
       wiring_(*config.cluster, node_, connect(flexray, cans), time_, records_),
       processor_(node_.tasks, {config.seed, config.replication, config.node}, time_, records_.counts()),
-      sensors_(*config.cluster, config.node, {config.seed, config.replication}, time_, lines),
+      sensors_(*config.cluster, config.node, {config.seed, config.replication}, time_, lines), lines_(lines),
       asleep_(flexray_ && !config.clock && config.cold == ColdStart::kSleeps) {
   TTF_CHECK(steps_.size() == node_.tasks.size(), "{} steps for {} tasks", steps_.size(), node_.tasks.size());
   if (flexray_ && config.clock) flexray_->start_integrated(*config.clock);
@@ -182,12 +182,14 @@ void Executive::run_step(const Processor::Running& running) {
   context.sink = &records_.sink();
   steps_[running.task]->run(context);
   records_.counts().unlisted_fates += context.unlisted;
+  actuation_ = context.actuation;
   wiring_.tell_discarded(running.task, start);
 }
 
 void Executive::finish(Microticks now) {
   const Processor::Running& ended = processor_.finish(now);
   wiring_.write(ended.task, ended.run.end);
+  if (actuation_) lines_.actuate(*std::exchange(actuation_, std::nullopt));
   records_.task_run(ended.run);
   processor_.activate_after(ended.task, now);
   if (!processor_.waits(ended.task)) sensors_.task_ended(ended.task);

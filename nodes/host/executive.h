@@ -151,6 +151,8 @@ class Executive final : private bus::controller::ControllerEvents {
   Wiring wiring_;
   Processor processor_;
   SensorEnds sensors_;
+  SensorLines& lines_;
+  std::optional<Actuation> actuation_;  // the running task's
   std::int64_t armed_cycle_ = -1;
   bool concerned_ = true;  // own_next_ must be computed anew
   Microticks own_next_{};  // next_event() without the controller's

@@ -19,12 +19,14 @@
 
 namespace ttf::nodes::host {
 
-// The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measurement.
+// The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measurement. Where commands
+// drive the vehicle, those from the actuator to it, too.
 class SensorLines {
  public:
   virtual ~SensorLines() = default;
   virtual void trigger(SensorId sensor) = 0;
   virtual void strobe(SensorId sensor, std::uint32_t sequence) = 0;
+  virtual void actuate(const Actuation& actuation) { (void)actuation; }
 };
 
 // The key from which phases are drawn that the cluster leaves open.

@@ -85,15 +85,24 @@ class StrobeLatch {
   std::size_t count_ = 0;  // strobes seen; the newest is entry (count_ - 1) % kDepth
 };
 
+// An actuator's demand on the vehicle, from a true instant after the end of its task on. It is an act beside the bus, as a
+// sensor's strobe is: it takes no slot.
+struct Actuation {
+  TrueTime from{};
+  double acceleration = 0.0;  // [m/s^2]
+  double steering = 0.0;      // [rad]
+};
+
 struct StepContext {
-  recording::records::Stamp stamp;       // the task's start on all clocks; true time is for emulators and records
-  bool global_time = true;               // if false, the node knows none, and the stamp has its own clock's
-  std::uint32_t activation = 0;          // number of earlier executions of the task
-  std::uint32_t measurement = 0;         // for sensor devices: the sequence number of this measurement
-  std::span<Input> inputs;               // in the order of the task's `reads`
-  std::span<Output> outputs;             // in the order of the task's `writes`
-  std::span<const StrobeLatch> strobes;  // by SensorId
-  std::uint64_t unlisted = 0;            // set by a step that had no room for all its records; counted
+  recording::records::Stamp stamp;          // the task's start on all clocks; true time is for emulators and records
+  bool global_time = true;                  // if false, the node knows none, and the stamp has its own clock's
+  std::uint32_t activation = 0;             // number of earlier executions of the task
+  std::uint32_t measurement = 0;            // for sensor devices: the sequence number of this measurement
+  std::span<Input> inputs;                  // in the order of the task's `reads`
+  std::span<Output> outputs;                // in the order of the task's `writes`
+  std::span<const StrobeLatch> strobes;     // by SensorId
+  std::uint64_t unlisted = 0;               // set by a step that had no room for all its records; counted
+  std::optional<Actuation> actuation = {};  // set by an actuator's step; it leaves at the task's end
   recording::records::Sink* sink = nullptr;
 };
 

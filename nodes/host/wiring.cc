@@ -8,12 +8,15 @@
 namespace ttf::nodes::host {
 namespace {
 
-// The fusion needs every sample of odometry. To the feature service the newest one is the vehicle's state.
+// The fusion needs every sample of odometry. To services the newest one is the vehicle's state. To an actuator the newest
+// command is the demand.
 bool tells_a_state(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const schedules::model::PortBinding& port) {
+  if (task.step == "actuator") return true;
   const SensorId sensor = cluster.pdu(port.pdu).sensor;
-  return task.step == "feature_service" && sensor != kNoSensor &&
-         cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
+  const bool serves =
+      task.step == "feature_service" || task.step == "adaptive_cruise_control" || task.step == "emergency_braking";
+  return serves && sensor != kNoSensor && cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ template <> struct PayloadOf<records::FeatureUsed> : std::type_identity<ttfusion
 template <> struct PayloadOf<records::ReferenceFix> : std::type_identity<ttfusion::Reference> {};
 template <> struct PayloadOf<records::TruthState> : std::type_identity<ttfusion::Truth> {};
 template <> struct PayloadOf<records::EgoTruth> : std::type_identity<ttfusion::Ego> {};
+template <> struct PayloadOf<records::Warning> : std::type_identity<ttfusion::Warning> {};
+template <> struct PayloadOf<records::CommandIssued> : std::type_identity<ttfusion::Command> {};
+template <> struct PayloadOf<records::CommandTaken> : std::type_identity<ttfusion::Actuator> {};
 template <> struct PayloadOf<records::StateChanged> : std::type_identity<ttfusion::StateChange> {};
 template <> struct PayloadOf<records::SymbolSent> : std::type_identity<ttfusion::Symbol> {};
 template <> struct PayloadOf<records::PowerChanged> : std::type_identity<ttfusion::Power> {};

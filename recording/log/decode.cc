@@ -238,6 +238,32 @@ records::TruthState record_of(const ttfusion::Truth& in, Reading& read) {
           read.id<NodeId>(in.node())};
 }
 
+records::Warning record_of(const ttfusion::Warning& in, Reading& read) {
+  return {read.stamp(in.stamp()), read.to<std::uint8_t>(in.service()), in.on(), read.id<TrackId>(in.track()),
+          in.time_to_collision()};
+}
+
+records::CommandIssued record_of(const ttfusion::Command& in, Reading& read) {
+  return {read.stamp(in.stamp()),
+          read.id<PduId>(in.pdu()),
+          in.sequence(),
+          in.valid(),
+          read.to<std::uint8_t>(in.reason()),
+          in.acceleration(),
+          in.steering(),
+          in.own_speed(),
+          in.gap(),
+          in.speed_ahead(),
+          read.id<TrackId>(in.track())};
+}
+
+records::CommandTaken record_of(const ttfusion::Actuator& in, Reading& read) {
+  return {read.stamp(in.stamp()), read.id<PduId>(in.pdu()),
+          in.sequence(),          read.to<std::uint8_t>(in.verdict()),
+          in.acceleration(),      in.steering(),
+          TrueTime{in.from()}};
+}
+
 records::EgoTruth record_of(const ttfusion::Ego& in, Reading& read) {
   return {TrueTime{in.at()},
           in.x(),

@@ -274,6 +274,41 @@ LogTimes encode(const records::TruthState& in, ttfusion::Truth& out) {
   return {in.at.ns, in.global.ns};
 }
 
+LogTimes encode(const records::Warning& in, ttfusion::Warning& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_service(in.service);
+  out.set_on(in.on);
+  out.set_track(number(in.track));
+  out.set_time_to_collision(in.time_to_collision_s);
+  return times_of(in.stamp);
+}
+
+LogTimes encode(const records::CommandIssued& in, ttfusion::Command& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_valid(in.valid);
+  out.set_reason(in.reason);
+  out.set_acceleration(in.acceleration);
+  out.set_steering(in.steering);
+  out.set_own_speed(in.own_speed);
+  out.set_gap(in.gap);
+  out.set_speed_ahead(in.speed_ahead);
+  out.set_track(number(in.track));
+  return times_of(in.stamp);
+}
+
+LogTimes encode(const records::CommandTaken& in, ttfusion::Actuator& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_verdict(in.verdict);
+  out.set_acceleration(in.acceleration);
+  out.set_steering(in.steering);
+  out.set_from(in.from.ns);
+  return times_of(in.stamp);
+}
+
 LogTimes encode(const records::EgoTruth& in, ttfusion::Ego& out) {
   out.set_at(in.at.ns);
   out.set_x(in.x);

@@ -82,6 +82,9 @@ void put_on(const CommonTime& time, records::FeatureUsed& r) { rescale_all(time,
 void put_on(const CommonTime& time, records::ReferenceFix& r) { rescale_all(time, r.measured_true); }
 void put_on(const CommonTime& time, records::TruthState& r) { rescale_all(time, r.at); }
 void put_on(const CommonTime& time, records::EgoTruth& r) { rescale_all(time, r.at); }
+void put_on(const CommonTime& time, records::Warning& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::CommandIssued& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::CommandTaken& r) { rescale_all(time, r.stamp, r.from); }
 void put_on(const CommonTime& time, records::StateChanged& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::SymbolSent& r) { rescale_all(time, r.stamp, r.end); }
 void put_on(const CommonTime& time, records::PowerChanged& r) { rescale_all(time, r.stamp); }

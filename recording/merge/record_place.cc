@@ -27,8 +27,9 @@ using CausalOrder =
           records::CanFrameSent, records::TimingProblem, records::SlotProblem, records::ClockCorrected,
           records::StateChanged, records::ListHop, records::Measured, records::OdometryTaken, records::FusionInput,
           records::ObservationSeen, records::ListFused, records::TrackState, records::FusionStep, records::ReferenceFix,
-          records::ImageWritten, records::FeatureUsed, records::EgoTruth, records::TruthState, records::TaskRun,
-          records::PrecisionSample, records::LatenessHistogram, records::MediumCounts>;
+          records::ImageWritten, records::FeatureUsed, records::Warning, records::CommandIssued, records::CommandTaken,
+          records::EgoTruth, records::TruthState, records::TaskRun, records::PrecisionSample,
+          records::LatenessHistogram, records::MediumCounts>;
 static_assert(CausalOrder::kNone == records::kKindCount, "each kind of record has one rank");
 
 // Nodes stamp a fault's effects in whole microticks of their own; these may seem to precede it by less than
@@ -72,6 +73,9 @@ RecordPlace place_of(const records::FeatureUsed& r) { return of_node(r, r.stamp)
 RecordPlace place_of(const records::ReferenceFix& r) { return of_drive(r, r.measured_true, index_of(r.object)); }
 RecordPlace place_of(const records::TruthState& r) { return of_node(r, r.at, r.node); }
 RecordPlace place_of(const records::EgoTruth& r) { return of_node(r, r.at, r.node); }
+RecordPlace place_of(const records::Warning& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::CommandIssued& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::CommandTaken& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::StateChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::SymbolSent& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::PowerChanged& r) { return of_node(r, r.stamp); }

@@ -354,6 +354,42 @@ struct FeatureUsed {
   bool stale = false;  // too old to be used: nothing was judged, and `objects` is empty
 };
 
+// A service's warning of an object begins or ends. The time to collision is infinite without an approach; the track is
+// kNoTrack without an object ahead.
+inline constexpr std::uint8_t kForwardCollision = 0, kEmergencyBraking = 1;
+struct Warning {
+  Stamp stamp;
+  std::uint8_t service = kForwardCollision;
+  bool on = false;
+  TrackId track{};
+  double time_to_collision_s = 0;
+};
+
+// A command of a service to the actuator: acceleration [m/s^2] and angle of the front wheels [rad]. An invalid one asks for
+// nothing. The gap [m] and the object's speed [m/s] are those that it rests on; the gap is infinite without an object ahead.
+inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3;
+struct CommandIssued {
+  Stamp stamp;
+  PduId pdu{};
+  std::uint32_t sequence = 0;
+  bool valid = false;
+  std::uint8_t reason = kForNothing;
+  double acceleration = 0, steering = 0;
+  double own_speed = 0, gap = 0, speed_ahead = 0;
+  TrackId track{};  // the object ahead, if there is one
+};
+
+// An actuator's reading of its commands: one is applied from the instant `from` on, or none.
+inline constexpr std::uint8_t kApplied = 0, kNoNewCommand = 1, kInvalidCommand = 2, kLateCommand = 3;
+struct CommandTaken {
+  Stamp stamp;
+  PduId pdu{};  // the list that decided
+  std::uint32_t sequence = 0;
+  std::uint8_t verdict = kApplied;
+  double acceleration = 0, steering = 0;
+  TrueTime from{};
+};
+
 struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneous) alignment
   TrueTime measured_true{};
   GlobalTime measured{};
@@ -475,6 +511,9 @@ inline constexpr std::tuple kKinds{
     Kind<CanStateChanged>{"/can_state"},
     Kind<OdometryTaken>{"/odometry"},
     Kind<EgoTruth>{"/ego"},
+    Kind<Warning>{"/warning"},
+    Kind<CommandIssued>{"/command"},
+    Kind<CommandTaken>{"/actuator"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

@@ -48,6 +48,8 @@ struct SimulationConfig {
   processes::TurnTaking* others = nullptr;
   // False: precision() is neither computed nor recorded. All else stays the same.
   bool compares_clocks = true;
+  // Takes in an actuation before the instant from which on it holds. No function: nothing happens.
+  std::function<void(const nodes::host::Actuation&)> actuate = {};
   // The private CANs go bit by bit. The records stay the same.
   bool cans_bit_by_bit = false;
 };
@@ -99,6 +101,7 @@ class ClusterSimulation final : public CrankOf<nodes::host::Executive>, private 
 
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
+  void actuate(const nodes::host::Actuation& actuation) override;
   bool is_here(std::size_t node) const { return others_ == nullptr || others_->self() == static_cast<NodeId>(node); }
   void start_here(std::size_t node, Microticks now);
   void take_turn(std::size_t node, Microticks now);

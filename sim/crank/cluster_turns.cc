@@ -38,7 +38,17 @@ void ClusterSimulation::act(std::size_t node, const processes::Act& act) {
     pull_trigger(trigger->sensor);
   } else if (const auto* strobe = std::get_if<processes::StrobeAct>(&act)) {
     pull_strobe(strobe->sensor, strobe->sequence);
+  } else if (const auto* actuation = std::get_if<nodes::host::Actuation>(&act)) {
+    if (actuation->from <= now())
+      throw std::runtime_error(fmt::format("{} tells of an actuation from {} ns on, at {} ns", cluster_.node(id).name,
+                                           actuation->from.ns, now().ns));
+    if (config_.actuate) config_.actuate(*actuation);
   }
+}
+
+void ClusterSimulation::actuate(const nodes::host::Actuation& actuation) {
+  if (others_ != nullptr) others_->does(actuation);
+  if (config_.actuate) config_.actuate(actuation);
 }
 
 void ClusterSimulation::trigger(SensorId sensor) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <type_traits>
 
@@ -13,7 +15,7 @@
 namespace ttf::sim::processes {
 namespace {
 
-enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kStrobe = 4 };
+enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kStrobe = 4, kActuation = 5 };
 
 constexpr std::size_t kHeaderSize = 1 + 4 + 5 * 8 + 2;
 constexpr std::size_t kUsualSize = 4096;
@@ -109,6 +111,22 @@ SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::mod
   return sensor;
 }
 
+double read_number(TurnBytes& in, const char* what) {
+  const double value = std::bit_cast<double>(in.take<std::uint64_t>(~std::uint64_t{0}, what));
+  if (!std::isfinite(value)) throw std::runtime_error(fmt::format("a turn with a {} that is not finite", what));
+  return value;
+}
+
+nodes::host::Actuation read_actuation(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster) {
+  const auto& tasks = cluster.node(turn.node).tasks;
+  if (std::none_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.step == "actuator"; }))
+    throw std::runtime_error("a turn with an actuation, of a node without an actuator");
+  const auto from =
+      static_cast<std::int64_t>(in.take<std::uint64_t>(static_cast<std::uint64_t>(kLastTick), "actuation"));
+  const double acceleration = read_number(in, "acceleration");
+  return {TrueTime{from}, acceleration, read_number(in, "steering")};
+}
+
 Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster) {
   switch (static_cast<ActKind>(in.take<std::uint8_t>(0xFF, "act"))) {
     case ActKind::kSignal: return read_signal(in, turn);
@@ -118,6 +136,7 @@ Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::model::Clus
       const SensorId sensor = read_sensor(in, turn, cluster, &schedules::model::Sensor::device);
       return StrobeAct{sensor, in.take<std::uint32_t>(~std::uint32_t{0}, "sequence")};
     }
+    case ActKind::kActuation: return read_actuation(in, turn, cluster);
   }
   throw std::runtime_error("a turn with an act of unknown kind");
 }
@@ -159,6 +178,11 @@ void TurnWriter::add(const Act& act) {
     put(bytes_, ActKind::kStrobe);
     put(bytes_, static_cast<std::uint8_t>(strobe->sensor));
     put(bytes_, strobe->sequence);
+  } else if (const auto* actuation = std::get_if<nodes::host::Actuation>(&act)) {
+    put(bytes_, ActKind::kActuation);
+    put(bytes_, actuation->from.ns);
+    put(bytes_, std::bit_cast<std::uint64_t>(actuation->acceleration));
+    put(bytes_, std::bit_cast<std::uint64_t>(actuation->steering));
   }
 }
 

@@ -10,6 +10,7 @@
 //     2 CAN frame u8 bus, u32 identifier, u8 flexible data rate (0, 1), u8 size, the data
 //     3 trigger   u8 sensor
 //     4 strobe    u8 sensor, u32 sequence
+//     5 actuation i64 true instant [ns] from which on it holds, f64 acceleration [m/s^2], f64 steering [rad]
 #pragma once
 
 #include <cstddef>
@@ -24,6 +25,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "nodes/host/promise.h"
+#include "nodes/host/step.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::sim::processes {
@@ -40,7 +42,7 @@ struct StrobeAct {
   std::uint32_t sequence = 0;
 };
 // A transmission's content is decoded from its bytes.
-using Act = std::variant<bus::ports::Transmission, CanAct, TriggerAct, StrobeAct>;
+using Act = std::variant<bus::ports::Transmission, CanAct, TriggerAct, StrobeAct, nodes::host::Actuation>;
 
 struct TurnHeader {
   NodeId node{};

@@ -42,6 +42,8 @@ struct Fix {
 class Reference {
  public:
   Reference(const ReferenceConfig& config, const WorldConfig& world, std::uint64_t seed, std::uint32_t replication);
+  // Returns when the index-th fix is available.
+  TrueTime available(std::uint32_t index) const { return TrueTime{} + config_.period * index + config_.latency; }
   // Returns the index-th fix; a pure function of `index`, in any order of calls.
   Fix fix(std::uint32_t index, const World& world) const;
   double sigma() const { return config_.sigma_m; }

@@ -90,7 +90,10 @@ World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replic
   if (config.road) road_.emplace(*config.road);
   for (const traffic::LightConfig& light : config.lights)
     lights_.push_back(light.on ? traffic::placed(light, *road_) : light);
-  if (config.ego) ego_.emplace(*config.ego, road(), config.duration);
+  if (config.ego && config.ego->actuator)
+    driven_ = std::make_unique<vehicle::Driven>(*config.ego, road(), config.duration);
+  else if (config.ego)
+    ego_.emplace(*config.ego, road(), config.duration);
   const auto steps = static_cast<std::size_t>(config.duration.ns / kStep_ns + 2);
   for (std::size_t o = 0; o < config.objects.size(); ++o) {
     const ObjectConfig& object = config.objects[o];
@@ -193,12 +196,12 @@ ObjectState World::over_ground(ObjectId object, TrueTime since_start) const {
 
 ObjectState World::state_of(ObjectId object, TrueTime since_start) const {
   const ObjectState state = over_ground(object, since_start);
-  return ego_ ? seen_from(ego_at(since_start), state) : state;
+  return ego_ || driven_ ? seen_from(ego_at(since_start), state) : state;
 }
 
 EgoState World::ego_at(TrueTime since_start) const {
-  if (!ego_) return {};
-  const vehicle::RearAxleMotion ego = ego_->at(since_start);
+  if (!ego_ && !driven_) return {};
+  const vehicle::RearAxleMotion ego = driven_ ? driven_->at(since_start) : ego_->at(since_start);
   return {ego.x, ego.y, ego.heading, ego.vx, ego.vy, ego.yaw_rate, ego.acceleration};
 }
 
@@ -206,7 +209,7 @@ void World::states_at(TrueTime since_start, std::vector<ObjectState>& out) const
   out.clear();
   for (std::size_t o = 0; o < trajectories_.size(); ++o)
     out.push_back(over_ground(static_cast<ObjectId>(o), since_start));
-  if (!ego_) return;
+  if (!ego_ && !driven_) return;
   const EgoState ego = ego_at(since_start);
   for (ObjectState& state : out) state = seen_from(ego, state);
 }

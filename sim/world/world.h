@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +22,7 @@
 #include "sim/world/traffic/classes.h"
 #include "sim/world/traffic/lane_driver.h"
 #include "sim/world/traffic/lights.h"
+#include "sim/world/vehicle/driven.h"
 #include "sim/world/vehicle/journey.h"
 
 namespace ttf::sim::world {
@@ -73,7 +75,8 @@ struct WorldConfig {
   // The sensors' vehicle drives straight along x at this speed over ground [m/s]. If it is not zero, all objects keep
   // to the direction of x.
   double own_speed = 0.0;
-  // The sensors' vehicle drives as this says. Without it, it stands at the origin, or has an `own_speed`.
+  // The sensors' vehicle drives as this says, or as commands say. Without it, it stands at the origin, or has an `own_speed`.
+  // Objects that follow do not see a vehicle that commands drive: their ways are drawn before it starts.
   std::optional<vehicle::EgoConfig> ego;
   std::optional<road::RoadConfig> road;
   std::vector<traffic::LightConfig> lights;
@@ -107,6 +110,8 @@ class World {
   ObjectState state_of(ObjectId object, TrueTime since_start) const;
   // Returns the state of the sensors' vehicle: without an `ego`, one that stands at the origin.
   EgoState ego_at(TrueTime since_start) const;
+  // Returns the vehicle that commands drive; null, if the world has none.
+  vehicle::Driven* driven() const { return driven_.get(); }
   // Returns the road, over ground; null in a world without one.
   const road::Road* road() const { return road_ ? &*road_ : nullptr; }
   std::span<const traffic::LightConfig> lights() const { return lights_; }
@@ -120,6 +125,7 @@ class World {
   std::optional<road::Road> road_;
   std::vector<traffic::LightConfig> lights_;
   std::optional<vehicle::Journey> ego_;
+  std::unique_ptr<vehicle::Driven> driven_;             // instead of ego_; a look makes it go on
   std::vector<std::vector<ObjectState>> trajectories_;  // over ground: per object, a state per grid step
 };
 

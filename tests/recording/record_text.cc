@@ -215,6 +215,17 @@ std::string text_of(const records::EgoTruth& r) {
   return line("ego", r.at, r.x, r.y, r.heading, r.vx, r.vy, r.yaw_rate, r.acceleration, r.local, r.global, r.node);
 }
 
+std::string text_of(const records::Warning& r) {
+  return line("warning", r.stamp, r.service, r.on, r.track, r.time_to_collision_s);
+}
+std::string text_of(const records::CommandIssued& r) {
+  return line("command", r.stamp, r.pdu, r.sequence, r.valid, r.reason, r.acceleration, r.steering, r.own_speed, r.gap,
+              r.speed_ahead, r.track);
+}
+std::string text_of(const records::CommandTaken& r) {
+  return line("actuator", r.stamp, r.pdu, r.sequence, r.verdict, r.acceleration, r.steering, r.from);
+}
+
 std::string text_of(const records::StateChanged& r) {
   return line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence);
 }
@@ -392,6 +403,14 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::EgoTruth{d.get<TrueTime>(), d.get<double>(), d.get<double>(), d.get<double>(),
                                        d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
                                        d.get<LocalTime>(), d.get<GlobalTime>(), d.get<NodeId>()});
+    case 31: return sink.on(records::Warning{stamp, d.get<U8>(), d.get<bool>(), d.get<TrackId>(), d.get<double>()});
+    case 32:
+      return sink.on(records::CommandIssued{stamp, d.get<PduId>(), d.get<U32>(), d.get<bool>(), d.get<U8>(),
+                                            d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                            d.get<double>(), d.get<TrackId>()});
+    case 33:
+      return sink.on(records::CommandTaken{stamp, d.get<PduId>(), d.get<U32>(), d.get<U8>(), d.get<double>(),
+                                           d.get<double>(), d.get<TrueTime>()});
   }
   TTF_CHECK(false, "nothing to draw of kind {}", kind);
 }

@@ -32,6 +32,8 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "surround_unsynchronised",
                                                "moving_unsynchronised",
                                                "moving_synchronised",
+                                               "closed_loop_unsynchronised",
+                                               "closed_loop_synchronised",
                                                "laser_and_radar_unsynchronised",
                                                "laser_and_radar_synchronised",
                                                "four_kinds_unsynchronised",

@@ -124,13 +124,18 @@ EgoConfig load_ego(YamlMap& yaml, const road::RoadConfig* road) {
     start->finish();
   }
   for (YamlMap& segment : yaml.maps_if("profile")) config.segments.push_back(load_segment(segment, road));
+  config.actuator_line = yaml.line("actuator");
+  if (auto actuator = yaml.map_if("actuator")) {
+    config.actuator = load_actuator(*actuator);
+    if (!config.segments.empty()) yaml.fail("profile", "must be absent beside `actuator`: commands drive the vehicle");
+  }
+  config.front = yaml.number_or("front", config.front, {0.5, 15.0}, "m");
+  config.width = yaml.number_or("width", config.width, {0.5, 4.0}, "m");
   yaml.finish();
   return config;
 }
 
-Journey::Journey(const EgoConfig& config, const road::Road* road, Duration duration) : vehicle_(config.vehicle) {
-  const auto count = static_cast<std::size_t>(duration.ns / kGrid_ns + 2);
-  steps_.reserve(count);
+Motion start_of(const EgoConfig& config, const road::Road* road) {
   RearAxle start{config.x, config.y, 0.0, config.speed, config.heading};
   if (config.on) {
     const road::Pose pose = road->pose_at({config.on->station, road->middle(config.on->lane)});
@@ -138,7 +143,26 @@ Journey::Journey(const EgoConfig& config, const road::Road* road, Duration durat
     start.y = pose.y;
     start.heading = pose.heading + (road::Road::direction(config.on->lane) < 0.0 ? std::numbers::pi : 0.0);
   }
-  Motion motion = without_slip(vehicle_, start);
+  return without_slip(config.vehicle, start);
+}
+
+RearAxleMotion rear_axle_motion(const Parameters& vehicle, const Motion& now, const Command& command) {
+  const RearAxle axle = rear_axle(vehicle, now);
+  RearAxleMotion motion{axle.x, axle.y, axle.heading, axle.speed, 0.0, now.yaw_rate, 0.0};
+  if (std::abs(now.speed) < vehicle.kinematic_below) {
+    motion.acceleration = limited(vehicle, now.steering, now.speed, command).acceleration;
+  } else {
+    const Motion rate = rates(vehicle, now, command);
+    motion.vy = now.speed * std::sin(now.slip) - vehicle.rear_axle * now.yaw_rate;
+    motion.acceleration = rate.speed * std::cos(now.slip) - now.speed * std::sin(now.slip) * rate.slip;
+  }
+  return motion;
+}
+
+Journey::Journey(const EgoConfig& config, const road::Road* road, Duration duration) : vehicle_(config.vehicle) {
+  const auto count = static_cast<std::size_t>(duration.ns / kGrid_ns + 2);
+  steps_.reserve(count);
+  Motion motion = start_of(config, road);
   Driver driver(config, road);
   for (std::size_t k = 0; k < count; ++k) {
     steps_.push_back({motion, driver.command(Duration{static_cast<std::int64_t>(k) * kGrid_ns}, motion)});
@@ -154,16 +178,7 @@ RearAxleMotion Journey::at(TrueTime since_start) const {
   const auto& [start, command] = steps_[k];
   const Motion now =
       advanced(vehicle_, start, command, 1e-9 * static_cast<double>(at - static_cast<std::int64_t>(k) * kGrid_ns));
-  const RearAxle axle = rear_axle(vehicle_, now);
-  RearAxleMotion motion{axle.x, axle.y, axle.heading, axle.speed, 0.0, now.yaw_rate, 0.0};
-  if (std::abs(now.speed) < vehicle_.kinematic_below) {
-    motion.acceleration = limited(vehicle_, now.steering, now.speed, command).acceleration;
-  } else {
-    const Motion rate = rates(vehicle_, now, command);
-    motion.vy = now.speed * std::sin(now.slip) - vehicle_.rear_axle * now.yaw_rate;
-    motion.acceleration = rate.speed * std::cos(now.slip) - now.speed * std::sin(now.slip) * rate.slip;
-  }
-  return motion;
+  return rear_axle_motion(vehicle_, now, command);
 }
 
 }  // namespace ttf::sim::world::vehicle

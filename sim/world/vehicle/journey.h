@@ -21,6 +21,7 @@
 #include "core/time.h"
 #include "sim/world/road/road.h"
 #include "sim/world/traffic/pace.h"
+#include "sim/world/vehicle/actuator.h"
 #include "sim/world/vehicle/single_track.h"
 
 namespace ttf::sim::world::vehicle {
@@ -40,6 +41,11 @@ struct EgoConfig {
   double x = 0.0, y = 0.0, heading = 0.0, speed = 0.0;  // at the start: middle of the rear axle, over ground
   std::optional<road::OnLane> on;                       // instead of x, y and heading
   std::vector<Segment> segments;
+  // Commands on the bus drive the vehicle, instead of the segments (driven.h).
+  std::optional<ActuatorConfig> actuator;
+  int actuator_line = 0;  // in the file
+  // The front bumper is this far ahead of the rear axle: wheelbase and overhang of a passenger car [m].
+  double front = 3.4, width = 1.8;
 };
 // `road` is null in a world without one.
 EgoConfig load_ego(YamlMap& yaml, const road::RoadConfig* road);
@@ -48,6 +54,11 @@ EgoConfig load_ego(YamlMap& yaml, const road::RoadConfig* road);
 struct RearAxleMotion {
   double x = 0.0, y = 0.0, heading = 0.0, vx = 0.0, vy = 0.0, yaw_rate = 0.0, acceleration = 0.0;
 };
+
+// Returns the motion at the start.
+Motion start_of(const EgoConfig& config, const road::Road* road);
+// Returns the motion of the rear axle while a command holds.
+RearAxleMotion rear_axle_motion(const Parameters& vehicle, const Motion& now, const Command& command);
 
 class Journey {
  public:

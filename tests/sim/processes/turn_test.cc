@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -84,6 +85,24 @@ TEST_F(Turn, IsReadAsItWasWritten) {
       message({device_, 0, Microticks{-1}, kSilent}, {StrobeAct{SensorId{0}, 0xFFFF'FFFE}});
   EXPECT_EQ(read_turn(cluster_, strobe, acts).at, Microticks{-1});
   EXPECT_EQ(std::get<StrobeAct>(acts[0]).sequence, 0xFFFF'FFFEu);
+}
+
+TEST_F(Turn, OnlyAnActuatorsNodeActuates) {
+  const schedules::model::Cluster loop =
+      schedules::file::load_cluster(drives::shipped("schedules/closed_loop_synchronised.yaml"));
+  const nodes::host::Actuation actuation{TrueTime{7'000'000}, -3.25, 0.125};
+  std::vector<Act> acts;
+  const NodeId actuator = *loop.find_node("actuator"), feature = *loop.find_node("feature");
+  (void)read_turn(loop, message({actuator, 0, Microticks{5}, kSilent}, {actuation}), acts);
+  const auto& read = std::get<nodes::host::Actuation>(acts.at(0));
+  EXPECT_EQ(read.from, actuation.from);
+  EXPECT_EQ(read.acceleration, actuation.acceleration);
+  EXPECT_EQ(read.steering, actuation.steering);
+  EXPECT_THROW((void)read_turn(loop, message({feature, 0, Microticks{5}, kSilent}, {actuation}), acts),
+               std::runtime_error);
+  const nodes::host::Actuation infinite{TrueTime{1}, std::numeric_limits<double>::infinity(), 0.0};
+  EXPECT_THROW((void)read_turn(loop, message({actuator, 0, Microticks{5}, kSilent}, {infinite}), acts),
+               std::runtime_error);
 }
 
 TEST_F(Turn, TheWriterBeginsAnewOnceCleared) {

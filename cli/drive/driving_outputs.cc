@@ -1,0 +1,121 @@
+#include "cli/drive/driving_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/control/r157.h"
+#include "report/drawing/tables.h"
+
+namespace ttf::cli::drive {
+namespace {
+
+using evaluation::driving::DrivingFindings;
+using evaluation::driving::WarningFindings;
+using recording::records::kEmergencyBraking;
+using recording::records::kForwardCollision;
+using report::drawing::cell;
+
+std::string finite_cell(double value, int digits) { return std::isfinite(value) ? cell(value, digits) : "-"; }
+
+std::string warnings_cell(const WarningFindings& w) {
+  return fmt::format("{} / {} / {} / {}", w.right, w.wrong, w.missed, w.late);
+}
+std::string lateness_of_warnings(const WarningFindings& w) {
+  if (w.late == 0) return "-";
+  return fmt::format("{} / {}", cell(in_ms(w.lateness_sum) / static_cast<double>(w.late), 0), cell(in_ms(w.latest), 0));
+}
+
+struct DrivingRow {
+  const char* name;
+  std::string (*value)(const DrivingFindings&);
+};
+const DrivingRow kDrivingRows[] = {
+    {"smallest gap [m]", [](const DrivingFindings& f) { return finite_cell(f.smallest_gap_m, 2); }},
+    {"smallest time to collision [s]", [](const DrivingFindings& f) { return finite_cell(f.smallest_ttc_s, 2); }},
+    {"collision at [s], with [m/s]",
+     [](const DrivingFindings& f) {
+       if (!f.collision) return std::string("none");
+       return fmt::format("{} {}", cell(1e-9 * static_cast<double>(f.collision->at.ns), 2),
+                          cell(f.collision->closing_mps, 1));
+     }},
+    {"stopping distance [m]",
+     [](const DrivingFindings& f) {
+       return f.stopping_distance_m ? cell(*f.stopping_distance_m, 2) : std::string("-");
+     }},
+    {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return cell(f.gap_error_rms_m, 2); }},
+    {"below R157's distance [% of time]", [](const DrivingFindings& f) { return cell(100 * f.below_minimum, 1); }},
+    {"largest deceleration [m/s^2]", [](const DrivingFindings& f) { return cell(f.largest_deceleration, 2); }},
+    {"jerk, RMS / largest [m/s^3]",
+     [](const DrivingFindings& f) { return fmt::format("{} / {}", cell(f.jerk_rms, 2), cell(f.largest_jerk, 1)); }},
+    {"collision warnings right / wrong / missed / late",
+     [](const DrivingFindings& f) { return warnings_cell(f.warnings[kForwardCollision]); }},
+    {"  late by, mean / most [ms]",
+     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kForwardCollision]); }},
+    {"emergency brakings right / wrong / missed / late",
+     [](const DrivingFindings& f) { return warnings_cell(f.warnings[kEmergencyBraking]); }},
+    {"  late by, mean / most [ms]",
+     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kEmergencyBraking]); }},
+    {"readings of commands: applied / none / refused",
+     [](const DrivingFindings& f) { return fmt::format("{} / {} / {}", f.applied, f.none_new, f.invalid + f.late); }},
+};
+
+nlohmann::ordered_json warnings_json(const WarningFindings& w) {
+  nlohmann::ordered_json json{{"hazards", w.hazards}, {"given", w.given},   {"right", w.right},
+                              {"wrong", w.wrong},     {"missed", w.missed}, {"late", w.late}};
+  json["late_mean_ms"] = nullptr;
+  json["late_most_ms"] = nullptr;
+  if (w.late > 0) {
+    json["late_mean_ms"] = in_ms(w.lateness_sum) / static_cast<double>(w.late);
+    json["late_most_ms"] = in_ms(w.latest);
+  }
+  return json;
+}
+
+}  // namespace
+
+evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario) {
+  evaluation::driving::DrivingConfig config;
+  config.front_m = scenario.world.ego->front;
+  config.width_m = scenario.world.ego->width;
+  config.time_gap_s = scenario.cruise.law.time_gap_s;
+  config.standstill_m = scenario.cruise.law.standstill_m;
+  config.hazard_time_s = {scenario.emergency.warning_time_s, scenario.emergency.braking_time_s};
+  config.minimum_gap = &nodes::control::minimum_following_distance;
+  return config;
+}
+
+std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results) {
+  std::vector<std::vector<std::string>> rows;
+  if (std::ranges::none_of(results, [](const StrategyResult* one) { return one->driving.has_value(); })) return rows;
+  for (const DrivingRow& row : kDrivingRows) {
+    rows.push_back({row.name});
+    for (const StrategyResult* one : results) rows.back().push_back(one->driving ? row.value(*one->driving) : "-");
+  }
+  return rows;
+}
+
+nlohmann::ordered_json driving_json(const DrivingFindings& f) {
+  nlohmann::ordered_json json{
+      {"smallest_gap_m", f.smallest_gap_m},
+      {"smallest_time_to_collision_s", f.smallest_ttc_s},
+      {"collision", nullptr},
+      {"stopping_distance_m", nullptr},
+      {"gap_error_rms_m", f.gap_error_rms_m},
+      {"below_r157_distance", f.below_minimum},
+      {"largest_deceleration_mps2", f.largest_deceleration},
+      {"jerk_rms_mps3", f.jerk_rms},
+      {"largest_jerk_mps3", f.largest_jerk},
+      {"collision_warnings", warnings_json(f.warnings[kForwardCollision])},
+      {"emergency_brakings", warnings_json(f.warnings[kEmergencyBraking])},
+      {"commands_issued", f.issued},
+      {"readings", {{"applied", f.applied}, {"none_new", f.none_new}, {"invalid", f.invalid}, {"late", f.late}}}};
+  if (f.collision)
+    json["collision"] = {{"at_s", 1e-9 * static_cast<double>(f.collision->at.ns)},
+                         {"closing_mps", f.collision->closing_mps}};
+  if (f.stopping_distance_m) json["stopping_distance_m"] = *f.stopping_distance_m;
+  return json;
+}
+
+}  // namespace ttf::cli::drive

@@ -1,0 +1,18 @@
+// A closed loop's findings for people and as JSON: gap, braking, jerk and warnings. Other drives have none.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/drive/run_outputs.h"
+
+namespace ttf::cli::drive {
+
+// Returns the account's settings for a scenario whose vehicle commands drive.
+evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario);
+// Returns rows of the comparison table, with a cell for each result; none, if no vehicle was driven.
+std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results);
+nlohmann::ordered_json driving_json(const evaluation::driving::DrivingFindings& found);
+
+}  // namespace ttf::cli::drive

@@ -1,0 +1,90 @@
+// Checks of drives whose commands drive the vehicle.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "drives/drive.h"
+
+namespace ttf::drives {
+namespace {
+
+using schedules::model::Cluster;
+using schedules::model::Node;
+using schedules::model::Task;
+
+struct ActuatorTask {
+  const Node* node;
+  const Task* task;
+};
+
+std::vector<ActuatorTask> actuators(const Cluster& cluster) {
+  std::vector<ActuatorTask> found;
+  for (const Node& node : cluster.nodes)
+    for (const Task& task : node.tasks)
+      if (task.step == "actuator") found.push_back({&node, &task});
+  return found;
+}
+
+std::string key_of(const ActuatorTask& one) { return "nodes." + one.node->name + ".tasks." + one.task->name + ".step"; }
+
+const sim::world::Device* device_of(const Sensors& sensors, const schedules::model::Sensor& sensor) {
+  switch (sensor.kind) {
+    case schedules::model::SensorKind::kLaser: return &sensors.lasers.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kCamera: return &sensors.cameras.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kRadar: return &sensors.radars.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kMonoCamera: return &sensors.mono_cameras.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kOdometry: break;
+  }
+  return nullptr;
+}
+
+// An oscillator counts a task's time; this is more than any drifts.
+Duration longest_in_true_time(const Task& task) { return task.worst_case + Duration{task.worst_case.ns / 50 + 1}; }
+
+}  // namespace
+
+void check_loop(const Scenario& scenario, const Cluster& cluster) {
+  const std::vector<ActuatorTask> found = actuators(cluster);
+  const bool driven = scenario.world.ego && scenario.world.ego->actuator;
+  if (found.empty() && !driven) return;
+  const std::string key = "world.ego.actuator";
+  if (!driven)
+    throw InputError({cluster.file, found.front().task->line, key_of(found.front()), "actuator",
+                      fmt::format("needs a vehicle that it drives: {} has no {}", scenario.file, key)});
+  const int line = scenario.world.ego->actuator_line;
+  if (found.empty())
+    throw InputError({scenario.file, line, key, "",
+                      fmt::format("needs a cluster whose commands drive the vehicle: {} has no task with step actuator",
+                                  cluster.file)});
+  if (found.size() > 1)
+    throw InputError({cluster.file, found[1].task->line, key_of(found[1]), "actuator",
+                      fmt::format("must be absent: {} has an actuator, and a vehicle has one", found[0].node->name)});
+  if (scenario.truth)
+    throw InputError(
+        {scenario.file, line, key, "", "must be absent with --truth: the trace says how the vehicle drives"});
+  const Duration least = longest_in_true_time(*found[0].task);
+  if (scenario.world.ego->actuator->dead_time < least)
+    throw InputError({scenario.file, line, key + ".dead_time",
+                      fmt::format("{} ms", in_ms(scenario.world.ego->actuator->dead_time)),
+                      fmt::format("must be at least {} ms: nothing happens before the task {} of {} has ended",
+                                  in_ms(least), found[0].task->name, cluster.file)});
+  for (const schedules::model::Sensor& sensor : cluster.sensors) {
+    const sim::world::Device* const device = device_of(scenario.sensors, sensor);
+    if (device != nullptr && (device->time.fixed != 0.0 || device->time.sigma != 0.0))
+      throw InputError(
+          {scenario.file, line, key, "",
+           fmt::format("must be absent, since the stamps of {} err: a sensor cannot see where commands that "
+                       "are still to come will drive the vehicle",
+                       sensor.name)});
+  }
+}
+
+void check_open_loop(const Scenario& scenario) {
+  if (scenario.world.ego && scenario.world.ego->actuator)
+    throw InputError({scenario.file, scenario.world.ego->actuator_line, "world.ego.actuator", "",
+                      "must be absent in real time: there commands drive no vehicle yet; use run, or launch "
+                      "--virtual-time"});
+}
+
+}  // namespace ttf::drives

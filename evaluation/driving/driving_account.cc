@@ -1,0 +1,155 @@
+#include "evaluation/driving/driving_account.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ttf::evaluation::driving {
+namespace {
+
+// A slower approach than walking pace is no collision course.
+constexpr double kSlowestClosing_mps = 0.5;
+constexpr double kBrakes = 1.0;  // [m/s^2]
+constexpr double kStands_mps = 0.05;
+constexpr Duration kJerkOver = Duration::milliseconds(40);
+
+}  // namespace
+
+void DrivingAccount::on(const recording::records::EgoTruth& ego) {
+  if (ego_ && ego_->at == ego.at) return;  // another node tells the same
+  judge();
+  if (ego.at >= from_ && !findings_.collision) ego_ = ego;
+}
+
+void DrivingAccount::on(const recording::records::TruthState& object) {
+  if (!ego_ || object.at != ego_->at || object.x <= 0.0) return;
+  const double c = std::cos(object.heading), s = std::sin(object.heading);
+  const double along = 0.5 * (object.length * std::abs(c) + object.width * std::abs(s));
+  const double across = 0.5 * (object.length * std::abs(s) + object.width * std::abs(c));
+  if (std::abs(object.y) > across + 0.5 * config_.width_m) return;
+  const double gap = object.x - along - config_.front_m;
+  if (!ahead_ || gap < ahead_->gap) ahead_ = Ahead{gap, object.speed * c, object.acceleration * c};
+}
+
+void DrivingAccount::judge() {
+  if (!ego_) return;
+  ++findings_.moments;
+  findings_.largest_deceleration = std::max(findings_.largest_deceleration, -ego_->acceleration);
+  note_jerk();
+  double remaining = DrivingFindings::kNone;
+  if (ahead_) {
+    const double gap = std::max(0.0, ahead_->gap), closing = ego_->vx - ahead_->speed;
+    if (closing > kSlowestClosing_mps) remaining = gap / closing;
+    findings_.smallest_gap_m = std::min(findings_.smallest_gap_m, gap);
+    findings_.smallest_ttc_s = std::min(findings_.smallest_ttc_s, remaining);
+    const double error = gap - config_.standstill_m - config_.time_gap_s * ego_->vx;
+    gap_squares_ += error * error;
+    ++behind_;
+    if (config_.minimum_gap != nullptr && gap < config_.minimum_gap(ego_->vx)) ++below_;
+    if (ahead_->gap <= 0.0) findings_.collision = {ego_->at, closing};
+    note_braking(ahead_->acceleration);
+  } else {
+    note_braking(0.0);
+  }
+  note_hazards(remaining);
+  before_ = ego_;
+  ego_.reset();
+  ahead_.reset();
+}
+
+void DrivingAccount::note_braking(double acceleration) {
+  if (!braking_way_ && acceleration < -kBrakes) braking_way_ = 0.0;
+  if (!braking_way_ || findings_.stopping_distance_m) return;
+  if (before_) *braking_way_ += std::hypot(ego_->x - before_->x, ego_->y - before_->y);
+  if (ego_->vx < kStands_mps) findings_.stopping_distance_m = braking_way_;
+}
+
+void DrivingAccount::note_jerk() {
+  if (!jerk_from_) jerk_from_ = ego_;
+  const Duration over = ego_->at - jerk_from_->at;
+  if (over < kJerkOver) return;
+  const double jerk = (ego_->acceleration - jerk_from_->acceleration) / over.seconds();
+  findings_.largest_jerk = std::max(findings_.largest_jerk, std::abs(jerk));
+  jerk_squares_ += jerk * jerk;
+  ++jerks_;
+  jerk_from_ = ego_;
+}
+
+void DrivingAccount::note_hazards(double time_to_collision) {
+  for (std::size_t service = 0; service < hazards_.size(); ++service) {
+    const bool now = time_to_collision < config_.hazard_time_s[service];
+    if (now && !hazard_[service]) hazards_[service].push_back({ego_->at, ego_->at});
+    if (now) hazards_[service].back().to = ego_->at;
+    hazard_[service] = now;
+  }
+}
+
+void DrivingAccount::on(const recording::records::CommandIssued& command) {
+  if (command.stamp.true_time >= from_) ++findings_.issued;
+}
+
+void DrivingAccount::on(const recording::records::CommandTaken& taken) {
+  if (taken.stamp.true_time < from_) return;
+  switch (taken.verdict) {
+    case recording::records::kApplied: ++findings_.applied; break;
+    case recording::records::kNoNewCommand: ++findings_.none_new; break;
+    case recording::records::kInvalidCommand: ++findings_.invalid; break;
+    case recording::records::kLateCommand: ++findings_.late; break;
+  }
+}
+
+void DrivingAccount::on(const recording::records::Warning& warning) {
+  const TrueTime at = warning.stamp.true_time;
+  if (warning.service >= warned_.size() || findings_.collision) return;
+  std::vector<Span>& all = warned_[warning.service];
+  if (warning.on && !warns_[warning.service]) all.push_back({at, kNever<TrueTime>});
+  if (!warning.on && warns_[warning.service]) all.back().to = at;
+  warns_[warning.service] = warning.on;
+}
+
+WarningFindings DrivingAccount::judged(std::size_t service) const {
+  // A time to collision that leaves the hazard for a moment does not end it.
+  std::vector<Span> hazards;
+  for (const Span& one : hazards_[service])
+    if (!hazards.empty() && one.from - hazards.back().to < kTolerance)
+      hazards.back().to = one.to;
+    else
+      hazards.push_back(one);
+  WarningFindings found;
+  const auto meet = [](const Span& warning, const Span& hazard) {
+    return warning.from <= hazard.to + kTolerance && warning.to >= hazard.from - kTolerance;
+  };
+  for (const Span& warning : warned_[service]) {
+    if (warning.to < from_) continue;
+    ++found.given;
+    const bool right =
+        std::any_of(hazards.begin(), hazards.end(), [&](const Span& hazard) { return meet(warning, hazard); });
+    ++(right ? found.right : found.wrong);
+  }
+  for (const Span& hazard : hazards) {
+    if (hazard.to - hazard.from < kNoticed) continue;
+    ++found.hazards;
+    const auto first = std::find_if(warned_[service].begin(), warned_[service].end(),
+                                    [&](const Span& warning) { return meet(warning, hazard); });
+    if (first == warned_[service].end()) {
+      ++found.missed;
+    } else if (first->from > hazard.from) {
+      ++found.late;
+      found.lateness_sum += first->from - hazard.from;
+      found.latest = std::max(found.latest, first->from - hazard.from);
+    }
+  }
+  return found;
+}
+
+DrivingFindings DrivingAccount::finish() {
+  judge();
+  if (behind_ > 0) {
+    findings_.gap_error_rms_m = std::sqrt(gap_squares_ / static_cast<double>(behind_));
+    findings_.below_minimum = static_cast<double>(below_) / static_cast<double>(behind_);
+  }
+  if (jerks_ > 0) findings_.jerk_rms = std::sqrt(jerk_squares_ / static_cast<double>(jerks_));
+  for (std::size_t service = 0; service < hazards_.size(); ++service) findings_.warnings[service] = judged(service);
+  return findings_;
+}
+
+}  // namespace ttf::evaluation::driving

@@ -1,0 +1,98 @@
+// The worth of a drive in which commands drive the vehicle: gap and time to collision, braking and jerk, commands, and the warnings
+// of its services against the truth. It knows the records alone.
+//
+// The truth is judged at the instants at which it is recorded, some hundred a second. The object ahead is the nearest one whose
+// outline overlaps the vehicle's way straight ahead. A drive is judged up to its first collision.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/time.h"
+#include "recording/records/records.h"
+
+namespace ttf::evaluation::driving {
+
+struct DrivingConfig {
+  double front_m = 3.4, width_m = 1.8;            // the vehicle's front, ahead of its rear axle
+  double time_gap_s = 1.5, standstill_m = 2.0;    // the gap that it is to keep
+  std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
+  // The smallest admissible gap [m] at a speed; null: none.
+  double (*minimum_gap)(double speed) = nullptr;
+};
+
+// A hazard of a service: the true time to collision is below its time. Hazards shorter than kNoticed need no warning.
+struct WarningFindings {
+  std::uint64_t hazards = 0, given = 0;
+  std::uint64_t right = 0, wrong = 0;  // warnings within kTolerance of a hazard, and all others
+  std::uint64_t missed = 0;            // hazards without a warning
+  std::uint64_t late = 0;              // hazards whose warning began after them
+  Duration lateness_sum{}, latest{};   // of those
+};
+
+struct DrivingFindings {
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::uint64_t moments = 0;      // at which the truth was judged
+  double smallest_gap_m = kNone;  // 0: a collision
+  double smallest_ttc_s = kNone;  // for constant speeds
+  double gap_error_rms_m = 0.0;   // behind an object, against standstill + time gap * speed
+  double below_minimum = 0.0;     // share of the moments behind an object
+  double largest_deceleration = 0.0, largest_jerk = 0.0, jerk_rms = 0.0;  // [m/s^2], [m/s^3]
+  struct Collision {
+    TrueTime at{};
+    double closing_mps = 0.0;
+  };
+  std::optional<Collision> collision;
+  // The way from the instant at which the object ahead brakes until the vehicle stands [m].
+  std::optional<double> stopping_distance_m;
+  std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0;  // commands; readings of the actuator
+  std::array<WarningFindings, 2> warnings;                                     // by service
+};
+
+class DrivingAccount final : public recording::records::Sink {
+ public:
+  static constexpr Duration kTolerance = Duration::milliseconds(300), kNoticed = Duration::milliseconds(100);
+
+  // Ignores all before `from`.
+  DrivingAccount(const DrivingConfig& config, TrueTime from) : config_(config), from_(from) {}
+  // Call it once, at the end.
+  DrivingFindings finish();
+
+  bool wants_frames() const override { return false; }
+  using recording::records::Sink::on;
+  void on(const recording::records::EgoTruth&) override;
+  void on(const recording::records::TruthState&) override;
+  void on(const recording::records::CommandIssued&) override;
+  void on(const recording::records::CommandTaken&) override;
+  void on(const recording::records::Warning&) override;
+
+ private:
+  struct Span {
+    TrueTime from{}, to{};
+  };
+  struct Ahead {
+    double gap = 0.0, speed = 0.0, acceleration = 0.0;
+  };
+  void judge();
+  void note_braking(double acceleration);
+  void note_hazards(double time_to_collision);
+  void note_jerk();
+  WarningFindings judged(std::size_t service) const;
+
+  DrivingConfig config_;
+  TrueTime from_;
+  DrivingFindings findings_;
+  std::optional<recording::records::EgoTruth> ego_;  // the moment whose objects come
+  std::optional<Ahead> ahead_;
+  std::optional<recording::records::EgoTruth> before_, jerk_from_;
+  std::optional<double> braking_way_;  // since the object ahead braked
+  std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;
+  double gap_squares_ = 0.0, jerk_squares_ = 0.0;
+  std::array<std::vector<Span>, 2> hazards_, warned_;  // by service; the last one may go on
+  std::array<bool, 2> hazard_{}, warns_{};
+};
+
+}  // namespace ttf::evaluation::driving

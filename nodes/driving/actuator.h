@@ -1,0 +1,38 @@
+// The actuator's task: it reads commands from the bus, and hands over those that it accepts to engine, brakes and steering, from a
+// dead time after its reading on. sim/world/vehicle/driven.h has the rest: lag, limits, and the reaction without commands.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "nodes/driving/command.h"
+#include "nodes/host/step.h"
+#include "sim/world/vehicle/actuator.h"
+
+namespace ttf::nodes::driving {
+
+// Ports `command` and, if it is bound, `emergency`. A list is taken once. It is refused if its instant is too far away, and if it
+// is invalid: a valid list of `emergency` asks for more deceleration than `command`, or counts for nothing. A list that lost a
+// fragment, or whose frame was not intact, never gets here (bus/cni/list_buffer.h).
+class Actuator final : public host::Step {
+ public:
+  Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+           const sim::world::vehicle::ActuatorConfig& config);
+  void run(host::StepContext& context) override;
+
+ private:
+  struct Port {
+    std::size_t input = 0;
+    CommandSignals signals;
+  };
+  recording::records::CommandTaken read(host::StepContext& context, const Port& port) const;
+
+  sim::world::vehicle::ActuatorConfig config_;
+  Duration round_;
+  Port command_;
+  std::optional<Port> emergency_;
+  double steering_ = 0.0;  // [rad], of the last accepted command
+};
+
+}  // namespace ttf::nodes::driving

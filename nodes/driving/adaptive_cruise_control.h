@@ -1,0 +1,38 @@
+// Adaptive cruise control: keeps a set speed, and a time gap to the vehicle ahead (nodes/control/time_gap.h).
+#pragma once
+
+#include "core/strict_yaml.h"
+#include "nodes/control/limits.h"
+#include "nodes/control/time_gap.h"
+#include "nodes/driving/ahead.h"
+#include "nodes/driving/command.h"
+#include "nodes/host/step.h"
+
+namespace ttf::nodes::driving {
+
+struct CruiseConfig {
+  double set_speed_mps = 30.0;
+  control::TimeGapConfig law;
+  control::LimitsBySpeed limits;
+  PathConfig path;
+};
+// Reads all but the vehicle's front.
+CruiseConfig load_cruise(YamlMap& yaml);
+
+// Ports `image` and `odometry` -> `command`. Each execution issues a command; it is invalid without a view of the way ahead. The
+// acceleration begins at zero then, and after it.
+class AdaptiveCruiseControl final : public host::Step {
+ public:
+  AdaptiveCruiseControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                        const CruiseConfig& config);
+  void run(host::StepContext& context) override;
+
+ private:
+  CruiseConfig config_;
+  WayAhead way_;
+  CommandOutput out_;
+  double before_ = 0.0;  // [m/s^2], the last command
+  LocalTime last_{};     // the last execution
+};
+
+}  // namespace ttf::nodes::driving

@@ -1,0 +1,52 @@
+#include "nodes/driving/ahead.h"
+
+#include <cmath>
+
+#include "nodes/host/signals.h"
+
+namespace ttf::nodes::driving {
+namespace {
+
+std::size_t place_of(const schedules::model::Task& task, std::string_view port) {
+  for (std::size_t i = 0; i < task.reads.size(); ++i)
+    if (task.reads[i].port == port) return i;
+  return 0;  // ports are known to be bound (schedules/model/ports.h)
+}
+
+constexpr std::uint8_t kConfirmed = 1;
+
+}  // namespace
+
+WayAhead::WayAhead(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                   const PathConfig& config)
+    : config_(config), round_(cluster.round()), image_(place_of(task, "image")), odometry_(place_of(task, "odometry")),
+      speed_(host::bind_element<4>(cluster, cluster.pdu(task.reads[odometry_].pdu),
+                                   {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})[0]),
+      signals_(fusion::bind_image(cluster, cluster.pdu(task.reads[image_].pdu))) {}
+
+std::optional<View> WayAhead::look(const host::StepContext& context) {
+  const host::Input& image = context.inputs[image_];
+  const host::Input& odometry = context.inputs[odometry_];
+  if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
+  if (!image.list || !odometry.list || host::element_count(*odometry.layout, *odometry.list) == 0) return std::nullopt;
+  const Duration age = context.stamp.global - valid_at_;
+  if (age > config_.max_image_age || -age > config_.max_image_age) return std::nullopt;
+  return View{host::element_value(*odometry.layout, *odometry.list, 0, speed_), nearest(image)};
+}
+
+std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image) const {
+  std::optional<ObjectAhead> nearest;
+  const int count = host::element_count(*image.layout, *image.list);
+  for (int i = 0; i < count; ++i) {
+    const recording::records::ImageObject object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
+    if ((object.status & kConfirmed) == 0 || object.x <= 0.0 || std::abs(object.y) > config_.half_width_m) continue;
+    const double c = std::cos(object.heading), s = std::sin(object.heading);
+    const double reach = 0.5 * (object.length * std::abs(c) + object.width * std::abs(s));
+    const double clearance = object.x - reach - config_.front_m;
+    if (nearest && nearest->clearance <= clearance) continue;
+    nearest = ObjectAhead{object.track, clearance, object.speed * c, object.acceleration * c};
+  }
+  return nearest;
+}
+
+}  // namespace ttf::nodes::driving

@@ -1,0 +1,53 @@
+// A service's view of the way ahead: the nearest object of the image in its path, and the own speed by odometry.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "nodes/fusion/image_codec.h"
+#include "nodes/host/step.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::nodes::driving {
+
+struct PathConfig {
+  double half_width_m =
+      1.8;  // objects whose centre is further off the line of travel are not in the path: half a 3.6 m lane
+  double front_m = 3.4;  // the vehicle's front, ahead of its rear axle
+  // The largest difference between an image's predicted instant and its use.
+  Duration max_image_age = Duration::milliseconds(100);
+};
+
+struct ObjectAhead {
+  TrackId track{};
+  double clearance = 0.0;     // [m], from the vehicle's front to the object's outline
+  double speed = 0.0;         // [m/s], over ground, along the vehicle's x axis
+  double acceleration = 0.0;  // [m/s^2], likewise
+};
+
+struct View {
+  double own_speed = 0.0;  // [m/s]
+  std::optional<ObjectAhead> ahead;
+};
+
+// Ports `image` and `odometry`.
+class WayAhead {
+ public:
+  WayAhead(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const PathConfig& config);
+  // Returns nothing without an image that is fresh enough, or without any list of odometry.
+  std::optional<View> look(const host::StepContext& context);
+
+ private:
+  std::optional<ObjectAhead> nearest(const host::Input& image) const;
+
+  PathConfig config_;
+  Duration round_;
+  std::size_t image_ = 0, odometry_ = 0;  // the ports' places among the inputs
+  std::size_t speed_ = 0;                 // the signal
+  fusion::ImageSignals signals_;
+  GlobalTime valid_at_{};  // the newest image's
+};
+
+}  // namespace ttf::nodes::driving

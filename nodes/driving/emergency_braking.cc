@@ -1,0 +1,68 @@
+#include "nodes/driving/emergency_braking.h"
+
+#include <limits>
+
+#include "nodes/control/time_to_collision.h"
+
+namespace ttf::nodes::driving {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+// A slower approach than walking pace is no collision course: the sign of a speed near zero is noise.
+constexpr double kSlowestClosing_mps = 0.5;
+constexpr double kStands_mps = 0.2;
+
+double time_to(const ObjectAhead& ahead, double own_speed) {
+  const double closing = own_speed - ahead.speed;
+  return closing > kSlowestClosing_mps ? control::time_to_collision(ahead.clearance, closing) : kNone;
+}
+
+}  // namespace
+
+EmergencyConfig load_emergency(YamlMap& yaml) {
+  EmergencyConfig c;
+  c.warning_time_s = yaml.number_or("warning_time", c.warning_time_s, {0.1, 10.0}, "s");
+  c.braking_time_s = yaml.number_or("braking_time", c.braking_time_s, {0.05, 10.0}, "s");
+  if (c.braking_time_s > c.warning_time_s) yaml.fail("braking_time", "must be at most `warning_time`");
+  c.deceleration = yaml.number_or("deceleration", c.deceleration, {0.5, 15.0}, "m/s^2");
+  c.path.half_width_m = yaml.number_or("corridor_half_width", c.path.half_width_m, {0.1, 20.0}, "m");
+  c.path.max_image_age = yaml.duration_or("max_image_age", c.path.max_image_age,
+                                          {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+  return c;
+}
+
+EmergencyBraking::EmergencyBraking(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                                   const EmergencyConfig& config)
+    : config_(config), way_(cluster, task, config.path), out_(cluster, task) {}
+
+void EmergencyBraking::tell(host::StepContext& context, std::uint8_t service, bool on, TrackId track,
+                            double time_to_collision) {
+  if (on_[service] == on) return;
+  on_[service] = on;
+  context.sink->on(recording::records::Warning{context.stamp, service, on, track, time_to_collision});
+}
+
+void EmergencyBraking::run(host::StepContext& context) {
+  const std::optional<View> view = way_.look(context);
+  recording::records::CommandIssued record;
+  record.gap = kNone;
+  record.track = kNoTrack;
+  if (!view) return out_.issue(context, {}, record);
+  record.own_speed = view->own_speed;
+  double remaining = kNone;
+  if (view->ahead) {
+    remaining = time_to(*view->ahead, view->own_speed);
+    record.track = view->ahead->track;
+    record.gap = view->ahead->clearance;
+    record.speed_ahead = view->ahead->speed;
+  }
+  const bool goes_on = on_[recording::records::kEmergencyBraking] && remaining < kNone && view->own_speed > kStands_mps;
+  const bool brakes = remaining < config_.braking_time_s || goes_on;
+  tell(context, recording::records::kForwardCollision, brakes || remaining < config_.warning_time_s, record.track,
+       remaining);
+  tell(context, recording::records::kEmergencyBraking, brakes, record.track, remaining);
+  if (brakes) record.reason = recording::records::kForEmergency;
+  out_.issue(context, {brakes, brakes ? -config_.deceleration : 0.0, 0.0}, record);
+}
+
+}  // namespace ttf::nodes::driving

@@ -1,0 +1,40 @@
+// Forward collision warning and emergency braking, by the time to collision for constant speeds (ISO 15623).
+#pragma once
+
+#include <array>
+
+#include "core/strict_yaml.h"
+#include "nodes/driving/ahead.h"
+#include "nodes/driving/command.h"
+#include "nodes/host/step.h"
+
+namespace ttf::nodes::driving {
+
+struct EmergencyConfig {
+  double warning_time_s = 2.7;
+  double braking_time_s = 1.6;  // less than the warning's: a driver gets the difference
+  double deceleration = 8.0;    // [m/s^2]
+  PathConfig path;
+};
+// Reads all but the vehicle's front.
+EmergencyConfig load_emergency(YamlMap& yaml);
+
+// Ports `image` and `odometry` -> `command`, which is valid while the service brakes. It warns below the warning time, and brakes
+// below the braking time. It goes on until the object ahead is no longer approached, or the vehicle stands; a view that is
+// missing changes nothing for as long as the actuator's patience lasts (sim/world/vehicle/driven.h): no command is issued then.
+class EmergencyBraking final : public host::Step {
+ public:
+  EmergencyBraking(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                   const EmergencyConfig& config);
+  void run(host::StepContext& context) override;
+
+ private:
+  void tell(host::StepContext& context, std::uint8_t service, bool on, TrackId track, double time_to_collision);
+
+  EmergencyConfig config_;
+  WayAhead way_;
+  CommandOutput out_;
+  std::array<bool, 2> on_{};  // by service
+};
+
+}  // namespace ttf::nodes::driving

@@ -1,0 +1,29 @@
+// The actuator between a command and the wheels (driven.h).
+#pragma once
+
+#include "core/strict_yaml.h"
+#include "core/time.h"
+
+namespace ttf::sim::world::vehicle {
+
+enum class WithoutCommand { kHold, kDecay, kBrake };
+
+struct ActuatorConfig {
+  // From the actuator's reading of a command until something happens. It is longer than the actuator's task, so that all others
+  // can know of an actuation before it begins.
+  Duration dead_time = Duration::milliseconds(50);
+  Duration lag = Duration::milliseconds(200);
+  double gain = 1.0;                  // a share of the acceleration
+  double largest_acceleration = 3.0;  // [m/s^2], that a command may ask for
+  double largest_deceleration = 9.0;  // [m/s^2], positive
+  double largest_steering = 0.6;      // [rad], to either side
+  // A command is refused if its instant is further away than this when it is read.
+  Duration oldest = Duration::milliseconds(100);
+  Duration after = Duration::milliseconds(200);
+  WithoutCommand without = WithoutCommand::kBrake;
+  Duration decay = Duration::milliseconds(500);
+  double deceleration = 4.0;  // [m/s^2], positive
+};
+ActuatorConfig load_actuator(YamlMap& yaml);
+
+}  // namespace ttf::sim::world::vehicle

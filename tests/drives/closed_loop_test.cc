@@ -1,0 +1,125 @@
+// Drives whose commands drive the vehicle: the same every time, without allocations, and told apart from others.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/file_bytes.h"
+#include "evaluation/driving/driving_account.h"
+#include "tests/drives/drive_fixture.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ttf::drives {
+namespace {
+
+using fusion::strategies::StrategyKind;
+using testing::HasSubstr;
+
+constexpr const char* kBraking = "scenarios/acc_braking_lead.yaml";
+
+Drive braking(StrategyKind kind, const std::string& more = {}) {
+  const std::string file = shipped(kBraking);
+  Drive drive(kBraking, kind);
+  drive.scenario = parse_scenario(read_file(file) + more, file);
+  return drive;
+}
+
+evaluation::driving::DrivingFindings found_in(const Drive& drive) {
+  evaluation::driving::DrivingAccount account({}, evaluation_start(drive.scenario));
+  drive.run(account);
+  return account.finish();
+}
+
+struct WayOfTheVehicle final : recording::records::Sink {
+  std::vector<double> values;
+  std::int64_t allocations_at_start = -1, allocations = 0;
+  using recording::records::Sink::on;
+  void on(const recording::records::EgoTruth& ego) override {
+    if (values.size() + 4 > values.capacity()) return;
+    values.insert(values.end(), {static_cast<double>(ego.at.ns), ego.x, ego.vx, ego.acceleration});
+  }
+  void on(const recording::records::TaskRun&) override {
+    allocations = support::allocations();
+    if (allocations_at_start < 0) allocations_at_start = allocations;
+  }
+  WayOfTheVehicle() { values.reserve(1'000'000); }
+};
+
+TEST(ClosedLoop, RepeatsItselfAndAllocatesNothing) {
+  Drive drive = braking(StrategyKind::kAdva);
+  drive.scenario.duration = Duration::milliseconds(2'000);
+  WayOfTheVehicle once, again, otherwise;
+  drive.run(once);
+  drive.run(again);
+  drive.run(otherwise, 2);
+  ASSERT_GT(once.values.size(), 400u);
+  EXPECT_EQ(once.values, again.values);
+  EXPECT_NE(once.values, otherwise.values) << "another seed measures otherwise, so the vehicle drives otherwise";
+  EXPECT_EQ(once.allocations, once.allocations_at_start);
+}
+
+TEST(ClosedLoop, StopsBehindTheOneAheadInTheWholeDrive) {
+  for (const StrategyKind kind : {StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt}) {
+    const evaluation::driving::DrivingFindings found = found_in(braking(kind));
+    EXPECT_FALSE(found.collision) << name_of(kind);
+    EXPECT_TRUE(found.stopping_distance_m) << name_of(kind);
+    EXPECT_GT(found.smallest_gap_m, 0.3) << name_of(kind);
+    EXPECT_GT(found.applied, 400u);
+    EXPECT_EQ(found.late, 0u);
+  }
+}
+
+// The services' node has no supply for two seconds: no command comes, and the vehicle does what its file says.
+TEST(ClosedLoop, WithoutCommandsTheVehicleDoesWhatItsFileSays) {
+  const std::string dead = "faults:\n  - {kind: crash, node: feature, from: 2 s, duration: 3 s}\n";
+  using sim::world::vehicle::WithoutCommand;
+  const auto speed_at_the_end = [&](WithoutCommand reaction) {
+    Drive drive = braking(StrategyKind::kTt, dead);
+    drive.scenario.duration = Duration::milliseconds(3'500);
+    drive.scenario.world.ego->actuator->without = reaction;
+    WayOfTheVehicle way;
+    drive.run(way);
+    return way.values[way.values.size() - 2];
+  };
+  const double held = speed_at_the_end(WithoutCommand::kHold), decayed = speed_at_the_end(WithoutCommand::kDecay),
+               braked = speed_at_the_end(WithoutCommand::kBrake);
+  EXPECT_NEAR(held, 22.0, 2.0);
+  EXPECT_NEAR(decayed, 22.0, 2.0);
+  EXPECT_NE(held, decayed);
+  EXPECT_NEAR(braked, 22.0 - 4.0 * 1.05, 1.0);
+}
+
+std::string refusal(const Drive& drive) {
+  try {
+    check_loop(drive.scenario, drive.cluster);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
+  const Drive sound = braking(StrategyKind::kTt);
+  EXPECT_EQ(refusal(sound), "");
+  Drive drive = sound;
+  drive.scenario.world.ego->actuator.reset();
+  EXPECT_THAT(refusal(drive), HasSubstr("needs a vehicle that it drives"));
+  drive = sound;
+  const NodeId actuator = *drive.cluster.find_node("actuator");
+  auto& tasks = drive.cluster.nodes[index_of(actuator)].tasks;
+  tasks.push_back(tasks.front());
+  EXPECT_THAT(refusal(drive), HasSubstr("must be absent: actuator has an actuator, and a vehicle has one"));
+  tasks.clear();
+  EXPECT_THAT(refusal(drive), HasSubstr("needs a cluster whose commands drive the vehicle"));
+  drive = sound;
+  drive.scenario.world.ego->actuator->dead_time = Duration::microseconds(200);
+  EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.dead_time = 0.2 ms: must be at least"));
+  drive = sound;
+  drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.01;
+  EXPECT_THAT(refusal(drive), HasSubstr("the stamps of laser err"));
+  EXPECT_THROW(check_open_loop(sound.scenario), InputError);
+}
+
+}  // namespace
+}  // namespace ttf::drives

@@ -1,0 +1,149 @@
+// A vehicle that commands drive: the actuator between them and the wheels, and its own reaction without them.
+#include "sim/world/vehicle/driven.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/world/road/road.h"
+#include "tests/sim/world/drives.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ttf::sim::world::vehicle {
+namespace {
+
+constexpr Duration kLong = Duration::milliseconds(10'000);
+
+EgoConfig at_speed(double speed) {
+  EgoConfig config;
+  config.speed = speed;
+  config.actuator.emplace();
+  config.actuator->lag = Duration::milliseconds(500);
+  config.actuator->without = WithoutCommand::kHold;
+  return config;
+}
+
+TEST(Driven, KeepsItsSpeedUntilTheFirstCommand) {
+  Driven driven(at_speed(20.0), nullptr, kLong);
+  EXPECT_NEAR(driven.at(at_ms(5000)).x, 100.0, 1e-6);
+  EXPECT_NEAR(driven.at(at_ms(5000)).vx, 20.0, 1e-9);
+  EXPECT_EQ(driven.at(at_ms(5000)).acceleration, 0.0);
+}
+
+// a = u (1 - exp(-t / T)), so that v = v0 + u (t - T (1 - exp(-t / T))).
+TEST(Driven, FollowsACommandWithItsLag) {
+  EgoConfig config = at_speed(20.0);
+  config.actuator->gain = 0.5;
+  Driven driven(config, nullptr, kLong);
+  driven.actuate({at_ms(1003), -4.0, 0.0});
+  const double lag = 0.5, asked = -2.0;
+  for (const std::int64_t after : {1, 100, 777, 2500}) {
+    const double t = 1e-3 * static_cast<double>(after), left = 1.0 - std::exp(-t / lag);
+    const RearAxleMotion motion = driven.at(at_ms(1003 + after));
+    EXPECT_NEAR(motion.vx, 20.0 + asked * (t - lag * left), 1e-9) << after;
+    EXPECT_NEAR(motion.acceleration, asked * left, 1e-9) << after;
+  }
+}
+
+TEST(Driven, ItsWayDependsOnTheCommandsAlone) {
+  const auto driven_with = [](std::int64_t looks_every) {
+    Driven driven(at_speed(15.0), nullptr, kLong);
+    std::vector<RearAxleMotion> seen;
+    for (std::int64_t at = 0; at < 9000; ++at) {
+      if (at % 37 == 5) driven.actuate({at_ms(at + 20), std::sin(0.01 * static_cast<double>(at)), 0.02});
+      if (looks_every > 0 && at % looks_every == 0) (void)driven.at(at_ms(at));
+    }
+    for (const std::int64_t at : {8999, 4321, 17, 6000}) seen.push_back(driven.at(at_ms(at)));
+    return seen;
+  };
+  const std::vector<RearAxleMotion> never = driven_with(0), often = driven_with(1), sometimes = driven_with(143);
+  for (std::size_t i = 0; i < never.size(); ++i) {
+    for (const auto member : {&RearAxleMotion::x, &RearAxleMotion::y, &RearAxleMotion::heading, &RearAxleMotion::vx,
+                              &RearAxleMotion::yaw_rate, &RearAxleMotion::acceleration}) {
+      EXPECT_EQ(never[i].*member, often[i].*member) << i;
+      EXPECT_EQ(never[i].*member, sometimes[i].*member) << i;
+    }
+  }
+}
+
+TEST(Driven, WithoutCommandsItHoldsDecaysOrBrakes) {
+  const auto speed_after = [](WithoutCommand reaction) {
+    EgoConfig config = at_speed(20.0);
+    config.actuator->lag = {};
+    config.actuator->without = reaction;
+    config.actuator->after = Duration::milliseconds(200);
+    config.actuator->decay = Duration::milliseconds(500);
+    config.actuator->deceleration = 5.0;
+    Driven driven(config, nullptr, kLong);
+    driven.actuate({at_ms(1000), 2.0, 0.0});
+    EXPECT_NEAR(driven.at(at_ms(1200)).vx, 20.4, 1e-9);
+    return driven.at(at_ms(2200)).vx;
+  };
+  EXPECT_NEAR(speed_after(WithoutCommand::kHold), 22.4, 1e-9);
+  EXPECT_NEAR(speed_after(WithoutCommand::kDecay), 20.4 + 2.0 * 0.5 * (1.0 - std::exp(-2.0)), 3e-3);
+  EXPECT_NEAR(speed_after(WithoutCommand::kBrake), 15.4, 1e-9);
+}
+
+TEST(Driven, ACommandEndsTheReaction) {
+  EgoConfig config = at_speed(20.0);
+  config.actuator->lag = {};
+  config.actuator->without = WithoutCommand::kBrake;
+  Driven driven(config, nullptr, kLong);
+  driven.actuate({at_ms(1000), 0.0, 0.0});
+  driven.actuate({at_ms(2000), 0.0, 0.0});
+  EXPECT_NEAR(driven.at(at_ms(2100)).vx, 20.0 - 0.8 * 4.0, 1e-9);
+}
+
+TEST(Driven, StandsAfterBrakingAndStartsAgain) {
+  EgoConfig config = at_speed(4.0);
+  Driven driven(config, nullptr, kLong);
+  driven.actuate({at_ms(100), -30.0, 0.0});
+  EXPECT_EQ(driven.at(at_ms(4000)).vx, 0.0);
+  EXPECT_EQ(driven.at(at_ms(4000)).acceleration, 0.0);
+  const double stood = driven.at(at_ms(4000)).x;
+  driven.actuate({at_ms(5000), 1.0, 0.0});
+  EXPECT_NEAR(driven.at(at_ms(4999)).x, stood, 1e-9);
+  EXPECT_GT(driven.at(at_ms(9000)).vx, 0.5);
+}
+
+TEST(Driven, TakesNoMoreThanItsLimits) {
+  EgoConfig config = at_speed(20.0);
+  config.actuator->lag = {};
+  config.actuator->largest_deceleration = 3.0;
+  config.actuator->largest_steering = 0.05;
+  Driven driven(config, nullptr, kLong);
+  driven.actuate({at_ms(1000), -8.0, 0.5});
+  EXPECT_NEAR(driven.at(at_ms(2000)).vx, 17.0, 0.2);
+  Driven gentle(config, nullptr, kLong);
+  gentle.actuate({at_ms(1000), -3.0, 0.05});
+  EXPECT_EQ(driven.at(at_ms(2000)).yaw_rate, gentle.at(at_ms(2000)).yaw_rate);
+}
+
+TEST(Driven, AllocatesNothingOnItsWay) {
+  Driven driven(at_speed(20.0), nullptr, kLong);
+  const std::int64_t before = support::allocations();
+  for (std::int64_t at = 0; at < 10'000; ++at) {
+    driven.actuate({at_ms(at + 1), 0.1, 0.0});
+    (void)driven.at(at_ms(at));
+  }
+  EXPECT_EQ(support::allocations(), before);
+}
+
+TEST(Driven, AProfileBesideAnActuatorIsRefused) {
+  try {
+    world_from("ego: {actuator: {}, profile: [{duration: 1 s}]}\nobjects: []");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("must be absent beside `actuator`"), std::string::npos) << error.what();
+  }
+  try {
+    world_from("ego: {actuator: {gain: .nan}}\nobjects: []");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("ego.actuator.gain"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace ttf::sim::world::vehicle
