@@ -86,6 +86,11 @@ evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenar
   return config;
 }
 
+report::plots::DrivingOptions driving_options(const drives::Scenario& scenario, const std::string& title) {
+  return {title, drives::evaluation_start(scenario), drives::drive_end(scenario), scenario.world.ego->front,
+          scenario.world.ego->width};
+}
+
 std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results) {
   std::vector<std::vector<std::string>> rows;
   if (std::ranges::none_of(results, [](const StrategyResult* one) { return one->driving.has_value(); })) return rows;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/drive/run_outputs.h"
+#include "report/plots/driving_picture.h"
 
 namespace ttf::cli::drive {
 
@@ -13,6 +14,8 @@ namespace ttf::cli::drive {
 evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario);
 // Returns rows of the comparison table, with a cell for each result; none, if no vehicle was driven.
 std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results);
+// Returns the picture's settings for such a scenario.
+report::plots::DrivingOptions driving_options(const drives::Scenario& scenario, const std::string& title);
 nlohmann::ordered_json driving_json(const evaluation::driving::DrivingFindings& found);
 
 }  // namespace ttf::cli::drive

@@ -20,6 +20,7 @@
 #include "report/drawing/render.h"
 #include "report/drawing/tables.h"
 #include "report/page/index_page.h"
+#include "report/plots/driving_picture.h"
 #include "report/plots/lateness_picture.h"
 #include "report/plots/position_plot.h"
 #include "report/plots/schedule_picture.h"
@@ -225,7 +226,7 @@ constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
 constexpr const char* kIndex = "index.html";
 constexpr const char* kSchedule = "schedule";
 // Files per strategy: STRATEGY_timing and so on.
-constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane"};
+constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane", "driving"};
 
 report::plots::PositionOptions position_options(const drives::Scenario& scenario, const StrategyResult& result) {
   report::plots::PositionOptions options;
@@ -425,7 +426,10 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
     plots.push_back(std::make_unique<report::plots::PositionPlots>(names, position_options(scenario, result)));
     report::startup::StartupExtent extent;
     DriveProgress progress(drives::drive_end(scenario), "read for pictures");
-    recording::records::Tee tee({&timing, plots.back().get(), &extent, &progress});
+    std::vector<recording::records::Sink*> readers{&timing, plots.back().get(), &extent, &progress};
+    std::optional<report::plots::DrivingPicture> driving;
+    if (result.driving) readers.push_back(&driving.emplace(driving_options(scenario, names.drive)));
+    recording::records::Tee tee(readers);
     recording::log::read_log(result.log_path, tee);
     if (const auto window = extent.window(result.cluster.cycle())) {
       report::startup::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
@@ -440,6 +444,9 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
     picture(strategy + "_timing", strategy + ": timing", "Slots, tasks and every measurement's way.", timing.svg());
     picture(strategy + "_over_time", strategy + ": x and y over time", "", plots.back()->over_time_svg());
     picture(strategy + "_plane", strategy + ": y over x", "", plots.back()->plane_svg());
+    if (driving)
+      picture(strategy + "_driving", strategy + ": the drive", "Gap, speeds and acceleration of the loop.",
+              driving->svg());
     panels.push_back(plots.back().get());
     titles.push_back(strategy);
   }

@@ -1,8 +1,16 @@
 #include "nodes/driving/adaptive_cruise_control.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace ttf::nodes::driving {
+namespace {
+
+// A vehicle that stands waits for a clear demand. Noise alone would let it creep, since it never rolls back.
+constexpr double kStands_mps = 0.3;
+constexpr double kSetsOff = 0.3, kHolds = 1.0;  // [m/s^2]
+
+}  // namespace
 
 CruiseConfig load_cruise(YamlMap& yaml) {
   CruiseConfig c;
@@ -37,7 +45,9 @@ void AdaptiveCruiseControl::run(host::StepContext& context) {
   if (view->ahead) ahead = control::Ahead{view->ahead->clearance, view->ahead->speed};
   const double free = control::time_gap_acceleration(config_.law, view->own_speed, config_.set_speed_mps, std::nullopt);
   const double wanted = control::time_gap_acceleration(config_.law, view->own_speed, config_.set_speed_mps, ahead);
-  before_ = control::limited(control::at_speed(config_.limits, view->own_speed), wanted, before_, dt);
+  const bool waits = view->own_speed < kStands_mps && wanted < kSetsOff;
+  const double asked = waits ? std::min(wanted, -kHolds) : wanted;
+  before_ = control::limited(control::at_speed(config_.limits, view->own_speed), asked, before_, dt);
   record.own_speed = view->own_speed;
   record.reason = wanted < free ? recording::records::kForGap : recording::records::kForSetSpeed;
   if (view->ahead) {

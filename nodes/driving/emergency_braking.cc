@@ -10,7 +10,7 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::infinity();
 // A slower approach than walking pace is no collision course: the sign of a speed near zero is noise.
 constexpr double kSlowestClosing_mps = 0.5;
-constexpr double kStands_mps = 0.2;
+constexpr double kStopped_mps = 0.2;
 
 double time_to(const ObjectAhead& ahead, double own_speed) {
   const double closing = own_speed - ahead.speed;
@@ -56,7 +56,8 @@ void EmergencyBraking::run(host::StepContext& context) {
     record.gap = view->ahead->clearance;
     record.speed_ahead = view->ahead->speed;
   }
-  const bool goes_on = on_[recording::records::kEmergencyBraking] && remaining < kNone && view->own_speed > kStands_mps;
+  const bool goes_on =
+      on_[recording::records::kEmergencyBraking] && remaining < kNone && view->own_speed > kStopped_mps;
   const bool brakes = remaining < config_.braking_time_s || goes_on;
   tell(context, recording::records::kForwardCollision, brakes || remaining < config_.warning_time_s, record.track,
        remaining);

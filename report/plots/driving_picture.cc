@@ -1,0 +1,141 @@
+#include "report/plots/driving_picture.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "report/drawing/axes.h"
+
+namespace ttf::report::plots {
+namespace {
+
+constexpr double kLeft = 76, kPanelWidth = 860, kPanelHeight = 170, kBetween = 18;
+
+double seconds(TrueTime at) { return 1e-9 * static_cast<double>(at.ns); }
+
+struct Series {
+  const std::vector<drawing::Point>* points;
+  std::string_view colour;
+  bool marks;
+};
+struct Panel {
+  std::string_view label;
+  std::vector<Series> series;
+  bool from_zero = false;
+};
+
+drawing::Extent extent_of(const Panel& panel) {
+  drawing::Extent extent;
+  if (panel.from_zero) extent.add(0.0);
+  for (const Series& series : panel.series)
+    for (const drawing::Point& p : *series.points) extent.add(p.y);
+  return extent.padded(0.06, 1.0);
+}
+
+void draw(drawing::Svg& svg, const drawing::PlotFrame& frame, const Series& series) {
+  if (series.marks) {
+    for (const drawing::Point& p : *series.points)
+      svg.marker(drawing::Marker::kCircle, frame.at(p.x, p.y), 2.5, {.fill = series.colour}, {}, "seen");
+    return;
+  }
+  std::vector<drawing::Point> drawn;
+  for (const drawing::Point& p : *series.points) drawn.push_back(frame.at(p.x, p.y));
+  if (drawn.size() > 1) svg.polyline(drawn, {.stroke = series.colour, .width = 1.5}, false, {}, "truth");
+}
+
+}  // namespace
+
+void DrivingPicture::end_moment() {
+  if (!ego_) return;
+  const double at = seconds(ego_->at);
+  speed_.push_back({at, ego_->vx});
+  acceleration_.push_back({at, ego_->acceleration});
+  if (ahead_) {
+    gap_.push_back({at, ahead_->x});
+    speed_ahead_.push_back({at, ahead_->y});
+  }
+  ego_.reset();
+  ahead_.reset();
+}
+
+void DrivingPicture::on(const recording::records::EgoTruth& ego) {
+  if (ego_ && ego_->at == ego.at) return;
+  end_moment();
+  if (shown(ego.at)) ego_ = ego;
+}
+
+void DrivingPicture::on(const recording::records::TruthState& object) {
+  if (!ego_ || object.at != ego_->at || object.x <= 0.0) return;
+  const double c = std::cos(object.heading), s = std::sin(object.heading);
+  const double along = 0.5 * (object.length * std::abs(c) + object.width * std::abs(s));
+  const double across = 0.5 * (object.length * std::abs(s) + object.width * std::abs(c));
+  if (std::abs(object.y) > across + 0.5 * options_.width_m) return;
+  const double gap = object.x - along - options_.front_m;
+  if (!ahead_ || gap < ahead_->x) ahead_ = drawing::Point{gap, object.speed * c};
+}
+
+void DrivingPicture::on(const recording::records::CommandIssued& command) {
+  const TrueTime at = command.stamp.true_time;
+  // Emergency braking sees the same as cruise control.
+  if (!shown(at) || !command.valid || command.reason == recording::records::kForEmergency) return;
+  seen_speed_.push_back({seconds(at), command.own_speed});
+  if (!std::isfinite(command.gap)) return;
+  seen_gap_.push_back({seconds(at), command.gap});
+  seen_ahead_.push_back({seconds(at), command.speed_ahead});
+}
+
+void DrivingPicture::on(const recording::records::CommandTaken& taken) {
+  if (shown(taken.stamp.true_time) && taken.verdict == recording::records::kApplied)
+    asked_.push_back({seconds(taken.from), taken.acceleration});
+}
+
+void DrivingPicture::on(const recording::records::Warning& warning) {
+  if (warning.on && shown(warning.stamp.true_time))
+    warnings_.emplace_back(seconds(warning.stamp.true_time), warning.service);
+}
+
+std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
+  if (speed_.empty()) return drawing::empty_picture(options_.title, "No commands drove the vehicle.", sheet);
+  const std::array<Panel, 3> panels{
+      {{"gap [m]", {{&seen_gap_, drawing::kSkyBlue, true}, {&gap_, drawing::kBlack, false}}, true},
+       {"speed [m/s]",
+        {{&seen_ahead_, drawing::kOrange, true},
+         {&seen_speed_, drawing::kSkyBlue, true},
+         {&speed_ahead_, drawing::kVermilion, false},
+         {&speed_, drawing::kBlack, false}},
+        true},
+       {"acceleration [m/s^2]", {{&asked_, drawing::kGreen, true}, {&acceleration_, drawing::kBlack, false}}}}};
+  using Kind = drawing::LegendEntry::Kind;
+  const std::vector<drawing::LegendEntry> legend{
+      {Kind::kLine, "the vehicle, true", std::string(drawing::kBlack)},
+      {Kind::kLine, "the object ahead, true", std::string(drawing::kVermilion)},
+      {Kind::kMarker, "gap and own speed, as seen", std::string(drawing::kSkyBlue), drawing::Marker::kCircle, true},
+      {Kind::kMarker, "object's speed, as seen", std::string(drawing::kOrange), drawing::Marker::kCircle, true},
+      {Kind::kMarker, "acceleration asked for", std::string(drawing::kGreen), drawing::Marker::kCircle, true},
+      {Kind::kLine, "collision warning begins", std::string(drawing::kPurple), {}, false, "6 3"},
+      {Kind::kLine, "emergency braking begins", std::string(drawing::kBlue), {}, false, "2 2"}};
+  const double width = sheet.plot_width(kPanelWidth, kLeft + 28), top = 34 + legend_height(legend, width) + 10;
+  drawing::Extent time;
+  time.add(seconds(options_.from));
+  time.add(seconds(options_.to));
+  drawing::Svg svg(kLeft + width + 28, top + 3 * (kPanelHeight + kBetween) + 40, options_.title, sheet);
+  svg.text({24, 22}, options_.title, {.size = 14, .bold = true});
+  draw_legend(svg, {24, 34}, width, legend);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const drawing::Area area{kLeft, top + static_cast<double>(i) * (kPanelHeight + kBetween), width, kPanelHeight};
+    const drawing::PlotFrame frame(area, time, extent_of(panels[i]));
+    frame.draw(svg, i + 1 == panels.size() ? "true time [s]" : "", panels[i].label);
+    svg.open_group("driving", area);
+    for (const auto& [at, service] : warnings_) {
+      const double x = frame.at(at, frame.y_extent().low).x;
+      const bool braking = service == recording::records::kEmergencyBraking;
+      svg.line({x, area.y}, {x, area.y + area.height},
+               {.stroke = braking ? drawing::kBlue : drawing::kPurple, .dash = braking ? "2 2" : "6 3"}, "warning");
+    }
+    for (const Series& series : panels[i].series) draw(svg, frame, series);
+    svg.close_group();
+  }
+  return svg.str();
+}
+
+}  // namespace ttf::report::plots

@@ -1,0 +1,48 @@
+// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the vehicle's
+// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/records/records.h"
+#include "report/drawing/sheet.h"
+#include "report/drawing/svg.h"
+
+namespace ttf::report::plots {
+
+struct DrivingOptions {
+  std::string title{};
+  TrueTime from{}, to{};
+  double front_m = 3.4, width_m = 1.8;  // the vehicle's front, ahead of its rear axle
+};
+
+class DrivingPicture final : public recording::records::Sink {
+ public:
+  explicit DrivingPicture(DrivingOptions options) : options_(std::move(options)) {}
+
+  bool wants_frames() const override { return false; }
+  using recording::records::Sink::on;
+  void on(const recording::records::EgoTruth&) override;
+  void on(const recording::records::TruthState&) override;
+  void on(const recording::records::CommandIssued&) override;
+  void on(const recording::records::CommandTaken&) override;
+  void on(const recording::records::Warning&) override;
+
+  std::string svg(const drawing::Sheet& sheet = {}) const;
+
+ private:
+  using Points = std::vector<drawing::Point>;  // seconds, value
+  bool shown(TrueTime at) const { return at >= options_.from && at <= options_.to; }
+  void end_moment();
+
+  DrivingOptions options_;
+  Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
+  Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
+  std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
+  std::optional<recording::records::EgoTruth> ego_;
+  std::optional<drawing::Point> ahead_;  // gap and speed of the nearest object in the way
+};
+
+}  // namespace ttf::report::plots
