@@ -66,8 +66,8 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
   const Duration least = longest_in_true_time(*found[0].task);
   if (scenario.world.ego->actuator->dead_time < least)
     throw InputError({scenario.file, line, key + ".dead_time",
-                      fmt::format("{} ms", in_ms(scenario.world.ego->actuator->dead_time)),
-                      fmt::format("must be at least {} ms: nothing happens before the task {} of {} has ended",
+                      fmt::format("{:g} ms", in_ms(scenario.world.ego->actuator->dead_time)),
+                      fmt::format("must be at least {:g} ms: nothing happens before the task {} of {} has ended",
                                   in_ms(least), found[0].task->name, cluster.file)});
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
     const sim::world::Device* const device = device_of(scenario.sensors, sensor);
