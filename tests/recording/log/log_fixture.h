@@ -52,7 +52,7 @@ inline LogManifest sample_manifest() {
 
 // The kinds in turn, not in their order, all of them.
 inline int kind_of(std::uint32_t i) {
-  constexpr std::size_t kStride = 11;
+  constexpr std::size_t kStride = 13;
   static_assert(std::gcd(kStride, records::kKindCount) == 1);
   return static_cast<int>(i * kStride % records::kKindCount) + 1;
 }
