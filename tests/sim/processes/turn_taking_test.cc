@@ -134,9 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"Adva", "scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva, 700},
         Case{"Tt", "scenarios/paper_scenario2.yaml", fusion::strategies::StrategyKind::kTt, 700},
         Case{"NamedSensors", "scenarios/two_lasers.yaml", fusion::strategies::StrategyKind::kTt, 700},
-        // The lead brakes, and so does the vehicle.
-        Case{"ClosedLoop", "scenarios/acc_braking_lead.yaml", fusion::strategies::StrategyKind::kTt, 9'000},
-        Case{"ClosedLoopBuff", "scenarios/acc_braking_lead.yaml", fusion::strategies::StrategyKind::kBuff, 2'000},
+        Case{"ClosedLoop", "scenarios/acc_braking_lead.yaml", fusion::strategies::StrategyKind::kTt, 3'000},
+        Case{"ClosedLoopBuff", "scenarios/acc_braking_lead.yaml", fusion::strategies::StrategyKind::kBuff, 1'000},
         Case{"ColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700},
         Case{"GuardedColdStart", "scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt, 700, true},
         Case{"Faults", "scenarios/faulty_bus.yaml", fusion::strategies::StrategyKind::kTt, 2700},
