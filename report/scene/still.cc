@@ -195,8 +195,8 @@ std::string scene_svg(const Scene& scene, TrueTime at, const drawing::Names& nam
                                  moved = caption(
                                      scene.own.empty()
                                          ? "Tracks are moved on by their velocity since the newest image."
-                                         : "Since the newest image, tracks are moved on by their velocity over ground "
-                                           "and by the vehicle's own motion. Trails and arrows are relative to it.");
+                                         : "Tracks are moved on since the newest image. Trails are relative to the "
+                                           "vehicle.");
   const auto rows = [](std::size_t lines) { return drawing::kLineHeight * static_cast<double>(lines); };
   const double legend_top = 34 + rows(titles.size() - 1);
   const double top = legend_top + legend_height(legend, room) + 8;
