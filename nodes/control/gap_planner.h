@@ -7,11 +7,11 @@
 //   accelerate     the object's and 0.5 m/s   the smallest gap is reached, or the lane is clear      hold
 //   stop           0                          never
 //   any other                                 the object's speed falls through the emergency speed   stop
-// No state is left during start-up. The planner then asks for the start's speed. The fall needs an object in two steps in a row.
-// The stop goes first.
+// During start-up the planner asks for the start's speed and stays in its state. A fall needs an object in two steps in a row. It
+// goes before the other conditions.
 //
-// Wolfe: "Adaptive object detection for autonomous vehicles" (Northern Illinois University, 2020), chapter 3. The text's
-// table counts. The printed program takes an object's number for its place.
+// Wolfe: "Adaptive object detection for autonomous vehicles" (Northern Illinois University, 2020), chapter 3. The rules are those
+// of the text's table. The printed program differs: it takes an object's number for its place.
 #pragma once
 
 #include <cstddef>
@@ -49,7 +49,8 @@ struct Candidate {
   double x = 0.0, y = 0.0;
   bool confirmed = false;
 };
-// Returns the nearest confirmed track ahead with right <= y <= left: the lane, wider by half of a vehicle on either side.
+// Returns the index of the nearest confirmed track ahead with right <= y <= left [m]. These are the lane's edges, with half the
+// width of a vehicle added on either side.
 std::optional<std::size_t> most_important(std::span<const Candidate> tracks, double right, double left);
 
 }  // namespace ttf::nodes::control

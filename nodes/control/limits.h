@@ -18,10 +18,11 @@ struct LimitsBySpeed {
   Limits slow{2.0, 5.0, 5.0};
   Limits fast{2.0, 3.5, 2.5};
 };
+// Returns the limits at a speed [m/s].
 Limits at_speed(const LimitsBySpeed& limits, double speed);
 
-// Returns the acceleration nearest to `wanted` within the limits, at most jerk * dt from `before`. Where the limits have become
-// narrower than `before`, the way back obeys the jerk, too.
+// Returns the acceleration [m/s^2] nearest to `wanted` within the limits, at most jerk * dt [s] from `before`. Where the limits
+// have become narrower than `before`, the way back obeys the jerk, too.
 double limited(const Limits& limits, double wanted, double before, double dt);
 
 }  // namespace ttf::nodes::control

@@ -9,12 +9,12 @@
 namespace ttf::nodes::control {
 
 struct ProportionalIntegral {
-  double kp = 2.5;
-  double ki = 1.0;
+  double kp = 2.5;                        // [output / error]
+  double ki = 1.0;                        // [output / error / s]
   double tracking_s = 1.0;                // Tt, at least dt
   double smallest = -6.0, largest = 3.0;  // the output
 
-  // Returns the output for an error, and takes the integral on by `dt`. The state is the caller's.
+  // Returns the output for an error, and takes the integral on by `dt` [s]. The integral is the caller's.
   double step(double error, double dt, double& integral) const;
 };
 

@@ -6,13 +6,13 @@
 namespace ttf::nodes::control {
 namespace {
 
-constexpr double kKmh = 1.0 / 3.6;  // [m/s]
+constexpr double kSlow_mps = 10.0 / 3.6, kHundred_kmh_mps = 100.0 / 3.6;
 constexpr double kShortest_m = 2.0;
 
 }  // namespace
 
 double minimum_following_distance(double speed) {
-  const double gap = speed < 10.0 / 3.6 ? 1.0 + (std::max(2.0, speed) - 2.0) / 7.8 : 1.0 + speed / (100.0 * kKmh);
+  const double gap = speed < kSlow_mps ? 1.0 + (std::max(2.0, speed) - 2.0) / 7.8 : 1.0 + speed / kHundred_kmh_mps;
   return std::max(kShortest_m, gap * speed);
 }
 

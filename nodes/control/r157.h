@@ -1,5 +1,5 @@
-// Figures of UN Regulation 157 (automated lane keeping): the minimum following distance, and the drivers whose accidents the
-// regulation takes for avoidable. They judge a drive; they steer none.
+// Figures of UN Regulation 157 (automated lane keeping): the minimum following distance, and models of drivers. The regulation
+// takes an accident that such a driver avoids for avoidable. The figures judge a drive and steer none.
 //
 // The figures are those of the regulation, and of esmini's controllers for it (ControllerALKS_R157SM, 3.6.0).
 #pragma once
@@ -19,8 +19,8 @@ struct Braking {
   double deceleration = 0.0;  // [m/s^2], the largest
   double rise_s = 0.0;        // until then
 };
-// The competent and careful human driver evaluates a risk in 0.4 s and reacts in 0.75 s. He then brakes with 0.774 g within 0.6 s,
-// which is a jerk of 12.65 m/s^3. The release of the pedal decelerates by 0.4 m/s^2 before. `Braking` leaves that out.
+// The competent and careful human driver evaluates a risk in 0.4 s, reacts in 0.75 s, and then brakes with 0.774 g within 0.6 s.
+// This is a jerk of 12.65 m/s^3. The release of the pedal decelerates by 0.4 m/s^2 before. `Braking` leaves that out.
 struct CompetentDriver {
   double risk_evaluation_s = 0.4;
   double reaction_s = 0.75;
@@ -40,7 +40,7 @@ inline constexpr Braking kRegulationBraking{0.35, 6.0, 0.0};
 
 // Returns the deceleration [m/s^2] at an instant after the event, as long as the vehicle drives.
 double deceleration_at(const Braking& braking, double seconds);
-// Returns the way [m] from the event to the standstill.
+// Returns the way [m] from the event to the standstill, at a speed [m/s] before.
 double stopping_distance(const Braking& braking, double speed);
 
 // Returns whether the regulation asks a system to avoid the collision with a vehicle that cuts in. The time to collision [s] is

@@ -37,7 +37,7 @@ struct AxleLoad {
   double front_axle = 1.4, rear_axle = 1.6;  // [m], from the centre of mass
   double front_stiffness = 24e3;             // [N/rad], of the axle: of both tyres
 };
-// Returns psi_ss [rad].
+// Returns psi_ss [rad] at a speed [m/s] and the path's yaw rate [rad/s].
 double steady_slip(const AxleLoad& load, double speed, double path_yaw_rate);
 
 }  // namespace ttf::nodes::control

@@ -1,14 +1,18 @@
 // Adaptive cruise control with a constant time gap.
 //
 //   a = k1 (d - d0 - h v) + k2 (v_lead - v)
-// d is the clearance to the vehicle ahead, d0 the clearance at a standstill, h the time gap. With an actuator of lag T the string
-// of vehicles is stable for h >= 2 T. Without a vehicle ahead, or if the set speed asks for less, the law is
+// d is the clearance to the vehicle ahead, d0 that at a standstill, h the time gap. Without a vehicle ahead, or if the set speed
+// asks for less, the law is
 //   a = k (v_set - v).
 // Limits are applied afterwards (limits.h). ISO 15622 asks for h >= 0.8 s, with one setting in 1.5..2.2 s.
 //
-// The gap's error e = d - d0 - h v behind a lead of constant speed obeys e'' + (h k1 + k2) e' + k1 e = 0 without lag and
-// limits. The default gains damp it
-// more than critically.
+// Behind a lead of constant speed, without lag and limits, the gap's error e = d - d0 - h v obeys
+//   e'' + (h k1 + k2) e' + k1 e = 0.
+// The default gains damp it more than critically.
+//
+// A string of such vehicles is stable if no speed grows from vehicle to vehicle. Without lag the condition is
+//   h (h k1 + 2 k2) >= 2.
+// The defaults give 2.7. With h = 0.8 s they give 1.3, and the string is unstable. No gains help against a lag above h / 2.
 #pragma once
 
 #include <optional>

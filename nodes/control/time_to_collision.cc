@@ -25,9 +25,10 @@ double first_touch(double clearance, double closing, double growth) {
   if (growth == 0.0) return closing > 0.0 ? clearance / closing : kNever;
   const double discriminant = closing * closing + 2.0 * growth * clearance;
   if (discriminant < 0.0) return kNever;
-  // The form without cancellation: the clearance is positive, so of two positive roots this one is the smaller.
-  const double divisor = closing + std::sqrt(discriminant);
-  return divisor > 0.0 ? 2.0 * clearance / divisor : kNever;
+  const double root = std::sqrt(discriminant);
+  // The forms without cancellation. The clearance is positive, so of two positive roots the first form has the smaller one.
+  if (closing >= 0.0) return 2.0 * clearance / (closing + root);
+  return growth > 0.0 ? (root - closing) / growth : kNever;
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ double time_to_collision(double clearance, double closing_speed) {
 double time_to_collision(double clearance, const InLine& own, const InLine& ahead) {
   double passed = 0.0;
   InLine rear = own, front = ahead;
-  // Speeds are quadratic until the first vehicle stands, then until the second does, and then for ever.
+  // The clearance is quadratic until the first vehicle stands, then until the second does, and then for ever.
   for (int piece = 0; piece < 3; ++piece) {
     if (clearance <= 0.0) return passed;
     const double rear_stands = stands_at(rear), front_stands = stands_at(front);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include "nodes/control/limits.h"
@@ -104,6 +105,31 @@ TEST(TimeGap, ErrorFadesAsItsPolesSay) {
           << t;
     }
   }
+}
+
+// The largest gain from the speed ahead to the own one, over frequencies. The actuator lags by `lag_s`.
+double largest_gain(const TimeGapConfig& config, double lag_s) {
+  double largest = 0.0;
+  for (double frequency = 1e-3; frequency < 10.0; frequency *= 1.02) {  // [rad/s]
+    const std::complex<double> s{0.0, frequency};
+    const double damping = config.time_gap_s * config.gap_gain + config.speed_gain;
+    const std::complex<double> gain =
+        (config.speed_gain * s + config.gap_gain) / (lag_s * s * s * s + s * s + damping * s + config.gap_gain);
+    largest = std::max(largest, std::abs(gain));
+  }
+  return largest;
+}
+
+TEST(TimeGap, StringsAreStableAsTheHeaderSays) {
+  TimeGapConfig config;
+  EXPECT_LE(largest_gain(config, 0.0), 1.0);
+  config.time_gap_s = 0.8;
+  EXPECT_GT(largest_gain(config, 0.0), 1.01);
+  // With a lag of 0.5 s: stable at twice the lag with k2 = 1 / (2 T), and below it with no gains.
+  EXPECT_LE(largest_gain({1.0, 2.0, 0.23, 1.0, 0.4}, 0.5), 1.0 + 1e-12);
+  for (const double gap_gain : {0.01, 0.1, 0.5, 2.0})
+    for (const double speed_gain : {0.1, 0.5, 1.0, 2.0, 5.0})
+      EXPECT_GT(largest_gain({0.9, 2.0, gap_gain, speed_gain, 0.4}, 0.5), 1.0) << gap_gain << " " << speed_gain;
 }
 
 TEST(ProportionalIntegral, IsLinearBetweenItsLimits) {
