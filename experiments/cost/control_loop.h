@@ -1,9 +1,12 @@
 // A control loop of blocks, for expected_cost.h: continuous plants, and discrete systems that hold their outputs.
 //
-//   plant      x' = a x + b (u + w),  y = c x;   w: white noise with a density, the same at every input
+//   plant      x' = a x + b (u + w),  y = c x;   w: independent white noises of one density at all inputs
 //   discrete   when executed: x+ = a x + b (u + n),  y+ = c x + d (u + n);   between: x and y are held
-// Every block has one output; a further output of a plant is a block, too. A plant reads the outputs of blocks all the time; a discrete block reads them when it is executed, with
-// the measurement noise n of each plant. A sampler is a discrete block without state and d = 1, an actuator likewise.
+// Every block has one output. A further output of a plant is a block, too. A plant reads the outputs of other blocks all the
+// time. A discrete block reads them when it is executed, with the measurement noise n of each plant. A sampler is a discrete
+// block without state, with d = 1. So is an actuator.
+//
+// Times are in the unit of Timing::grain. A noise's density is its variance per unit of time.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +27,7 @@ using Block = std::size_t;
 
 class ControlLoop {
  public:
-  // A block may name one that is added later as its input; all must be there before flow().
+  // Blocks are numbered from 0 as they are added. An input may be a block that is added later, but before flow().
   Block add_plant(const StateSpace& system, const std::vector<Block>& inputs, double noise_density = 0.0,
                   double measurement_variance = 0.0);
   // Another output of a plant: c x.
@@ -45,8 +48,8 @@ class ControlLoop {
     std::vector<Block> inputs;
     bool continuous = false;
     double noise_density = 0.0, measurement_variance = 0.0;
-    Eigen::Index states = 0,
-                 first = 0;  // its place in the loop's state; a discrete block's output comes behind its states
+    Eigen::Index states = 0;
+    Eigen::Index first = 0;  // its place in the loop's state. A discrete block's output comes behind its states
     double cost = 0.0;
   };
   Block add(Entry entry);

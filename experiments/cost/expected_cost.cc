@@ -27,7 +27,8 @@ class Period {
     for (int grain = 0; grain < timing.grains; ++grain) flows_.push_back(stepped(flows_.back()));
   }
 
-  // Takes a moment after stage 0 to the one after the next stage 0. Without noise the map is L. `cost`, if given, is added up.
+  // Takes a moment after stage 0 to the one after the next stage 0. Without noise the map is L. Adds the
+  // cost of the period to `cost`, if given.
   MatrixXd through(const MatrixXd& moment, bool noise, double* cost = nullptr) const {
     const std::size_t stages = timing_.stages.size();
     const double one = noise ? 1.0 : 0.0;

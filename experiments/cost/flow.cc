@@ -26,7 +26,8 @@ MatrixXd exponential(const MatrixXd& a) {
 FlowStep step_of(const Flow& flow, double dt) {
   const Index n = flow.a.rows();
   FlowStep step;
-  // exp of [-a', 1, 0; 0, -a', q; 0, 0, a] dt: the last column has int of q_step, q_step and phi, each behind exp(-a' dt).
+  // exp of [-a', 1, 0; 0, -a', q; 0, 0, a] dt. Its last column has exp(-a' dt) times the integral of q_step, exp(-a' dt) times
+  // q_step, and phi.
   MatrixXd costs = MatrixXd::Zero(3 * n, 3 * n);
   costs.block(0, 0, n, n) = costs.block(n, n, n, n) = -flow.a.transpose();
   costs.block(0, n, n, n).setIdentity();
@@ -38,7 +39,7 @@ FlowStep step_of(const Flow& flow, double dt) {
   step.q = 0.5 * (q + q.transpose());
   const MatrixXd q_so_far = step.phi.transpose() * integrated.block(0, 2 * n, n, n);
   step.constant = flow.noise.cwiseProduct(q_so_far).sum();
-  // exp of [-a, noise; 0, a'] dt: above right exp(-a dt) times the noise's covariance.
+  // exp of [-a, noise; 0, a'] dt. Above right it has exp(-a dt) times the noise's covariance.
   MatrixXd noises = MatrixXd::Zero(2 * n, 2 * n);
   noises.block(0, 0, n, n) = -flow.a;
   noises.block(0, n, n, n) = flow.noise;

@@ -68,13 +68,20 @@ TEST(ExpectedCost, OfBallAndBeamIsThePublishedOne) {
   EXPECT_EQ(fmt::format("{:.4f}", ball_and_beam(BeamRates::kMultirate).cost), "1.9910");
 }
 
-TEST(ExpectedCost, JitterStabilisesTheLoopOfKushnerAndTobias) {
+TEST(ExpectedCost, OfTheLoopOfKushnerAndTobiasIsThePublishedOne) {
   const struct {
     int most;
     const char* cost;
   } published[] = {{0, "138.213"}, {4, "10.9028"},  {7, "9.00573"},  {11, "9.246"},
                    {14, "10.723"}, {18, "16.0697"}, {21, "31.0397"}, {28, "inf"}};
-  for (const auto& [most, cost] : published) EXPECT_EQ(six(kushner(most).cost), cost) << most;
+  for (const auto& [most, cost] : published) EXPECT_EQ(six(kushner(uniform_delay(0, most)).cost), cost) << most;
+}
+
+TEST(ExpectedCost, AgeHelpsTheLoopOfKushnerAndTobiasAndJitterDoesNot) {
+  EXPECT_LT(kushner(constant_delay(2)).cost, kushner(constant_delay(0)).cost);
+  for (const int mean : {2, 7, 9, 14})
+    EXPECT_LT(kushner(constant_delay(mean)).cost, kushner(uniform_delay(0, 2 * mean)).cost) << mean;
+  EXPECT_EQ(fmt::format("{:.1f}", kushner(constant_delay(14)).cost), "22.5");
 }
 
 // Costs by Jitterbug: no delay, then the largest total of h / 4, h / 2, 3 h / 4 and h.

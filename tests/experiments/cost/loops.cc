@@ -66,7 +66,7 @@ ExpectedCost servo(double h, int total, ServoDelays delays, double loss) {
        {{{loop.executes({kSampler})}, delay}, {control, with_loss(delay, loss)}, {{loop.executes({kActuator})}, {}}}});
 }
 
-ExpectedCost kushner(int most) {
+ExpectedCost kushner(const Delays& delay) {
   ControlLoop loop;
   constexpr Block kPlant = 0, kSampler = 1, kActuator = 2;
   loop.add_plant({matrix(2, 2, {-3.0, -2.0, 1.0, 0.0}), matrix(2, 1, {6.0, 0.0}), matrix(1, 2, {0.0, 1.0}), {}},
@@ -74,9 +74,8 @@ ExpectedCost kushner(int most) {
   loop.add_discrete(gains({1.0}), {kPlant});
   loop.add_discrete(gains({-1.0}), {kSampler});
   loop.add_cost(kPlant, 1.0);
-  return expected_cost(
-      loop.flow(),
-      {1.42 / 50.0, 50, {{{loop.executes({kSampler})}, uniform_delay(0, most)}, {{loop.executes({kActuator})}, {}}}});
+  return expected_cost(loop.flow(),
+                       {1.42 / 50.0, 50, {{{loop.executes({kSampler})}, delay}, {{loop.executes({kActuator})}, {}}}});
 }
 
 ExpectedCost ball_and_beam(BeamRates rates) {

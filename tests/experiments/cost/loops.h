@@ -25,16 +25,16 @@ enum class ServoDelays { kConstant, kUniform, kCompensated };
 // `total`: both delays together at most, in grains. `loss`: a share of commands that the actuator does not get.
 ExpectedCost servo(double h, int total, ServoDelays delays, double loss = 0.0);
 
-// 6 / ((s + 1) (s + 2)) with the gain -1 (kushner.m). The period is 1.42. The delay is uniform on 0..`most` grains of 1.42 / 50.
-ExpectedCost kushner(int most);
+// 6 / ((s + 1) (s + 2)) with the gain -1 (kushner.m). The period is 1.42, a grain of the delay 1.42 / 50.
+ExpectedCost kushner(const Delays& delay);
 
 // Ball and beam with a PID controller outside and a P controller inside (multirate.m).
 enum class BeamRates { kBothSlow, kBothFast, kMultirate };
 ExpectedCost ball_and_beam(BeamRates rates);
 
-// A vehicle with the default gains of nodes/control/time_gap.h. The lead's speed is a random walk with a memory of 20 s. Its
-// acceleration has the density 1 m^2/s^3. Lists come every 40 ms. A command rests on a list of `periods` before, and then takes
-// a delay in grains of 10 ms. The drive train lags by 0.3 s.
+// A vehicle with the default gains of nodes/control/time_gap.h. The lead's speed is driven by white noise of density 1 m^2/s^3,
+// and forgets with a time constant of 20 s. Lists come every 40 ms. A command rests on the list of `periods` before. It goes
+// out after a delay in grains of 10 ms. The drive train lags by 0.3 s.
 struct Following {
   double gap_m = 0.0, acceleration = 0.0;  // root mean squares: the gap's error, the acceleration [m/s^2]
 };
