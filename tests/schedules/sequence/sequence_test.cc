@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "schedules/sequence/generator.h"
@@ -247,6 +248,73 @@ TEST(BestOrder, IsTheBestOfAllAndTheGeneratorIsNot) {
   EXPECT_EQ(letters(best), "AbCacBc");
   EXPECT_NEAR(std::sqrt(mean_variance(ours, times)), 0.05368, 1e-5);
   EXPECT_NEAR(std::sqrt(mean_variance(best, times)), 0.00840, 1e-5);
+}
+
+// Counts frames, for docs/detection_sequences.md.
+struct Tried {
+  int better = 0, all = 0;  // frames whose orders are tried: with a better one, together
+  int too_many = 0;         // frames with more orders than are tried
+
+  void add(const Sequence& sequence, const DetectionTimes& times) {
+    const std::optional<Sequence> best = best_order(sequence, times);
+    if (!best) {
+      ++too_many;
+      return;
+    }
+    ++all;
+    if (*best != sequence) ++better;
+  }
+};
+
+Tried all_frames(int sensors) {
+  const DetectionTimes times(sensors, us(46'300), us(27'700));
+  Tried tried;
+  for (unsigned chosen = 1; chosen < (1u << sensors); ++chosen) {
+    std::vector<int> interest;
+    for (int s = 0; s < sensors; ++s)
+      if (chosen >> s & 1u) interest.push_back(s);
+    for (const SlotOrder order : {SlotOrder::kText, SlotOrder::kReversed})
+      for (int slots = 1; slots <= 8; ++slots) tried.add(generated(with_slots(sensors, interest, slots, order)), times);
+  }
+  return tried;
+}
+
+TEST(BestOrder, OfTheRulesFrames) {
+  for (int sensors = 1; sensors <= 5; ++sensors)
+    for (int region = 0; region < sensors; ++region)
+      for (int slots = sensors; slots <= 10; ++slots) {
+        const DetectionTimes times(sensors, us(46'300), us(27'700));
+        const std::vector<int> one{region};
+        const Sequence sequence = generated(with_slots(sensors, one, slots));
+        EXPECT_EQ(letters(*best_order(sequence, times)), letters(sequence))
+            << "one region, and no sensor without a slot";
+      }
+  const DetectionTimes times(3, us(46'300), us(27'700));
+  const auto deviation_ms = [&](const Sequence& sequence) { return 1e3 * std::sqrt(mean_variance(sequence, times)); };
+  const struct {
+    const char* order;
+    double deviation_ms;
+    const char* best;
+    double best_deviation_ms;
+  } page[] = {{"AcBC", 5.37, "AcBC", 5.37},
+              {"AbBC", 32.10, "ABCb", 5.37},
+              {"AaBbCb", 39.57, "ABabCb", 10.62},
+              {"AabBabCab", 22.89, "AbaBabaCb", 13.49},
+              {"AacBcCa", 47.57, "ACacaBc", 13.80},
+              {"AaBcCb", 61.13, "AbCaBc", 9.30},
+              {"AabcBbcCac", 72.75, "AbCacBacbc", 14.30}};
+  for (const auto& [order, deviation, best, best_deviation] : page) {
+    const Sequence found = *best_order(parsed(order), times);
+    EXPECT_EQ(letters(found), best) << order;
+    EXPECT_NEAR(deviation_ms(parsed(order)), deviation, 0.006) << order;
+    EXPECT_NEAR(deviation_ms(found), best_deviation, 0.006) << order;
+  }
+  const Tried three = all_frames(3), four = all_frames(4);
+  EXPECT_EQ(three.better, 68);
+  EXPECT_EQ(three.all, 112);
+  EXPECT_EQ(four.better, 183);
+  EXPECT_EQ(four.all, 238);
+  EXPECT_EQ(four.too_many, 2);
 }
 
 }  // namespace
