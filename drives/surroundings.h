@@ -30,7 +30,8 @@ Surroundings surroundings_of(const Scenario& scenario, const schedules::model::C
                              std::uint32_t replication,
                              const std::shared_ptr<const recording::rows::RecordedInput>& recorded);
 
-// Returns a sentence if the sensors' vehicle moves, of the scenario or of a trace, and the fusion reads no odometry; else "".
+// Returns a warning if the sensors' vehicle moves and the fusion reads no odometry; else "". The vehicle is that of the scenario or
+// of its trace.
 std::string motion_warning(const Scenario& scenario, const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::drives

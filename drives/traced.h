@@ -17,7 +17,7 @@ void take_truth(Scenario& scenario, std::shared_ptr<const recording::osi::TruthT
 // Returns a sentence about the trace and its use. Precondition: the scenario has one.
 std::string truth_text(const Scenario& scenario);
 
-// Returns the scenario's description, or with a trace whose world the drive is in.
+// Returns the scenario's description. With a trace, returns a sentence about the trace and the scenario.
 std::string subject_of(const Scenario& scenario);
 
 inline constexpr Duration kShortestDrive = Duration::milliseconds(100);

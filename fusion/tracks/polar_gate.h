@@ -1,9 +1,10 @@
 // A cheap test of a radar's observation against a track, before the filter's own: most pairs are far apart.
 //
 // The gate asks for nu' S^-1 nu, which is at least nu_k^2 / S_kk for every component k. Range and bearing each have a bound of
-// nu_k from below and one of S_kk from above, without derivatives. Let d be the way from the sensor to the track's anchor, rho
-// its length, b the distance of the observed point from the anchor with covariance C (fusion/tracks/anchoring.h), P the
-// covariance of the anchor's position, R the observation's with the spread of its returns, and r the measured range:
+// nu_k from below and one of S_kk from above, without derivatives. d is the way from the sensor to the track's anchor, rho its
+// length, and r the measured range. b is the distance of the observed point from the anchor, with covariance C
+// (fusion/tracks/anchoring.h). P is the covariance of the anchor's position, and R that of the observation with the spread of its
+// returns:
 //   |nu_0| >= |r - rho| - |b|                         S_00 <= tr P + tr C + R_00
 //   |nu_1| >= |sin(bearing - azimuth of d)| - |b| / r   S_11 <= tr P / rho^2 + tr C / r^2 + R_11
 // They hold for filters to first order of one model without biases.

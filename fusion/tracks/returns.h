@@ -47,9 +47,9 @@ class Spreads {
  public:
   explicit Spreads(std::size_t max_tracks) : of_track_(max_tracks) {}
 
-  // Forgets all of them, for a list.
+  // Begins a list: forgets all of them.
   void begin() { ++list_; }
-  // Forgets that of a track that changes, the index-th of its set.
+  // Forgets that of the index-th track of the set, since the track changes.
   void forget(std::size_t index) { of_track_[index].list = 0; }
   // Returns spread_of() to the bit. It is valid until the next call.
   const linear::Matrix<3>& of(std::size_t index, const Track& track, const estimators::Estimator& estimator,
@@ -57,7 +57,7 @@ class Spreads {
 
  private:
   struct OfTrack {
-    std::uint64_t list = 0;  // for which the rest is; 0: for none
+    std::uint64_t list = 0;  // the rest is for this list; 0: for none
     linear::Vector<2> position = linear::Vector<2>::Zero(), velocity = linear::Vector<2>::Zero();  // the sensor's
     linear::Matrix<3> spread = linear::Matrix<3>::Zero();
   };

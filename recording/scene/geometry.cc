@@ -49,8 +49,8 @@ std::vector<Point> edge(const ViewedField& field) {
   return points;
 }
 
-// The vehicle's own way is taken as a straight line in the middle direction of its arc. It is longer than the arc's chord by a
-// 24th of the squared turn: by 1 % after half a radian.
+// The vehicle's own way is taken as a straight line in the mean direction of its arc. The line is longer than the arc's chord by a
+// 24th of the squared turn, which is 1 % for half a radian.
 Place moved_on(const Place& place, double speed, const OwnMotion& own, double seconds) {
   const double turn = own.yaw_rate * seconds, way = speed * seconds, own_way = own.speed * seconds;
   const double x = place.x + way * std::cos(place.heading) - own_way * std::cos(0.5 * turn);

@@ -22,7 +22,7 @@ struct View {
 };
 View view_at(const Scene& scene, TrueTime at);
 
-// Returns the track's place in the vehicle's axes so much later.
+// Returns the track's place so many seconds later, in the axes that the vehicle has then.
 Place moved_on(const View& view, const ShownTrack& track, double seconds);
 
 // Returns "collision in 1.2 s", "gap of 0.4 s" or "warning".

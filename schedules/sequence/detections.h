@@ -1,8 +1,8 @@
 // Sequences of detections: which picture a detector looks at next.
 //
 // A vehicle has several cameras and one detector. A primary detection takes the whole picture of a sensor, a secondary one the
-// region of interest alone. A frame is one sequence in which each sensor has its primary detection once; the next frame follows at
-// once. Letters name both: `AaBb` are two sensors, each with a primary and then a secondary detection.
+// region of interest alone. A frame is one sequence in which each sensor has its primary detection once. The next frame follows at
+// once. Letters name both kinds: `AaBb` are two sensors, each with a primary and then a secondary detection.
 //
 // Terms and examples: Wolfe, "Adaptive object detection for autonomous vehicles" (Northern Illinois University, 2020), chapter 2.
 #pragma once
@@ -36,6 +36,7 @@ struct DetectionTimes {
   DetectionTimes(int sensors, Duration of_primary, Duration of_secondary);
   Duration of(const Detection& detection) const;
 };
+// Returns the sum of the detections' durations.
 Duration frame_time(const Sequence& sequence, const DetectionTimes& times);
 
 }  // namespace ttf::schedules::sequence

@@ -83,7 +83,7 @@ std::uint64_t orders(const Sequence& sequence, std::uint64_t limit) {
   std::uint64_t count = 1, same = 0;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     same = i > 0 && rest[i] == rest[i - 1] ? same + 1 : 1;
-    // Every step but the last of a kind may leave no whole number of orders, but a whole product over the divisor.
+    // The quotient is whole at every step: it is the number of orders of the detections so far.
     count = count * (i + 1) / same;
     if (count > limit) return limit + 1;
   }

@@ -8,8 +8,8 @@
 
 namespace ttf::schedules::sequence {
 
-// The intervals from one beginning of a detection of the sensor, primary or secondary, to the next: the picture is that of the
-// beginning. Over many frames the thesis's sum over n - 1 becomes the mean over one frame's intervals.
+// The intervals from the beginning of a detection of the sensor, primary or secondary, to the beginning of the next. A picture is
+// taken at the beginning. The thesis divides by n - 1. Over many frames its variance becomes that of one frame's intervals.
 struct Intervals {
   int detections = 0;  // in a frame
   double mean_s = 0.0;

@@ -35,7 +35,7 @@ struct RoadConfig {
   double lane_width = 3.5;  // [m]
   bool closed = false;
 };
-// Stands for a road that a file lacks, after a finding says so: it has every lane.
+// Stands for a road that a file lacks, once a finding has said so. It has every lane, so that no second finding follows.
 inline const RoadConfig kMissingRoad{.pieces = {Piece{1.0}}, .left = 8, .right = 8};
 // Reads the road, and checks that a closed one ends where it begins.
 RoadConfig load_road(YamlMap& yaml);

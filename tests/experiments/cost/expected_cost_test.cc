@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Six significant digits, as published.
+// Six significant digits, as Jitterbug prints.
 std::string six(double value) { return fmt::format("{:.6g}", value); }
 
 TEST(Flow, RotationAndDoubleIntegratorAreTheirClosedForms) {

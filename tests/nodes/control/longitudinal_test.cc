@@ -182,7 +182,7 @@ TEST(TimeToCollision, AcceleratedVehiclesThatStop) {
     double clearance;
     InLine own, ahead;
   } cases[] = {
-      {40.0, {29.0, 0.0}, {29.0, -8.0}},   // the seed's braking
+      {40.0, {29.0, 0.0}, {29.0, -8.0}},   // the vehicle ahead brakes hard
       {40.0, {29.0, -8.0}, {29.0, -8.0}},  // never: both stop alike
       {5.0, {20.0, -6.0}, {18.0, -8.0}},   // the vehicle ahead stands before
       {20.0, {10.0, -2.0}, {5.0, 0.0}},    // never: slow in time
