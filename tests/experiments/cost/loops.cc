@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "nodes/control/time_gap.h"
+
 namespace ttf::experiments::cost {
 namespace {
 
@@ -98,7 +100,9 @@ ExpectedCost ball_and_beam(BeamRates rates) {
 }
 
 Following follow(int periods, const Delays& delay) {
-  constexpr double k1 = 0.23, k2 = 0.74, gap = 1.5, lag = 0.3, memory = 20.0, period = 0.04;
+  constexpr nodes::control::TimeGapConfig law;
+  constexpr double k1 = law.gap_gain, k2 = law.speed_gain, gap = law.time_gap_s;
+  constexpr double lag = 0.3, memory = 20.0, period = 0.04;
   const auto mean_square = [&](bool of_gap) {
     ControlLoop loop;
     constexpr Block kLead = 0, kCar = 1, kClosing = 2, kAcceleration = 3, kNothing = 4, kActuator = 5, kSampler = 6;
