@@ -46,7 +46,7 @@ expect 2 'b/tt.mcap: holds the same records as .*a/tt.mcap: give each log once' 
 expect 2 'holds the same records as' export "$work/a/tt.mcap" "$work/nodes/node2.mcap" --format csv -o "$work/none"
 expect 2 'must be another file than the input' export "$work"/nodes/node{0,1}.mcap --format csv \
   -o "$work/nodes/node1.mcap"
-printf 'damage' | dd of="$work/nodes/node1.mcap" bs=1 seek=60000 conv=notrunc status=none
+printf 'damage' | dd of="$work/nodes/node1.mcap" bs=1 seek=$(($(stat -c %s "$work/nodes/node1.mcap") / 2)) conv=notrunc status=none
 expect 0 'warning: .*node1.mcap: the chunk at byte' export "$work"/nodes/*.mcap --format csv -o "$work/of_many"
 expect 0 '' export "$work/a/tt.mcap" --format csv -o "$work/of_one"
 LC_ALL=C comm -13 <(LC_ALL=C sort "$work/of_one") <(LC_ALL=C sort "$work/of_many") >"$work/added"
