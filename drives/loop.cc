@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drives/drive.h"
+#include "faults/plan.h"
 
 namespace ttf::drives {
 namespace {
@@ -39,8 +40,15 @@ const sim::world::Device* device_of(const Sensors& sensors, const schedules::mod
   return nullptr;
 }
 
-// An oscillator counts a task's time; this is more than any drifts.
-Duration longest_in_true_time(const Task& task) { return task.worst_case + Duration{task.worst_case.ns / 50 + 1}; }
+// An oscillator counts a task's time: one that is slow by a share d counts 1 / (1 - d) of it. A sixteenth more is enough up to
+// 1/17, which no fault exceeds.
+Duration longest_in_true_time(const Task& task) {
+  static_assert(faults::kMostDriftPpb <= 1'000'000'000 / 17);
+  return task.worst_case + Duration{task.worst_case.ns / 16 + 1};
+}
+
+// The actuator takes stamps within a round for those of the past up to this age (nodes/driving/actuator.cc).
+Duration oldest_told(const Cluster& cluster) { return Duration{cluster.round().ns / 8 * 7}; }
 
 }  // namespace
 
@@ -69,6 +77,11 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                       fmt::format("{:g} ms", in_ms(scenario.world.ego->actuator->dead_time)),
                       fmt::format("must be at least {:g} ms: nothing happens before the task {} of {} has ended",
                                   in_ms(least), found[0].task->name, cluster.file)});
+  const Duration oldest = scenario.world.ego->actuator->oldest;
+  if (oldest >= oldest_told(cluster))
+    throw InputError({scenario.file, line, key + ".oldest", fmt::format("{:g} ms", in_ms(oldest)),
+                      fmt::format("must be below {:g} ms: stamps are told apart within a round of {}",
+                                  in_ms(oldest_told(cluster)), cluster.file)});
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
     const sim::world::Device* const device = device_of(scenario.sensors, sensor);
     if (device != nullptr && (device->time.fixed != 0.0 || device->time.sigma != 0.0))

@@ -116,6 +116,9 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   drive.scenario.world.ego->actuator->dead_time = Duration::microseconds(200);
   EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.dead_time = 0.2 ms: must be at least"));
   drive = sound;
+  drive.scenario.world.ego->actuator->oldest = Duration::milliseconds(280);
+  EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.oldest = 280 ms: must be below 280 ms"));
+  drive = sound;
   drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.01;
   EXPECT_THAT(refusal(drive), HasSubstr("the stamps of laser err"));
   EXPECT_THROW(check_open_loop(sound.scenario), InputError);

@@ -93,6 +93,10 @@ TEST(Actuator, RefusesOldFutureAndInvalidCommands) {
   EXPECT_EQ(loop.taken->verdict, kLateCommand);
   EXPECT_FALSE(loop.actuation);
   EXPECT_TRUE(loop.inputs[0].discarded);
+  // A round has 320 ms, so that 250 ms before the reading is the same place in it as 70 ms after.
+  loop.receive(0, {true, -1.0, 0.0}, at_ms(40));
+  loop.run(at_ms(290));
+  EXPECT_EQ(loop.taken->verdict, kLateCommand);
   loop.receive(0, {true, -1.0, 0.0}, at_ms(155));
   loop.run(at_ms(40));
   EXPECT_EQ(loop.taken->verdict, kLateCommand);
