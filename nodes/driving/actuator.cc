@@ -27,9 +27,7 @@ CommandTaken Actuator::read(host::StepContext& context, const Port& port) const 
   const Command command = decode_command(*input.layout, *input.list, port.signals);
   taken.acceleration = command.acceleration;
   taken.steering = command.steering;
-  // Commands were issued in the past: up to seven eighths of a round, the rest allows for clocks ahead of this one.
-  const GlobalTime about = context.stamp.global - Duration{round_.ns / 8 * 3};
-  const GlobalTime issued = host::time_stamp(*input.layout, *input.list, about, round_);
+  const GlobalTime issued = host::past_time_stamp(*input.layout, *input.list, context.stamp.global, round_);
   const Duration age = context.stamp.global - issued;
   if (!context.global_time || age > config_.oldest || -age > config_.oldest) {
     taken.verdict = recording::records::kLateCommand;

@@ -28,9 +28,15 @@ std::optional<View> WayAhead::look(const host::StepContext& context) {
   const host::Input& image = context.inputs[image_];
   const host::Input& odometry = context.inputs[odometry_];
   if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
-  if (!image.list || !odometry.list || host::element_count(*odometry.layout, *odometry.list) == 0) return std::nullopt;
-  const Duration age = context.stamp.global - valid_at_;
-  if (age > config_.max_image_age || -age > config_.max_image_age) return std::nullopt;
+  if (odometry.fresh)
+    measured_at_ = host::past_time_stamp(*odometry.layout, *odometry.list, context.stamp.global, round_);
+  if (!context.global_time || !image.list || !odometry.list) return std::nullopt;
+  if (host::element_count(*odometry.layout, *odometry.list) == 0) return std::nullopt;
+  const auto is_near = [&](GlobalTime instant, Duration most) {
+    return context.stamp.global - instant <= most && instant - context.stamp.global <= most;
+  };
+  if (!is_near(valid_at_, config_.max_image_age) || !is_near(measured_at_, config_.max_odometry_age))
+    return std::nullopt;
   return View{host::element_value(*odometry.layout, *odometry.list, 0, speed_), nearest(image)};
 }
 

@@ -18,6 +18,8 @@ struct PathConfig {
   double front_m = 3.4;  // the vehicle's front, ahead of its rear axle
   // The largest difference between an image's predicted instant and its use.
   Duration max_image_age = Duration::milliseconds(100);
+  // Beyond this age of its newest list the odometry has stopped, as for the fusion (fusion/ego/odometry.h).
+  Duration max_odometry_age = Duration::milliseconds(200);
 };
 
 struct ObjectAhead {
@@ -36,7 +38,8 @@ struct View {
 class WayAhead {
  public:
   WayAhead(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const PathConfig& config);
-  // Returns nothing without an image that is fresh enough, or without any list of odometry.
+  // Returns nothing without an image and a list of odometry that are fresh enough, or without global time. Call it at each
+  // execution.
   std::optional<View> look(const host::StepContext& context);
 
  private:
@@ -47,7 +50,8 @@ class WayAhead {
   std::size_t image_ = 0, odometry_ = 0;  // the ports' places among the inputs
   std::size_t speed_ = 0;                 // the signal
   fusion::ImageSignals signals_;
-  GlobalTime valid_at_{};  // the newest image's
+  GlobalTime valid_at_{};     // the newest image's
+  GlobalTime measured_at_{};  // the newest list's of odometry
 };
 
 }  // namespace ttf::nodes::driving

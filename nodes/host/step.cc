@@ -123,6 +123,11 @@ GlobalTime time_stamp(const schedules::model::PduLayout& layout, const bus::cni:
   return near + Duration{apart};
 }
 
+GlobalTime past_time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime now,
+                           Duration round) {
+  return time_stamp(layout, list, now - Duration{round.ns / 8 * 3}, round);
+}
+
 int element_count(const schedules::model::PduLayout& layout, const bus::cni::ListView& list) {
   return static_cast<int>(bus::wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)),
                                                      bus::wire::header_signal(layout, "count")));

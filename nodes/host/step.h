@@ -125,6 +125,10 @@ std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);
 // shifted by whole rounds. The signal must not have wrapped on the sender's count: 32 bits hold 71 minutes.
 GlobalTime time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
                       Duration round);
+// Returns the instant of what was before `now`, as a measurement or a command: up to seven eighths of a round ago. The rest allows
+// for clocks ahead of this one.
+GlobalTime past_time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime now,
+                           Duration round);
 // Returns the number of elements in the list.
 int element_count(const schedules::model::PduLayout& layout, const bus::cni::ListView& list);
 // Returns the physical value of signal `signal` of element `index` of the whole list.

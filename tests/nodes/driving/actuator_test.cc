@@ -136,8 +136,9 @@ struct Braking final : Sink {
   void on(const Warning& r) override { warnings.push_back(r); }
   void on(const CommandIssued& r) override { issued = r; }
 
-  // One car ahead: its middle, and its speed.
-  void look(double x, double speed, double own_speed) {
+  // One car ahead: its middle, and its speed. The own speed was measured that long ago.
+  void look(double x, double speed, double own_speed, Duration measured = {}) {
+    constexpr GlobalTime kNow = at_ms(1'000);
     const schedules::model::Task& task = task_of("feature", "emergency_braking");
     const PduId image_pdu = *cluster().find_pdu("image"), odometry_pdu = *cluster().find_pdu("odometry_list"),
                 command_pdu = *cluster().find_pdu("emergency_command");
@@ -150,10 +151,10 @@ struct Braking final : Sink {
     car.length = 4.0;
     car.width = 1.8;
     car.confirmed = true;
-    image.begin(1, 1, GlobalTime{});
+    image.begin(1, 1, kNow);
     fusion::encode_image_object(car, image, 0, fusion::bind_image(cluster(), cluster().pdu(image_pdu)));
     host::Output odometry("odometry", odometry_pdu, cluster().pdu(odometry_pdu));
-    odometry.begin(1, 1, GlobalTime{});
+    odometry.begin(1, 1, kNow - measured);
     odometry.set(0, *schedules::model::find_signal(cluster().pdu(odometry_pdu).element, "speed"), own_speed);
     std::vector<host::Input> inputs;
     for (const auto& port : task.reads) {
@@ -163,6 +164,7 @@ struct Braking final : Sink {
     std::vector<host::Output> outputs;
     outputs.emplace_back("command", command_pdu, cluster().pdu(command_pdu));
     host::StepContext context;
+    context.stamp.global = kNow;
     context.inputs = inputs;
     context.outputs = outputs;
     context.sink = this;
@@ -195,6 +197,15 @@ TEST(EmergencyBraking, WarnsThenBrakesAndEndsWhenNothingIsApproached) {
   ASSERT_EQ(braking.warnings.size(), 4u);
   EXPECT_FALSE(braking.warnings[2].on);
   EXPECT_FALSE(braking.warnings[3].on);
+}
+
+TEST(EmergencyBraking, DoesNotTrustTheSpeedOfOdometryThatHasStopped) {
+  Braking braking;
+  braking.look(20.0, 0.0, 20.0, Duration::milliseconds(150));
+  EXPECT_TRUE(braking.issued->valid);
+  braking.look(20.0, 0.0, 20.0, Duration::milliseconds(250));
+  EXPECT_FALSE(braking.issued->valid);
+  EXPECT_EQ(braking.warnings.size(), 2u) << "the warnings stay";
 }
 
 }  // namespace
