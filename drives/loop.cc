@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/check.h"
 #include "drives/drive.h"
 #include "faults/plan.h"
 
@@ -29,15 +30,15 @@ std::vector<ActuatorTask> actuators(const Cluster& cluster) {
 
 std::string key_of(const ActuatorTask& one) { return "nodes." + one.node->name + ".tasks." + one.task->name + ".step"; }
 
-const sim::world::Device* device_of(const Sensors& sensors, const schedules::model::Sensor& sensor) {
+const sim::world::Device& device_of(const Sensors& sensors, const schedules::model::Sensor& sensor) {
   switch (sensor.kind) {
-    case schedules::model::SensorKind::kLaser: return &sensors.lasers.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kCamera: return &sensors.cameras.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kRadar: return &sensors.radars.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kMonoCamera: return &sensors.mono_cameras.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kOdometry: break;
+    case schedules::model::SensorKind::kLaser: return sensors.lasers.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kCamera: return sensors.cameras.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kRadar: return sensors.radars.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kMonoCamera: return sensors.mono_cameras.of(sensor.name).model.device;
+    case schedules::model::SensorKind::kOdometry: return sensors.odometries.of(sensor.name).model.device;
   }
-  return nullptr;
+  TTF_CHECK(false, "sensor kind {}", static_cast<int>(sensor.kind));
 }
 
 // An oscillator counts a task's time: one that is slow by a share d counts 1 / (1 - d) of it. A sixteenth more is enough up to
@@ -83,8 +84,8 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                       fmt::format("must be below {:g} ms: stamps are told apart within a round of {}",
                                   in_ms(oldest_told(cluster)), cluster.file)});
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
-    const sim::world::Device* const device = device_of(scenario.sensors, sensor);
-    if (device != nullptr && (device->time.fixed != 0.0 || device->time.sigma != 0.0))
+    const sim::world::DriveError time = device_of(scenario.sensors, sensor).time;
+    if (time.fixed != 0.0 || time.sigma != 0.0)
       throw InputError(
           {scenario.file, line, key, "",
            fmt::format("must be absent, since the stamps of {} err: a sensor cannot see where commands that "

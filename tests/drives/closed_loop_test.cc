@@ -121,6 +121,9 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   drive = sound;
   drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.01;
   EXPECT_THAT(refusal(drive), HasSubstr("the stamps of laser err"));
+  drive = sound;
+  drive.scenario.sensors.odometries.usual.model.device.time.sigma = 0.01;
+  EXPECT_THAT(refusal(drive), HasSubstr("the stamps of odometry err"));
   EXPECT_THROW(check_open_loop(sound.scenario), InputError);
 }
 
