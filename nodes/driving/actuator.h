@@ -13,8 +13,9 @@
 namespace ttf::nodes::driving {
 
 // Ports `command` and, if it is bound, `emergency`. A list is taken once. It is refused if its instant is too far away, and if it
-// is invalid: a valid list of `emergency` asks for more deceleration than `command`, or counts for nothing. A list that lost a
-// fragment, or whose frame was not intact, never gets here (bus/cni/list_buffer.h).
+// is invalid: a valid list of `emergency` asks for more deceleration than `command`, or counts for nothing. A reading
+// remembers no earlier one: without a new list of `emergency`, `command` alone counts. A list that lost a fragment, or whose frame
+// was not intact, never gets here (bus/cni/list_buffer.h).
 class Actuator final : public host::Step {
  public:
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

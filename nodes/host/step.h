@@ -125,8 +125,8 @@ std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);
 // shifted by whole rounds. The signal must not have wrapped on the sender's count: 32 bits hold 71 minutes.
 GlobalTime time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,
                       Duration round);
-// Returns the instant of what was before `now`, as a measurement or a command: up to seven eighths of a round ago. The rest allows
-// for clocks ahead of this one.
+// Returns the instant of a measurement or a command, which lies before `now`: up to seven eighths of a round. The rest allows for
+// clocks ahead of this one.
 GlobalTime past_time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime now,
                            Duration round);
 // Returns the number of elements in the list.
