@@ -80,7 +80,7 @@ void check_steps(const schedules::model::Cluster& cluster) {
         if (fusion == nullptr) fusion = &task;
         reads = reads || nodes::fusion::odometry_of(cluster, task) != kNoSensor;
       }
-      if (task.step != "feature_service" || odometry != kNoSensor) continue;
+      if (!nodes::host::is_service(task.step) || odometry != kNoSensor) continue;
       for (const schedules::model::PortBinding& binding : task.reads)
         if (binding.port == "odometry")
           findings.add({cluster.file, binding.line,

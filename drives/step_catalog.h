@@ -18,7 +18,7 @@ namespace ttf::drives {
 // Returns every step of the program with its ports.
 std::span<const schedules::model::StepPorts> step_ports();
 // Binds the cluster's tasks to them (schedules/model/ports.h), and checks that they agree about odometry. If one node's fusion
-// reads it, each node's does. A feature service reads it only beside such a fusion. Throws InputError.
+// reads it, each node's does. A service reads it only beside such a fusion. Throws InputError.
 void check_steps(const schedules::model::Cluster& cluster);
 
 struct NodeSetConfig {

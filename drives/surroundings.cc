@@ -19,7 +19,8 @@ namespace {
 constexpr double kMoving_mps = 0.1;
 
 bool moves(const sim::world::vehicle::EgoConfig& ego) {
-  return ego.speed > kMoving_mps || std::ranges::any_of(ego.segments, [](const auto& segment) {
+  return ego.actuator.has_value() || ego.speed > kMoving_mps ||
+         std::ranges::any_of(ego.segments, [](const auto& segment) {
            return segment.pace.acceleration.value_or(0.0) > 0.0 || segment.pace.speed.value_or(0.0) > kMoving_mps;
          });
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "nodes/host/signals.h"
 
 namespace ttf::nodes::host {
 namespace {
@@ -14,9 +15,8 @@ bool tells_a_state(const schedules::model::Cluster& cluster, const schedules::mo
                    const schedules::model::PortBinding& port) {
   if (task.step == "actuator") return true;
   const SensorId sensor = cluster.pdu(port.pdu).sensor;
-  const bool serves =
-      task.step == "feature_service" || task.step == "adaptive_cruise_control" || task.step == "emergency_braking";
-  return serves && sensor != kNoSensor && cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
+  return is_service(task.step) && sensor != kNoSensor &&
+         cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
 }
 
 }  // namespace

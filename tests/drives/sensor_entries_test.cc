@@ -130,9 +130,9 @@ TEST(SensorEntries, SayHowPicturesShowThem) {
 }
 
 // Takes the odometry from the tasks with this step.
-schedules::model::Cluster without_odometry(std::string_view step) {
-  schedules::model::Cluster cluster = schedules::file::load_cluster(kFolder + "moving_synchronised.yaml");
-  cluster.file = "moving.yaml";
+schedules::model::Cluster without_odometry(std::string_view step, const std::string& file = "moving") {
+  schedules::model::Cluster cluster = schedules::file::load_cluster(kFolder + file + "_synchronised.yaml");
+  cluster.file = file + ".yaml";
   for (schedules::model::Node& node : cluster.nodes)
     for (schedules::model::Task& task : node.tasks)
       if (task.step == step) std::erase_if(task.reads, [](const auto& read) { return read.port == "odometry"; });
@@ -148,6 +148,14 @@ TEST(Odometry, AServiceReadsItBesideAFusionThatDoes) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::MatchesRegex("moving.yaml:[0-9]+: nodes.feature.tasks.use.reads.odometry = "
                                                     "odometry_list: must be read by the fusion, too: .*"));
+  }
+  try {
+    check_steps(without_odometry("fusion", "closed_loop"));
+    FAIL() << "is taken";
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    for (const char* const task : {"use", "cruise", "brake"})
+      EXPECT_THAT(what, HasSubstr(std::string("tasks.") + task + ".reads.odometry"));
   }
 }
 
@@ -178,6 +186,9 @@ TEST(Odometry, AVehicleThatMovesWithoutItIsTold) {
   EXPECT_EQ(motion_warning(scenario, unread), "");
   scenario.world.ego.emplace();
   EXPECT_EQ(motion_warning(scenario, unread), "") << "it stands";
+  scenario.world.ego->actuator.emplace();
+  EXPECT_THAT(motion_warning(scenario, unread), HasSubstr("world.ego: moves")) << "commands drive it";
+  scenario.world.ego->actuator.reset();
   scenario.world.ego->speed = 5.0;
   EXPECT_EQ(motion_warning(scenario, measured), "");
   EXPECT_THAT(motion_warning(scenario, unread), HasSubstr("world.ego: moves, and moving.yaml has no odometry that its "
