@@ -1,6 +1,6 @@
-// Adds records that no node can make. The truth is recorded whenever a sensor measures and whenever the feature
-// service uses an image, and whenever an actuator reads commands. With it goes that of the sensors' vehicle, unless it stands at the origin. A fix of the reference is
-// recorded when the fusion node first could have it.
+// Adds records that no node can make. The truth is recorded whenever a sensor measures, the feature service uses an image, or an
+// actuator reads commands. The state of the sensors' vehicle goes with it, unless the vehicle stands at the origin. A fix of the
+// reference is recorded when the fusion node first could have it.
 //
 // A truth record names the node and clock that set its instant (records::TruthState). Nodes that measure at one
 // instant each record it once.

@@ -1,7 +1,5 @@
 #include "nodes/driving/actuator.h"
 
-#include <cmath>
-
 namespace ttf::nodes::driving {
 
 using recording::records::CommandTaken;

@@ -2,7 +2,6 @@
 // dead time after its reading on. sim/world/vehicle/driven.h has the rest: lag, limits, and the reaction without commands.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 

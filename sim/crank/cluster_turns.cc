@@ -1,6 +1,7 @@
 // A cluster with one node simulated here, and the acts outside the buses: the wires between sensors and their hosts.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/check.h"
@@ -39,9 +40,10 @@ void ClusterSimulation::act(std::size_t node, const processes::Act& act) {
   } else if (const auto* strobe = std::get_if<processes::StrobeAct>(&act)) {
     pull_strobe(strobe->sensor, strobe->sequence);
   } else if (const auto* actuation = std::get_if<nodes::host::Actuation>(&act)) {
-    if (actuation->from <= now())
-      throw std::runtime_error(fmt::format("{} tells of an actuation from {} ns on, at {} ns", cluster_.node(id).name,
-                                           actuation->from.ns, now().ns));
+    if (actuation->from <= std::max(now(), told_from_))
+      throw std::runtime_error(fmt::format("{} tells of an actuation from {} ns on, at {} ns, after one from {} ns on",
+                                           cluster_.node(id).name, actuation->from.ns, now().ns, told_from_.ns));
+    told_from_ = actuation->from;
     if (config_.actuate) config_.actuate(*actuation);
   }
 }
