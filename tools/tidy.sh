@@ -24,7 +24,7 @@ case ${1:-} in
   *) files=("$@") ;;
 esac
 
-flags=(-std=c++20 -march=x86-64-v3 -ffp-contract=off -DTTF_VERSION='""' -I. "-isystem$build"
+flags=(-std=c++20 -march=x86-64-v3 -ffp-contract=off -DTTF_VERSION='""' -DTTF_WITH_DDS=1 -I. "-isystem$build"
   -I/usr/include/eigen3 $(pkg-config --cflags ompi-c librsvg-2.0 CycloneDDS 2>/dev/null || pkg-config --cflags ompi-c librsvg-2.0))
 check() {
   local file=$1
