@@ -90,13 +90,6 @@ endif()
 # ttf_as_test(<name>): compiles a program as a test is compiled, with the tests' headers.
 function(ttf_as_test name)
   target_link_libraries(${name} PRIVATE ttf_options)
-  if(TTF_SANITIZE MATCHES "undefined")
-    # These checks, and coverage, are for the rooms: in tests they would cost a sixth of the time of compiling.
-    target_compile_options(${name} PRIVATE -fno-sanitize=undefined)
-    if(TTF_FUZZ)
-      target_compile_options(${name} PRIVATE -fno-sanitize=fuzzer-no-link)
-    endif()
-  endif()
   target_compile_definitions(${name} PRIVATE GTEST_HAS_PTHREAD=1)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/fusion")
     target_compile_options(${name} PRIVATE -O1)

@@ -346,7 +346,7 @@ TEST(FoxgloveExport, ADrivingVehicleSeesAStandingObjectComeNearer) {
   scene.image(10 * kMs, 12 * kMs, {object(7, 40.0)});
   const SceneFile file = scene.finished();
   EXPECT_THAT(file.problems, IsEmpty());
-  const ::foxglove::ArrowPrimitive& arrow = file.of("/tracks").at(0).second.entities(0).arrows(0);
+  const ::foxglove::ArrowPrimitive arrow = file.of("/tracks").at(0).second.entities(0).arrows(0);
   EXPECT_DOUBLE_EQ(arrow.shaft_length() + arrow.head_length(), 8.0);
   EXPECT_NEAR(std::abs(arrow.pose().orientation().z()), 1.0, 1e-12);  // backwards
   EXPECT_TRUE(file.topics.contains("/observations/laser"));
