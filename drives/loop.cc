@@ -28,6 +28,10 @@ std::vector<ActuatorTask> actuators(const Cluster& cluster) {
   return found;
 }
 
+// The vehicle has room for an actuation each millisecond (sim/world/vehicle/driven.h). Lists that activate a task may come in
+// any number, if a node babbles.
+constexpr Duration kLeastBetween = Duration::milliseconds(2);
+
 std::string key_of(const ActuatorTask& one) { return "nodes." + one.node->name + ".tasks." + one.task->name + ".step"; }
 
 const sim::world::Device& device_of(const Sensors& sensors, const schedules::model::Sensor& sensor) {
@@ -69,15 +73,21 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
   if (found.size() > 1)
     throw InputError({cluster.file, found[1].task->line, key_of(found[1]), "actuator",
                       fmt::format("must be absent: {} has an actuator, and a vehicle has one", found[0].node->name)});
+  const Task& task = *found[0].task;
+  const Duration between = task.activation.at.repetition * cluster.cycle();
+  if (task.activation.kind != schedules::model::ActivationKind::kTime || between < kLeastBetween)
+    throw InputError(
+        {cluster.file, task.line, "nodes." + found[0].node->name + ".tasks." + task.name + ".activation", "",
+         fmt::format("must be by time, once in {:g} ms at most: the task moves the vehicle", in_ms(kLeastBetween))});
   if (scenario.truth)
     throw InputError(
         {scenario.file, line, key, "", "must be absent with --truth: the trace says how the vehicle drives"});
-  const Duration least = longest_in_true_time(*found[0].task);
+  const Duration least = longest_in_true_time(task);
   if (scenario.world.ego->actuator->dead_time < least)
     throw InputError({scenario.file, line, key + ".dead_time",
                       fmt::format("{:g} ms", in_ms(scenario.world.ego->actuator->dead_time)),
                       fmt::format("must be at least {:g} ms: nothing happens before the task {} of {} has ended",
-                                  in_ms(least), found[0].task->name, cluster.file)});
+                                  in_ms(least), task.name, cluster.file)});
   const Duration oldest = scenario.world.ego->actuator->oldest;
   if (oldest >= oldest_told(cluster))
     throw InputError({scenario.file, line, key + ".oldest", fmt::format("{:g} ms", in_ms(oldest)),

@@ -110,6 +110,12 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   auto& tasks = drive.cluster.nodes[index_of(actuator)].tasks;
   tasks.push_back(tasks.front());
   EXPECT_THAT(refusal(drive), HasSubstr("must be absent: actuator has an actuator, and a vehicle has one"));
+  tasks.pop_back();
+  tasks.front().activation.at.repetition = 0;
+  EXPECT_THAT(refusal(drive), HasSubstr("nodes.actuator.tasks.act.activation: must be by time"));
+  tasks.front().activation.at.repetition = 8;
+  tasks.front().activation.kind = schedules::model::ActivationKind::kMessage;
+  EXPECT_THAT(refusal(drive), HasSubstr("nodes.actuator.tasks.act.activation: must be by time"));
   tasks.clear();
   EXPECT_THAT(refusal(drive), HasSubstr("needs a cluster whose commands drive the vehicle"));
   drive = sound;
