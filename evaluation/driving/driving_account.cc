@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recording/scene/geometry.h"
+
 namespace ttf::evaluation::driving {
 namespace {
 
@@ -21,13 +23,11 @@ void DrivingAccount::on(const recording::records::EgoTruth& ego) {
 }
 
 void DrivingAccount::on(const recording::records::TruthState& object) {
-  if (!ego_ || object.at != ego_->at || object.x <= 0.0) return;
-  const double c = std::cos(object.heading), s = std::sin(object.heading);
-  const double along = 0.5 * (object.length * std::abs(c) + object.width * std::abs(s));
-  const double across = 0.5 * (object.length * std::abs(s) + object.width * std::abs(c));
-  if (std::abs(object.y) > across + 0.5 * config_.width_m) return;
-  const double gap = object.x - along - config_.front_m;
-  if (!ahead_ || gap < ahead_->gap) ahead_ = Ahead{gap, object.speed * c, object.acceleration * c};
+  if (!ego_ || object.at != ego_->at) return;
+  const std::optional<double> gap = recording::scene::gap_ahead(object, config_.front_m, config_.width_m);
+  if (!gap || (ahead_ && ahead_->gap <= *gap)) return;
+  const double along = std::cos(object.heading);
+  ahead_ = Ahead{*gap, object.speed * along, object.acceleration * along};
 }
 
 void DrivingAccount::judge() {
@@ -57,9 +57,13 @@ void DrivingAccount::judge() {
 }
 
 void DrivingAccount::note_braking(double acceleration) {
-  if (!braking_way_ && acceleration < -kBrakes) braking_way_ = 0.0;
-  if (!braking_way_ || findings_.stopping_distance_m) return;
-  if (before_) *braking_way_ += std::hypot(ego_->x - before_->x, ego_->y - before_->y);
+  if (findings_.stopping_distance_m) return;
+  if (braking_way_)
+    *braking_way_ += std::hypot(ego_->x - before_->x, ego_->y - before_->y);
+  else if (acceleration < -kBrakes)
+    braking_way_ = 0.0;  // the way begins at this moment
+  else
+    return;
   if (ego_->vx < kStands_mps) findings_.stopping_distance_m = braking_way_;
 }
 

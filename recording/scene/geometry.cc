@@ -59,6 +59,15 @@ Place moved_on(const Place& place, double speed, const OwnMotion& own, double se
   return {c * x + s * y, c * y - s * x, place.heading - turn};
 }
 
+std::optional<double> gap_ahead(const records::TruthState& object, double front_m, double width_m) {
+  if (object.x <= 0.0) return std::nullopt;
+  const double c = std::abs(std::cos(object.heading)), s = std::abs(std::sin(object.heading));
+  const double along = 0.5 * (object.length * c + object.width * s),
+               across = 0.5 * (object.length * s + object.width * c);
+  if (std::abs(object.y) > across + 0.5 * width_m) return std::nullopt;
+  return object.x - along - front_m;
+}
+
 std::vector<Point> mounted(const Place& mounting, std::vector<Point> points) {
   const double c = std::cos(mounting.heading), s = std::sin(mounting.heading);
   for (Point& p : points) p = {mounting.x + c * p.x - s * p.y, mounting.y + s * p.x + c * p.y};

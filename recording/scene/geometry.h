@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "recording/records/records.h"
@@ -30,6 +31,10 @@ std::vector<Point> edge(const ViewedField& field);
 // Returns the place of an object `seconds` later, in the axes that the vehicle has then. The object drives straight along its
 // heading with `speed`, over ground. With an `own` motion of zero, the speed is relative to the vehicle.
 Place moved_on(const Place& place, double speed, const OwnMotion& own, double seconds);
+
+// Returns the gap [m] between a vehicle's front, `front_m` ahead of its origin, and an object that lies in its way straight
+// ahead, `width_m` wide; no value for an object that is behind the origin or beside the way. The object is in the vehicle's axes.
+std::optional<double> gap_ahead(const records::TruthState& object, double front_m, double width_m);
 
 // Returns the points, given in the axes of `mounting`, in the vehicle's.
 std::vector<Point> mounted(const Place& mounting, std::vector<Point> points);

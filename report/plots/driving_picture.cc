@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "recording/scene/geometry.h"
 #include "report/drawing/axes.h"
 
 namespace ttf::report::plots {
@@ -65,13 +66,9 @@ void DrivingPicture::on(const recording::records::EgoTruth& ego) {
 }
 
 void DrivingPicture::on(const recording::records::TruthState& object) {
-  if (!ego_ || object.at != ego_->at || object.x <= 0.0) return;
-  const double c = std::cos(object.heading), s = std::sin(object.heading);
-  const double along = 0.5 * (object.length * std::abs(c) + object.width * std::abs(s));
-  const double across = 0.5 * (object.length * std::abs(s) + object.width * std::abs(c));
-  if (std::abs(object.y) > across + 0.5 * options_.width_m) return;
-  const double gap = object.x - along - options_.front_m;
-  if (!ahead_ || gap < ahead_->x) ahead_ = drawing::Point{gap, object.speed * c};
+  if (!ego_ || object.at != ego_->at) return;
+  const std::optional<double> gap = recording::scene::gap_ahead(object, options_.front_m, options_.width_m);
+  if (gap && (!ahead_ || *gap < ahead_->x)) ahead_ = drawing::Point{*gap, object.speed * std::cos(object.heading)};
 }
 
 void DrivingPicture::on(const recording::records::CommandIssued& command) {

@@ -78,7 +78,7 @@ TEST(DrivingAccount, TheStoppingDistanceCountsFromTheBrakesAhead) {
   drive.at(3000, 25, 0, 0, 22, 0);
   const DrivingFindings found = drive.account.finish();
   ASSERT_TRUE(found.stopping_distance_m);
-  EXPECT_NEAR(*found.stopping_distance_m, 25.0, 1e-12);
+  EXPECT_NEAR(*found.stopping_distance_m, 15.0, 1e-12);
 }
 
 TEST(DrivingAccount, WarningsAreRightWrongMissedOrLate) {
