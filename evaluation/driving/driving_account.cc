@@ -88,7 +88,19 @@ void DrivingAccount::note_hazards(double time_to_collision) {
 }
 
 void DrivingAccount::on(const recording::records::CommandIssued& command) {
-  if (command.stamp.true_time >= from_) ++findings_.issued;
+  const TrueTime at = command.stamp.true_time;
+  if (at >= from_) ++findings_.issued;
+  for (std::size_t service = 0; service < warns_.size(); ++service) {
+    if (!warns_[service] || command.stamp.node != warner_[service]) continue;
+    note_silence(service, at);
+    heard_[service] = at;
+  }
+}
+
+void DrivingAccount::note_silence(std::size_t service, TrueTime until) {
+  if (!warns_[service] || until - heard_[service] <= kSilent) return;
+  warned_[service].back().to = heard_[service];
+  warns_[service] = false;
 }
 
 void DrivingAccount::on(const recording::records::CommandTaken& taken) {
@@ -104,6 +116,9 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
 void DrivingAccount::on(const recording::records::Warning& warning) {
   const TrueTime at = warning.stamp.true_time;
   if (warning.service >= warned_.size() || findings_.collision) return;
+  note_silence(warning.service, at);
+  warner_[warning.service] = warning.stamp.node;
+  heard_[warning.service] = at;
   std::vector<Span>& all = warned_[warning.service];
   if (warning.on && !warns_[warning.service]) all.push_back({at, kNever<TrueTime>});
   if (!warning.on && warns_[warning.service]) all.back().to = at;
@@ -152,7 +167,10 @@ DrivingFindings DrivingAccount::finish() {
     findings_.below_minimum = static_cast<double>(below_) / static_cast<double>(behind_);
   }
   if (jerks_ > 0) findings_.jerk_rms = std::sqrt(jerk_squares_ / static_cast<double>(jerks_));
-  for (std::size_t service = 0; service < hazards_.size(); ++service) findings_.warnings[service] = judged(service);
+  for (std::size_t service = 0; service < hazards_.size(); ++service) {
+    if (before_) note_silence(service, before_->at);
+    findings_.warnings[service] = judged(service);
+  }
   return findings_;
 }
 

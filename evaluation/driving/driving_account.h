@@ -55,6 +55,8 @@ struct DrivingFindings {
 class DrivingAccount final : public recording::records::Sink {
  public:
   static constexpr Duration kTolerance = Duration::milliseconds(300), kNoticed = Duration::milliseconds(100);
+  // A warning ends, too, when its node has issued no command for this long: it may be dead.
+  static constexpr Duration kSilent = Duration::milliseconds(500);
 
   // Ignores all before `from`.
   DrivingAccount(const DrivingConfig& config, TrueTime from) : config_(config), from_(from) {}
@@ -80,6 +82,7 @@ class DrivingAccount final : public recording::records::Sink {
   void note_braking(double acceleration);
   void note_hazards(double time_to_collision);
   void note_jerk();
+  void note_silence(std::size_t service, TrueTime until);
   WarningFindings judged(std::size_t service) const;
 
   DrivingConfig config_;
@@ -93,6 +96,8 @@ class DrivingAccount final : public recording::records::Sink {
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
   std::array<std::vector<Span>, 2> hazards_, warned_;  // by service; the last one may go on
   std::array<bool, 2> hazard_{}, warns_{};
+  std::array<NodeId, 2> warner_{};   // by service
+  std::array<TrueTime, 2> heard_{};  // when it last said something
 };
 
 }  // namespace ttf::evaluation::driving

@@ -41,6 +41,11 @@ struct Drive {
     warning.on = on;
     account.on(warning);
   }
+  void command(std::int64_t ms) {
+    CommandIssued command;
+    command.stamp.true_time = at_ms(ms);
+    account.on(command);
+  }
 };
 
 TEST(DrivingAccount, TheSmallestGapAndTimeToCollisionAreOfTheObjectInTheWay) {
@@ -96,6 +101,7 @@ TEST(DrivingAccount, WarningsAreRightWrongMissedOrLate) {
   drive.warn(4000, true);  // wrong
   drive.warn(4500, false);
   drive.warn(9800, true);  // early, and right; it goes on
+  for (std::int64_t ms = 9820; ms <= 10'600; ms += 40) drive.command(ms);
   const WarningFindings found = drive.account.finish().warnings[kForwardCollision];
   EXPECT_EQ(found.hazards, 3u);
   EXPECT_EQ(found.given, 3u);
@@ -104,6 +110,21 @@ TEST(DrivingAccount, WarningsAreRightWrongMissedOrLate) {
   EXPECT_EQ(found.missed, 1u);
   EXPECT_EQ(found.late, 1u);
   EXPECT_EQ(found.latest, Duration::milliseconds(160));
+}
+
+TEST(DrivingAccount, ADeadServiceWarnsNoLonger) {
+  for (const bool dies : {false, true}) {
+    Drive drive;
+    for (const std::int64_t hazard : {1000, 5000}) {
+      for (std::int64_t ms = hazard; ms <= hazard + 600; ms += 20) drive.at(ms, 0, 10, 0, 20, 0);
+      drive.at(hazard + 620, 0, 10, 0, 100, 0);
+    }
+    drive.warn(1000, true);
+    for (std::int64_t ms = 1040; ms <= (dies ? 1400 : 5600); ms += 40) drive.command(ms);
+    const WarningFindings found = drive.account.finish().warnings[kForwardCollision];
+    EXPECT_EQ(found.right, 1u);
+    EXPECT_EQ(found.missed, dies ? 1u : 0u);
+  }
 }
 
 }  // namespace
