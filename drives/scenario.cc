@@ -69,6 +69,10 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.feature = nodes::service::load_feature(*feature);
     feature->finish();
   }
+  if (auto adaptive = root.map_if("adaptive_camera")) {
+    scenario.adaptive_camera = nodes::vision::load_adaptive_camera(*adaptive);
+    adaptive->finish();
+  }
   if (auto cruise = root.map_if("adaptive_cruise_control")) {
     scenario.cruise = nodes::driving::load_cruise(*cruise);
     cruise->finish();

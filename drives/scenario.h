@@ -21,6 +21,7 @@
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
+#include "nodes/vision/adaptive_camera.h"
 #include "recording/osi/truth_trace.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/reference.h"
@@ -49,6 +50,7 @@ struct Scenario {
   nodes::sensing::RecordedNoises recorded_noises;
   nodes::sensing::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
+  nodes::vision::AdaptiveCameraConfig adaptive_camera;
   nodes::driving::CruiseConfig cruise;
   nodes::driving::EmergencyConfig emergency;
   fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged

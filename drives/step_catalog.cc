@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "core/errors.h"
+#include "drives/detectors.h"
 #include "drives/drive.h"
 #include "drives/known_fields.h"
 #include "drives/played_recording.h"
@@ -57,6 +58,7 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"lane_camera_preprocessing", {"raw", "marks"}, {"objects", "lanes"}, false},
       {"odometry_preprocessing", {"raw"}, {"odometry"}, false},
       {"recorded_preprocessing", {"raw"}, {"objects"}, false},
+      {"adaptive_camera", {}, {}, true, {"regions"}, true},
       {"gateway", {"in"}, {"out"}, false},
       {"fusion", {}, {}, true},
       {"image_output", {}, {"image"}, false},
@@ -72,6 +74,7 @@ void check_steps(const schedules::model::Cluster& cluster) {
   schedules::model::bind_ports(cluster, step_ports());
   const SensorId odometry = nodes::fusion::fused_odometry(cluster);
   Findings findings;
+  check_detectors(cluster, findings);
   for (const schedules::model::Node& node : cluster.nodes) {
     const schedules::model::Task* fusion = nullptr;
     bool reads = false;
@@ -158,6 +161,10 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "recorded_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(
           cluster, task, scenario.recorded_noises.of(name_read(cluster, task))));
+    } else if (is_detector(task)) {
+      steps.push_back(std::make_shared<nodes::vision::AdaptiveCamera>(
+          cluster, task, scenario.adaptive_camera, pictures_of(scenario, cluster, task),
+          nodes::vision::DetectionKey{config.seed, config.replication}));
     } else if (task.step == "gateway") {
       steps.push_back(std::make_shared<nodes::sensing::Gateway>());
     } else if (task.step == "fusion") {

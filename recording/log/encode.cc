@@ -309,6 +309,28 @@ LogTimes encode(const records::CommandTaken& in, ttfusion::Actuator& out) {
   return times_of(in.stamp);
 }
 
+LogTimes encode(const records::DetectionMade& in, ttfusion::Detection& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_begin(in.begin.ns);
+  fill(*out.mutable_id(), in.id);
+  out.set_frame(in.frame);
+  out.set_place(in.place);
+  out.set_secondary(in.secondary);
+  out.set_area(in.area);
+  out.set_took(in.took.ns);
+  out.set_found(in.found);
+  return times_of(in.stamp);
+}
+
+LogTimes encode(const records::SequencePlanned& in, ttfusion::Sequence& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_frame(in.frame);
+  out.set_text(in.text.data(), in.text.size());
+  out.set_bound(in.bound.ns);
+  out.set_length(in.length.ns);
+  return times_of(in.stamp);
+}
+
 LogTimes encode(const records::EgoTruth& in, ttfusion::Ego& out) {
   out.set_at(in.at.ns);
   out.set_x(in.x);

@@ -28,7 +28,7 @@ using CausalOrder =
           records::StateChanged, records::ListHop, records::Measured, records::OdometryTaken, records::FusionInput,
           records::ObservationSeen, records::ListFused, records::TrackState, records::FusionStep, records::ReferenceFix,
           records::ImageWritten, records::FeatureUsed, records::Warning, records::CommandIssued, records::CommandTaken,
-          records::EgoTruth, records::TruthState, records::TaskRun, records::PrecisionSample,
+          records::DetectionMade, records::SequencePlanned, records::EgoTruth, records::TruthState, records::TaskRun, records::PrecisionSample,
           records::LatenessHistogram, records::MediumCounts>;
 static_assert(CausalOrder::kNone == records::kKindCount, "each kind of record has one rank");
 
@@ -76,6 +76,8 @@ RecordPlace place_of(const records::EgoTruth& r) { return of_node(r, r.at, r.nod
 RecordPlace place_of(const records::Warning& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::CommandIssued& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::CommandTaken& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::DetectionMade& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::SequencePlanned& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::StateChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::SymbolSent& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::PowerChanged& r) { return of_node(r, r.stamp); }

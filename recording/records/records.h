@@ -390,6 +390,30 @@ struct CommandTaken {
   TrueTime from{};
 };
 
+// A detection of a detector that several cameras share, at the execution that ends it. The picture is that of the execution that
+// began it. `area` is the share of the picture that was looked at, `took` the simulated time of the detector.
+struct DetectionMade {
+  Stamp stamp;
+  TrueTime begin{};
+  MeasurementId id;          // the picture
+  std::uint32_t frame = 0;   // SequencePlanned::frame
+  std::uint16_t place = 0;   // in the frame's sequence, from 0
+  bool secondary = false;
+  double area = 1.0;
+  Duration took{};
+  std::uint16_t found = 0;
+};
+
+// A frame of detections as its detector planned it, at the execution that begins it. The letters of `text` name cameras in the
+// order of the detector's ports, capital ones primary detections (schedules/sequence/detections.h).
+struct SequencePlanned {
+  Stamp stamp;
+  std::uint32_t frame = 0;  // counted from 0
+  std::string_view text;
+  Duration bound{};
+  Duration length{};  // expected, by the times of earlier detections
+};
+
 struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneous) alignment
   TrueTime measured_true{};
   GlobalTime measured{};
@@ -514,6 +538,8 @@ inline constexpr std::tuple kKinds{
     Kind<Warning>{"/warning"},
     Kind<CommandIssued>{"/command"},
     Kind<CommandTaken>{"/actuator"},
+    Kind<DetectionMade>{"/detection"},
+    Kind<SequencePlanned>{"/sequence"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

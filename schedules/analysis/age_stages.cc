@@ -99,6 +99,9 @@ class Builder {
   }
 
   void execution(Path& path, NodeId node, const model::Task& task) {
+    path.chosen = path.chosen || task.holds > Duration{};
+    if (task.holds > Duration{})
+      span(path, fmt::format("{}.{} holds it", cluster_.node(node).name, task.name), {}, task.holds);
     span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name), shortest_execution(task),
          task.worst_case);
   }

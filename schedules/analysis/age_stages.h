@@ -34,6 +34,7 @@ struct Path {
   std::size_t fused = 0;              // until the fusing task starts
   std::size_t used = 0;               // until the image's reader starts; 0: no reader
   bool on_arrival = false;            // the fusing task is activated by this list
+  bool chosen = false;                // a task that holds lists passes some measurements on, and not others
   model::CycleInstant use{0, 0, {}};  // the reader's; repetition 0 if time does not activate it
   std::vector<Waypoint> waypoints;    // without bounds
 };

@@ -36,6 +36,7 @@ class Ages {
     ages.to_fusion = contributions(path, all, path.available);
     bounds(all, path.fused, ages.fused_best, ages.fused_worst);
     ages.reaches_use = path.used != 0;
+    ages.chosen = path.chosen;
     for (Waypoint point : path.waypoints) {
       if (!ages.reaches_use && point.stages > path.fused) break;
       bounds(all, point.stages, point.best, point.worst);
@@ -249,10 +250,11 @@ std::string ages_text(const model::Cluster& cluster) {
     row("  available to the fusion", path.fusion_best, path.fusion_worst);
     row("  fused", path.fused_best, path.fused_worst);
     if (path.reaches_use) row("  used first", path.use_best, path.use_worst);
-    if (path.reaches_use) bound("  newest one at any use", path.newest_worst);
+    if (path.reaches_use && !path.chosen) bound("  newest one at any use", path.newest_worst);
     bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
     if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
-    if (path.reaches_use) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
+    if (path.reaches_use && !path.chosen)
+      bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
   }
   for (const AgePath& path : odometry) {
     text += fmt::format("{}\n", cluster.sensor(path.sensor).name);

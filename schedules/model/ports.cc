@@ -44,11 +44,12 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
     if (known || sensor) continue;
     findings.add({cluster.file, binding.line, key, "",
                   fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
-                              direction.any ? std::string("the sensors' names") : others(direction.optional))});
+                              direction.any ? "the sensors' names" + others(direction.optional) : others(direction.optional))});
   }
   if (direction.any && direction.bound.empty())
     findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
-                  fmt::format("must bind at least one sensor's list: step {} fuses them", task.step)});
+                  fmt::format("must bind at least one sensor's list: step {} {} them", task.step,
+                              task.step == "fusion" ? "fuses" : direction.key)});
 }
 
 // A zero would end the name for the system, and other control characters would hide it from the reader.
@@ -82,7 +83,7 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
       }
       bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads, step->may_read},
                      findings);
-      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, false}, findings);
+      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, step->any_writes}, findings);
     }
   findings.throw_if_any();
 }

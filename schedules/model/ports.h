@@ -19,6 +19,7 @@ struct StepPorts {
   bool any_reads = false;                       // besides `reads`, the step reads at least one sensor's list, by a
                                                 // port with that sensor's name
   std::vector<std::string_view> may_read = {};  // ports that a task may leave out
+  bool any_writes = false;                      // as any_reads, for `writes`
 };
 
 // Returns whether a step's name is a library's file name, such as distance.so, and not that of the program's own code.
