@@ -8,6 +8,7 @@
 
 #include "core/counted.h"
 #include "core/nearest.h"
+#include "schedules/model/ports.h"
 
 namespace ttf::drives {
 namespace {
@@ -33,11 +34,14 @@ void check_ports(const Cluster& cluster, const Task& task, const std::string& pa
     };
     if (cluster.sensor(cluster.pdu(read.pdu).sensor).kind != schedules::model::SensorKind::kMonoCamera)
       fail("must be a list of a mono_camera: the detector looks at pictures");
-    if (!has_port(task.writes, read.port))
-      fail(fmt::format("needs a port {} among writes, too: what is found in these pictures leaves there", read.port));
+    const std::string written = schedules::model::written_port(read.port);
+    if (!has_port(task.writes, written))
+      fail(fmt::format("needs a port {} among writes: the objects of these pictures leave there", written));
   }
   for (const PortBinding& written : task.writes)
-    if (!has_port(task.reads, written.port))
+    if (std::ranges::none_of(task.reads, [&](const PortBinding& read) {
+          return schedules::model::written_port(read.port) == written.port;
+        }))
       findings.add({cluster.file, written.line, path + ".writes." + written.port, cluster.pdu(written.pdu).name,
                     "must be absent: no pictures of this camera are read"});
   if (cameras == 0)

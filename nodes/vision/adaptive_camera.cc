@@ -7,6 +7,7 @@
 #include "core/random.h"
 #include "nodes/host/signals.h"
 #include "nodes/sensing/nearest_first.h"
+#include "schedules/model/ports.h"
 
 namespace ttf::nodes::vision {
 namespace {
@@ -36,7 +37,7 @@ AdaptiveCamera::AdaptiveCamera(const schedules::model::Cluster& cluster, const s
       regions_->newest.reserve(static_cast<std::size_t>(layout.max_elements));
       continue;
     }
-    const std::size_t out = place_of(task.writes, read.port);
+    const std::size_t out = place_of(task.writes, schedules::model::written_port(read.port));
     const SharedCamera& shared = cameras.at(cameras_.size());
     cameras_.push_back(
         {layout.sensor, in, out, host::bind_element<5>(cluster, layout, {"left", "right", "bottom", "top", "class"}),

@@ -61,7 +61,7 @@ struct DetectionKey {
   std::uint32_t replication = 0;
 };
 
-// Ports: each camera's boxes, by the sensor's name -> its observations, by the same name. Port `regions`, if it is bound: a list of
+// Ports: each camera's boxes, by the sensor's name -> its observations, by that name and `_objects`. Port `regions`, if it is bound: a list of
 // regions (regions.h). The order of the cameras among the ports read is that of their letters.
 class AdaptiveCamera final : public host::Step {
  public:
