@@ -81,8 +81,18 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.emergency = nodes::driving::load_emergency(*emergency);
     emergency->finish();
   }
+  if (auto planner = root.map_if("motion_planner")) {
+    scenario.planner = nodes::driving::load_planner(*planner);
+    planner->finish();
+  }
+  if (auto control = root.map_if("vehicle_control")) {
+    scenario.control = nodes::driving::load_control(*control);
+    control->finish();
+  }
   if (auto judgement = root.map_if("judgement")) {
     scenario.cut_off = fusion::loading::load_cut_off(*judgement);
+    scenario.reaction_speed_mps =
+        judgement->number_or("reaction_speed", scenario.reaction_speed_mps, {0.1, 100.0}, "m/s");
     judgement->finish();
   }
   scenario.faults = faults::load_fault_plan(root, latest);

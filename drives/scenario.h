@@ -18,6 +18,8 @@
 #include "fusion/strategies/strategy.h"
 #include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/emergency_braking.h"
+#include "nodes/driving/motion_planner.h"
+#include "nodes/driving/vehicle_control.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
@@ -53,7 +55,10 @@ struct Scenario {
   nodes::vision::AdaptiveCameraConfig adaptive_camera;
   nodes::driving::CruiseConfig cruise;
   nodes::driving::EmergencyConfig emergency;
-  fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged
+  nodes::driving::PlannerConfig planner;
+  nodes::driving::ControlConfig control;
+  double reaction_speed_mps = 27.0;  // the reaction time is judged at it (evaluation/driving/driving_account.h)
+  fusion::metrics::CutOff cut_off;   // with which the drive's tracking is judged
   // The world of another simulator, in place of all in `world` that moves (drives/traced.h); null: none.
   std::shared_ptr<const recording::osi::TruthTrace> truth;
   faults::FaultPlan faults;  // names as written: resolve() looks them up in the drive's cluster

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/check.h"
 #include "core/errors.h"
@@ -13,6 +14,8 @@
 #include "nodes/driving/actuator.h"
 #include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/emergency_braking.h"
+#include "nodes/driving/motion_planner.h"
+#include "nodes/driving/vehicle_control.h"
 #include "nodes/foreign/foreign_step.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/host/signals.h"
@@ -34,6 +37,19 @@ std::string_view name_of(const schedules::model::Cluster& cluster, SensorId sens
 const sim::world::vehicle::EgoConfig& ego_of(const Scenario& scenario) {
   static const sim::world::vehicle::EgoConfig kUsual;
   return scenario.world.ego ? *scenario.world.ego : kUsual;
+}
+// Returns the pictures of the cluster's cameras with one lens, as far as they measure.
+std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const schedules::model::Cluster& cluster) {
+  std::vector<nodes::driving::Picture> pictures;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
+    if (cluster.sensors[s].kind != schedules::model::SensorKind::kMonoCamera) continue;
+    const sim::world::MonoCameraConfig& camera = scenario.sensors.mono_cameras.of(cluster.sensors[s].name).model;
+    if (!camera.device.enabled) continue;
+    const sim::world::Placement& at = camera.device.placement;
+    pictures.push_back({static_cast<SensorId>(s), at.x, at.y, at.heading, camera.height_m, camera.focal_px,
+                        camera.focal_px * std::tan(camera.half_field_rad), camera.half_height_px});
+  }
+  return pictures;
 }
 // Returns the name of the sensor whose raw list the task reads.
 std::string_view name_read(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
@@ -65,6 +81,8 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"feature_service", {"image"}, {}, false, {"odometry"}},
       {"adaptive_cruise_control", {"image", "odometry"}, {"command"}, false},
       {"emergency_braking", {"image", "odometry"}, {"command"}, false},
+      {"motion_planner", {"image", "odometry"}, {"plan"}, false, {}, {"regions"}},
+      {"vehicle_control", {"plan", "odometry"}, {"command"}, false},
       {"actuator", {"command"}, {}, false, {"emergency"}},
   };
   return kPorts;
@@ -181,6 +199,16 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       nodes::driving::EmergencyConfig emergency = scenario.emergency;
       emergency.path.front_m = ego_of(scenario).front;
       steps.push_back(std::make_shared<nodes::driving::EmergencyBraking>(cluster, task, emergency));
+    } else if (task.step == "motion_planner") {
+      nodes::driving::PlannerConfig planner = scenario.planner;
+      planner.path.front_m = ego_of(scenario).front;
+      planner.width_m = ego_of(scenario).width;
+      steps.push_back(
+          std::make_shared<nodes::driving::MotionPlanner>(cluster, task, planner, pictures_of(scenario, cluster)));
+    } else if (task.step == "vehicle_control") {
+      nodes::driving::ControlConfig control = scenario.control;
+      control.wheelbase_m = ego_of(scenario).vehicle.wheelbase();
+      steps.push_back(std::make_shared<nodes::driving::VehicleControl>(cluster, task, control));
     } else if (task.step == "actuator") {
       steps.push_back(std::make_shared<nodes::driving::Actuator>(
           cluster, task, ego_of(scenario).actuator.value_or(sim::world::vehicle::ActuatorConfig{})));

@@ -44,6 +44,8 @@ const DrivingRow kDrivingRows[] = {
      [](const DrivingFindings& f) {
        return f.stopping_distance_m ? cell(*f.stopping_distance_m, 2) : std::string("-");
      }},
+    {"reaction time [s]",
+     [](const DrivingFindings& f) { return f.reaction ? cell(f.reaction->seconds(), 2) : std::string("-"); }},
     {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return cell(f.gap_error_rms_m, 2); }},
     {"below R157's distance [% of time]", [](const DrivingFindings& f) { return cell(100 * f.below_minimum, 1); }},
     {"largest deceleration [m/s^2]", [](const DrivingFindings& f) { return cell(f.largest_deceleration, 2); }},
@@ -82,6 +84,7 @@ evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenar
   config.time_gap_s = scenario.cruise.law.time_gap_s;
   config.standstill_m = scenario.cruise.law.standstill_m;
   config.hazard_time_s = {scenario.emergency.warning_time_s, scenario.emergency.braking_time_s};
+  config.reaction_speed_mps = scenario.reaction_speed_mps;
   config.minimum_gap = &nodes::control::minimum_following_distance;
   return config;
 }
@@ -107,6 +110,7 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
       {"smallest_time_to_collision_s", f.smallest_ttc_s},
       {"collision", nullptr},
       {"stopping_distance_m", nullptr},
+      {"reaction_s", nullptr},
       {"gap_error_rms_m", f.gap_error_rms_m},
       {"below_r157_distance", f.below_minimum},
       {"largest_deceleration_mps2", f.largest_deceleration},
@@ -120,6 +124,7 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
     json["collision"] = {{"at_s", 1e-9 * static_cast<double>(f.collision->at.ns)},
                          {"closing_mps", f.collision->closing_mps}};
   if (f.stopping_distance_m) json["stopping_distance_m"] = *f.stopping_distance_m;
+  if (f.reaction) json["reaction_s"] = f.reaction->seconds();
   return json;
 }
 

@@ -47,6 +47,7 @@ void DrivingAccount::judge() {
     if (config_.minimum_gap != nullptr && gap < config_.minimum_gap(ego_->vx)) ++below_;
     if (ahead_->gap <= 0.0) findings_.collision = {ego_->at, closing};
     note_braking(ahead_->acceleration);
+    note_slowing(ahead_->speed);
   } else {
     note_braking(0.0);
   }
@@ -65,6 +66,31 @@ void DrivingAccount::note_braking(double acceleration) {
   else
     return;
   if (ego_->vx < kStands_mps) findings_.stopping_distance_m = braking_way_;
+}
+
+void DrivingAccount::note_slowing(double speed_ahead) {
+  if (!slow_at_ && was_fast_ && speed_ahead < config_.reaction_speed_mps) slow_at_ = ego_->at;
+  was_fast_ = speed_ahead >= config_.reaction_speed_mps;
+}
+
+void DrivingAccount::on(const recording::records::ImageWritten& image) {
+  if (!slow_at_ || findings_.reaction || findings_.collision || image.stamp.true_time < *slow_at_) return;
+  // The image's object in the way is found as the true one is.
+  std::optional<double> nearest, speed;
+  for (const recording::records::ImageObject& object : image.objects) {
+    if ((object.status & recording::records::kImageConfirmed) == 0) continue;
+    recording::records::TruthState believed;
+    believed.x = object.x;
+    believed.y = object.y;
+    believed.heading = object.heading;
+    believed.length = object.length;
+    believed.width = object.width;
+    const std::optional<double> gap = recording::scene::gap_ahead(believed, config_.front_m, config_.width_m);
+    if (!gap || (nearest && *nearest <= *gap)) continue;
+    nearest = gap;
+    speed = object.speed * std::cos(object.heading);
+  }
+  if (speed && *speed < config_.reaction_speed_mps) findings_.reaction = image.stamp.true_time - *slow_at_;
 }
 
 void DrivingAccount::note_jerk() {

@@ -19,6 +19,7 @@ namespace ttf::evaluation::driving {
 struct DrivingConfig {
   double front_m = 3.4, width_m = 1.8;            // the vehicle's front, ahead of its rear axle
   double time_gap_s = 1.5, standstill_m = 2.0;    // the gap that it is to keep
+  double reaction_speed_mps = 27.0;               // the object ahead falls below it, in truth and in the image
   std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
   // The smallest admissible gap [m] at a speed; null: none.
   double (*minimum_gap)(double speed) = nullptr;
@@ -48,6 +49,8 @@ struct DrivingFindings {
   std::optional<Collision> collision;
   // The way from the instant at which the object ahead brakes until the vehicle stands [m].
   std::optional<double> stopping_distance_m;
+  // From the instant at which the object ahead truly falls below the reaction speed until an image says so.
+  std::optional<Duration> reaction;
   std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0;  // commands; readings of the actuator
   std::array<WarningFindings, 2> warnings;                                     // by service
 };
@@ -67,6 +70,7 @@ class DrivingAccount final : public recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::EgoTruth&) override;
   void on(const recording::records::TruthState&) override;
+  void on(const recording::records::ImageWritten&) override;
   void on(const recording::records::CommandIssued&) override;
   void on(const recording::records::CommandTaken&) override;
   void on(const recording::records::Warning&) override;
@@ -80,6 +84,7 @@ class DrivingAccount final : public recording::records::Sink {
   };
   void judge();
   void note_braking(double acceleration);
+  void note_slowing(double speed_ahead);
   void note_hazards(double time_to_collision);
   void note_jerk();
   void note_silence(std::size_t service, TrueTime until);
@@ -92,6 +97,8 @@ class DrivingAccount final : public recording::records::Sink {
   std::optional<Ahead> ahead_;
   std::optional<recording::records::EgoTruth> before_, jerk_from_;
   std::optional<double> braking_way_;  // since the object ahead braked
+  bool was_fast_ = false;              // the object ahead, at the moment before
+  std::optional<TrueTime> slow_at_;    // it fell below the reaction speed
   std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
   std::array<std::vector<Span>, 2> hazards_, warned_;  // by service; the last one may go on

@@ -7,24 +7,40 @@
 namespace ttf::nodes::driving {
 namespace {
 
+constexpr std::uint8_t kConfirmed = 1;
+
+}  // namespace
+
 std::size_t place_of(const schedules::model::Task& task, std::string_view port) {
   for (std::size_t i = 0; i < task.reads.size(); ++i)
     if (task.reads[i].port == port) return i;
   return 0;  // ports are known to be bound (schedules/model/ports.h)
 }
 
-constexpr std::uint8_t kConfirmed = 1;
-
-}  // namespace
-
 WayAhead::WayAhead(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const PathConfig& config)
     : config_(config), round_(cluster.round()), image_(place_of(task, "image")), odometry_(place_of(task, "odometry")),
       speed_(host::bind_element<4>(cluster, cluster.pdu(task.reads[odometry_].pdu),
                                    {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})[0]),
-      signals_(fusion::bind_image(cluster, cluster.pdu(task.reads[image_].pdu))) {}
+      signals_(fusion::bind_image(cluster, cluster.pdu(task.reads[image_].pdu))) {
+  most_objects_ = static_cast<std::size_t>(cluster.pdu(task.reads[image_].pdu).max_elements);
+}
 
 std::optional<View> WayAhead::look(const host::StepContext& context) {
+  const std::optional<double> speed = own_speed(context);
+  if (!speed) return std::nullopt;
+  return View{*speed, nearest(context.inputs[image_])};
+}
+
+void WayAhead::list(const host::StepContext& context, std::vector<recording::records::ImageObject>& objects) const {
+  const host::Input& image = context.inputs[image_];
+  objects.clear();
+  const int count = host::element_count(*image.layout, *image.list);
+  for (int i = 0; i < count; ++i)
+    objects.push_back(fusion::decode_image_object(*image.layout, *image.list, i, signals_));
+}
+
+std::optional<double> WayAhead::own_speed(const host::StepContext& context) {
   const host::Input& image = context.inputs[image_];
   const host::Input& odometry = context.inputs[odometry_];
   if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
@@ -37,7 +53,7 @@ std::optional<View> WayAhead::look(const host::StepContext& context) {
   };
   if (!is_near(valid_at_, config_.max_image_age) || !is_near(measured_at_, config_.max_odometry_age))
     return std::nullopt;
-  return View{host::element_value(*odometry.layout, *odometry.list, 0, speed_), nearest(image)};
+  return host::element_value(*odometry.layout, *odometry.list, 0, speed_);
 }
 
 std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image) const {

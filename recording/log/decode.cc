@@ -280,6 +280,24 @@ records::SequencePlanned record_of(const ttfusion::Sequence& in, Reading& read) 
   return {read.stamp(in.stamp()), in.frame(), in.text(), Duration{in.bound()}, Duration{in.length()}};
 }
 
+records::PlanMade record_of(const ttfusion::Plan& in, Reading& read) {
+  return {read.stamp(in.stamp()),
+          read.id<PduId>(in.pdu()),
+          in.sequence(),
+          in.valid(),
+          read.to<std::uint8_t>(in.state()),
+          in.speed(),
+          read.id<TrackId>(in.track()),
+          in.gap(),
+          in.speed_ahead(),
+          in.own_speed(),
+          in.along(),
+          in.offset(),
+          in.heading(),
+          read.id<SensorId>(in.camera()),
+          {in.region_x(), in.region_y(), in.region_width(), in.region_height()}};
+}
+
 records::EgoTruth record_of(const ttfusion::Ego& in, Reading& read) {
   return {TrueTime{in.at()},
           in.x(),

@@ -331,6 +331,28 @@ LogTimes encode(const records::SequencePlanned& in, ttfusion::Sequence& out) {
   return times_of(in.stamp);
 }
 
+LogTimes encode(const records::PlanMade& in, ttfusion::Plan& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_valid(in.valid);
+  out.set_state(in.state);
+  out.set_speed(in.speed);
+  out.set_track(number(in.track));
+  out.set_gap(in.gap);
+  out.set_speed_ahead(in.speed_ahead);
+  out.set_own_speed(in.own_speed);
+  out.set_along(in.along);
+  out.set_offset(in.offset);
+  out.set_heading(in.heading);
+  out.set_camera(number(in.camera));
+  out.set_region_x(in.region[0]);
+  out.set_region_y(in.region[1]);
+  out.set_region_width(in.region[2]);
+  out.set_region_height(in.region[3]);
+  return times_of(in.stamp);
+}
+
 LogTimes encode(const records::EgoTruth& in, ttfusion::Ego& out) {
   out.set_at(in.at.ns);
   out.set_x(in.x);

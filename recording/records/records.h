@@ -5,6 +5,7 @@
 // Covariances are row-major.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -367,7 +368,7 @@ struct Warning {
 
 // A command of a service to the actuator: acceleration [m/s^2] and angle of the front wheels [rad]. An invalid one asks for
 // nothing. The gap [m] and the object's speed [m/s] are those that it rests on; the gap is infinite without an object ahead.
-inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3;
+inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3, kForPlan = 4;
 struct CommandIssued {
   Stamp stamp;
   PduId pdu{};
@@ -395,9 +396,9 @@ struct CommandTaken {
 struct DetectionMade {
   Stamp stamp;
   TrueTime begin{};
-  MeasurementId id;          // the picture
-  std::uint32_t frame = 0;   // SequencePlanned::frame
-  std::uint16_t place = 0;   // in the frame's sequence, from 0
+  MeasurementId id;         // the picture
+  std::uint32_t frame = 0;  // SequencePlanned::frame
+  std::uint16_t place = 0;  // in the frame's sequence, from 0
   bool secondary = false;
   double area = 1.0;
   Duration took{};
@@ -412,6 +413,23 @@ struct SequencePlanned {
   std::string_view text;
   Duration bound{};
   Duration length{};  // expected, by the times of earlier detections
+};
+
+// A motion plan: the speed [m/s] to drive at, and the planner's state (nodes/control/gap_planner.h). An invalid one asks for
+// nothing. It rests on the most important object and the own place on the lane [m, rad]. The region [px] is that of a camera's
+// picture in which the object is. There may be no object (kNoTrack) and no region (kNoSensor).
+struct PlanMade {
+  Stamp stamp;
+  PduId pdu{};
+  std::uint32_t sequence = 0;
+  bool valid = false;
+  std::uint8_t state = 0;
+  double speed = 0;
+  TrackId track = kNoTrack;
+  double gap = 0, speed_ahead = 0;
+  double own_speed = 0, along = 0, offset = 0, heading = 0;
+  SensorId camera = kNoSensor;
+  std::array<double, 4> region{};  // left and upper edge from the picture's middle, width, height
 };
 
 struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneous) alignment
@@ -540,6 +558,7 @@ inline constexpr std::tuple kKinds{
     Kind<CommandTaken>{"/actuator"},
     Kind<DetectionMade>{"/detection"},
     Kind<SequencePlanned>{"/sequence"},
+    Kind<PlanMade>{"/plan"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

@@ -86,6 +86,13 @@ void DrivingPicture::on(const recording::records::CommandTaken& taken) {
     asked_.push_back({seconds(taken.from), taken.acceleration});
 }
 
+void DrivingPicture::on(const recording::records::PlanMade& plan) {
+  const double at = seconds(plan.stamp.true_time);
+  if (!shown(plan.stamp.true_time) || plan.track == kNoTrack) return;
+  seen_gap_.push_back({at, plan.gap});
+  seen_ahead_.push_back({at, plan.speed_ahead});
+}
+
 void DrivingPicture::on(const recording::records::Warning& warning) {
   if (warning.on && shown(warning.stamp.true_time))
     warnings_.emplace_back(seconds(warning.stamp.true_time), warning.service);

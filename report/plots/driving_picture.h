@@ -29,6 +29,7 @@ class DrivingPicture final : public recording::records::Sink {
   void on(const recording::records::CommandIssued&) override;
   void on(const recording::records::CommandTaken&) override;
   void on(const recording::records::Warning&) override;
+  void on(const recording::records::PlanMade&) override;
 
   std::string svg(const drawing::Sheet& sheet = {}) const;
 

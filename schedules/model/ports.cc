@@ -95,7 +95,8 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
       }
       bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads, step->may_read},
                      findings);
-      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, step->any_writes}, findings);
+      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, step->any_writes, step->may_write},
+                     findings);
     }
   findings.throw_if_any();
 }

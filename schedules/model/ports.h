@@ -22,6 +22,7 @@ struct StepPorts {
   std::vector<std::string_view> may_read = {};  // ports that a task may leave out
   bool any_writes = false;  // likewise, it writes sensors' lists, by ports called camera_objects for the
                             // sensor camera
+  std::vector<std::string_view> may_write = {};
 };
 
 // Returns the port by which a step with any_writes writes the lists of a sensor.

@@ -41,12 +41,51 @@ struct Drive {
     warning.on = on;
     account.on(warning);
   }
+  // An image with an object at this gap and speed, and a nearer one that is not confirmed.
+  void image(std::int64_t ms, double gap, double speed) {
+    ImageObject objects[2];
+    objects[0].x = gap + 3.4 + 2.0;
+    objects[0].length = 4.0;
+    objects[0].width = 1.8;
+    objects[0].speed = speed;
+    objects[0].status = kImageConfirmed;
+    objects[1] = objects[0];
+    objects[1].x -= 5.0;
+    objects[1].speed = 0.0;
+    objects[1].status = 0;
+    ImageWritten written;
+    written.stamp.true_time = at_ms(ms);
+    written.objects = objects;
+    account.on(written);
+  }
   void command(std::int64_t ms) {
     CommandIssued command;
     command.stamp.true_time = at_ms(ms);
     account.on(command);
   }
 };
+
+TEST(DrivingAccount, TheReactionTimeLastsFromTheTruthToTheImage) {
+  Drive drive;
+  drive.at(0, 0, 29, 0, 40, 29.0);
+  drive.image(50, 40, 26.0);  // noise, before anything happens
+  drive.at(100, 3, 29, 0, 40, 27.1, 8.0);
+  drive.at(200, 6, 29, 0, 40, 26.9, 8.0);
+  drive.image(250, 40, 28.0);
+  drive.at(300, 9, 29, 0, 40, 26.0, 8.0);
+  drive.image(350, 40, 27.1);
+  drive.at(400, 12, 29, 0, 40, 25.0, 8.0);
+  drive.image(450, 40, 26.9);
+  drive.image(550, 40, 20.0);
+  const DrivingFindings found = drive.account.finish();
+  ASSERT_TRUE(found.reaction);
+  EXPECT_EQ(*found.reaction, Duration::milliseconds(250));
+  Drive slow;
+  slow.at(0, 0, 29, 0, 40, 26.0);
+  slow.image(50, 40, 26.0);
+  slow.at(100, 0, 29, 0, 40, 26.0);
+  EXPECT_FALSE(slow.account.finish().reaction) << "it was never fast";
+}
 
 TEST(DrivingAccount, TheSmallestGapAndTimeToCollisionAreOfTheObjectInTheWay) {
   Drive drive;
