@@ -81,7 +81,7 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"feature_service", {"image"}, {}, false, {"odometry"}},
       {"adaptive_cruise_control", {"image", "odometry"}, {"command"}, false},
       {"emergency_braking", {"image", "odometry"}, {"command"}, false},
-      {"motion_planner", {"image", "odometry"}, {"plan"}, false, {}, {"regions"}},
+      {"motion_planner", {"image", "odometry"}, {"plan"}, false, {}, false, {"regions"}},
       {"vehicle_control", {"plan", "odometry"}, {"command"}, false},
       {"actuator", {"command"}, {}, false, {"emergency"}},
   };

@@ -27,10 +27,17 @@ std::string lateness_of_warnings(const WarningFindings& w) {
   return fmt::format("{} / {}", cell(in_ms(w.lateness_sum) / static_cast<double>(w.late), 0), cell(in_ms(w.latest), 0));
 }
 
+std::string spread_cell(const evaluation::driving::Spread& spread) {
+  return fmt::format("{} / {}", cell(1e3 * spread.mean(), 0), cell(1e3 * spread.deviation(), 0));
+}
+
 struct DrivingRow {
   const char* name;
   std::string (*value)(const DrivingFindings&);
+  // Only some drives have the row.
+  bool (*has)(const DrivingFindings&) = [](const DrivingFindings&) { return true; };
 };
+bool has_detections(const DrivingFindings& f) { return f.detections.has_value(); }
 const DrivingRow kDrivingRows[] = {
     {"smallest gap [m]", [](const DrivingFindings& f) { return finite_cell(f.smallest_gap_m, 2); }},
     {"smallest time to collision [s]", [](const DrivingFindings& f) { return finite_cell(f.smallest_ttc_s, 2); }},
@@ -45,7 +52,19 @@ const DrivingRow kDrivingRows[] = {
        return f.stopping_distance_m ? cell(*f.stopping_distance_m, 2) : std::string("-");
      }},
     {"reaction time [s]",
-     [](const DrivingFindings& f) { return f.reaction ? cell(f.reaction->seconds(), 2) : std::string("-"); }},
+     [](const DrivingFindings& f) { return f.reaction ? cell(f.reaction->seconds(), 2) : std::string("-"); },
+     [](const DrivingFindings& f) { return f.reaction.has_value(); }},
+    {"detections of whole pictures / of regions",
+     [](const DrivingFindings& f) {
+       return f.detections ? fmt::format("{} / {}", f.detections->primary, f.detections->secondary) : std::string("-");
+     },
+     has_detections},
+    {"  frame, mean / deviation [ms]",
+     [](const DrivingFindings& f) { return f.detections ? spread_cell(f.detections->frames) : std::string("-"); },
+     has_detections},
+    {"  interval of the camera looked at most, mean / deviation [ms]",
+     [](const DrivingFindings& f) { return f.detections ? spread_cell(f.detections->intervals) : std::string("-"); },
+     has_detections},
     {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return cell(f.gap_error_rms_m, 2); }},
     {"below R157's distance [% of time]", [](const DrivingFindings& f) { return cell(100 * f.below_minimum, 1); }},
     {"largest deceleration [m/s^2]", [](const DrivingFindings& f) { return cell(f.largest_deceleration, 2); }},
@@ -98,6 +117,9 @@ std::vector<std::vector<std::string>> driving_rows(const std::vector<const Strat
   std::vector<std::vector<std::string>> rows;
   if (std::ranges::none_of(results, [](const StrategyResult* one) { return one->driving.has_value(); })) return rows;
   for (const DrivingRow& row : kDrivingRows) {
+    if (std::ranges::none_of(results,
+                             [&](const StrategyResult* one) { return one->driving && row.has(*one->driving); }))
+      continue;
     rows.push_back({row.name});
     for (const StrategyResult* one : results) rows.back().push_back(one->driving ? row.value(*one->driving) : "-");
   }
@@ -111,6 +133,7 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
       {"collision", nullptr},
       {"stopping_distance_m", nullptr},
       {"reaction_s", nullptr},
+      {"detections", nullptr},
       {"gap_error_rms_m", f.gap_error_rms_m},
       {"below_r157_distance", f.below_minimum},
       {"largest_deceleration_mps2", f.largest_deceleration},
@@ -125,6 +148,13 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
                          {"closing_mps", f.collision->closing_mps}};
   if (f.stopping_distance_m) json["stopping_distance_m"] = *f.stopping_distance_m;
   if (f.reaction) json["reaction_s"] = f.reaction->seconds();
+  if (f.detections)
+    json["detections"] = {{"primary", f.detections->primary},
+                          {"secondary", f.detections->secondary},
+                          {"frame_s", f.detections->frames.mean()},
+                          {"frame_sigma_s", f.detections->frames.deviation()},
+                          {"interval_s", f.detections->intervals.mean()},
+                          {"interval_sigma_s", f.detections->intervals.deviation()}};
   return json;
 }
 

@@ -197,6 +197,7 @@ DrivingFindings DrivingAccount::finish() {
     if (before_) note_silence(service, before_->at);
     findings_.warnings[service] = judged(service);
   }
+  findings_.detections = detections_.finish();
   return findings_;
 }
 

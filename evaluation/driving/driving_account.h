@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/time.h"
+#include "evaluation/driving/detection_account.h"
 #include "recording/records/records.h"
 
 namespace ttf::evaluation::driving {
@@ -51,6 +52,7 @@ struct DrivingFindings {
   std::optional<double> stopping_distance_m;
   // From the instant at which the object ahead truly falls below the reaction speed until an image says so.
   std::optional<Duration> reaction;
+  std::optional<DetectionFindings> detections;                                 // of cameras that share a detector
   std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0;  // commands; readings of the actuator
   std::array<WarningFindings, 2> warnings;                                     // by service
 };
@@ -62,7 +64,7 @@ class DrivingAccount final : public recording::records::Sink {
   static constexpr Duration kSilent = Duration::milliseconds(500);
 
   // Ignores all before `from`.
-  DrivingAccount(const DrivingConfig& config, TrueTime from) : config_(config), from_(from) {}
+  DrivingAccount(const DrivingConfig& config, TrueTime from) : config_(config), from_(from), detections_(from) {}
   // Call it once, at the end.
   DrivingFindings finish();
 
@@ -71,6 +73,8 @@ class DrivingAccount final : public recording::records::Sink {
   void on(const recording::records::EgoTruth&) override;
   void on(const recording::records::TruthState&) override;
   void on(const recording::records::ImageWritten&) override;
+  void on(const recording::records::DetectionMade& r) override { detections_.on(r); }
+  void on(const recording::records::SequencePlanned& r) override { detections_.on(r); }
   void on(const recording::records::CommandIssued&) override;
   void on(const recording::records::CommandTaken&) override;
   void on(const recording::records::Warning&) override;
@@ -93,6 +97,7 @@ class DrivingAccount final : public recording::records::Sink {
   DrivingConfig config_;
   TrueTime from_;
   DrivingFindings findings_;
+  DetectionAccount detections_;
   std::optional<recording::records::EgoTruth> ego_;  // the moment whose objects come
   std::optional<Ahead> ahead_;
   std::optional<recording::records::EgoTruth> before_, jerk_from_;

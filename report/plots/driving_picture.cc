@@ -1,6 +1,5 @@
 #include "report/plots/driving_picture.h"
 
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -93,6 +92,13 @@ void DrivingPicture::on(const recording::records::PlanMade& plan) {
   seen_ahead_.push_back({at, plan.speed_ahead});
 }
 
+void DrivingPicture::on(const recording::records::SequencePlanned& planned) {
+  const TrueTime at = planned.stamp.true_time;
+  if (planned_at_ && shown(at)) sequence_.push_back({seconds(at), (at - *planned_at_).seconds()});
+  if (shown(at)) bound_.push_back({seconds(at), planned.bound.seconds()});
+  planned_at_ = at;
+}
+
 void DrivingPicture::on(const recording::records::Warning& warning) {
   if (warning.on && shown(warning.stamp.true_time))
     warnings_.emplace_back(seconds(warning.stamp.true_time), warning.service);
@@ -100,17 +106,19 @@ void DrivingPicture::on(const recording::records::Warning& warning) {
 
 std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
   if (speed_.empty()) return drawing::empty_picture(options_.title, "No commands drove the vehicle.", sheet);
-  const std::array<Panel, 3> panels{
-      {{"gap [m]", {{&seen_gap_, drawing::kSkyBlue, true}, {&gap_, drawing::kBlack, false}}, true},
-       {"speed [m/s]",
-        {{&seen_ahead_, drawing::kOrange, true},
-         {&seen_speed_, drawing::kSkyBlue, true},
-         {&speed_ahead_, drawing::kVermilion, false},
-         {&speed_, drawing::kBlack, false}},
-        true},
-       {"acceleration [m/s^2]", {{&asked_, drawing::kGreen, true}, {&acceleration_, drawing::kBlack, false}}}}};
+  std::vector<Panel> panels{
+      {"gap [m]", {{&seen_gap_, drawing::kSkyBlue, true}, {&gap_, drawing::kBlack, false}}, true},
+      {"speed [m/s]",
+       {{&seen_ahead_, drawing::kOrange, true},
+        {&seen_speed_, drawing::kSkyBlue, true},
+        {&speed_ahead_, drawing::kVermilion, false},
+        {&speed_, drawing::kBlack, false}},
+       true},
+      {"acceleration [m/s^2]", {{&asked_, drawing::kGreen, true}, {&acceleration_, drawing::kBlack, false}}}};
+  if (!sequence_.empty())
+    panels.push_back({"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false}}, true});
   using Kind = drawing::LegendEntry::Kind;
-  const std::vector<drawing::LegendEntry> legend{
+  std::vector<drawing::LegendEntry> legend{
       {Kind::kLine, "the vehicle, true", std::string(drawing::kBlack)},
       {Kind::kLine, "the object ahead, true", std::string(drawing::kVermilion)},
       {Kind::kMarker, "gap and own speed, as seen", std::string(drawing::kSkyBlue), drawing::Marker::kCircle, true},
@@ -118,11 +126,17 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
       {Kind::kMarker, "acceleration asked for", std::string(drawing::kGreen), drawing::Marker::kCircle, true},
       {Kind::kLine, "collision warning begins", std::string(drawing::kPurple), {}, false, "6 3"},
       {Kind::kLine, "emergency braking begins", std::string(drawing::kBlue), {}, false, "2 2"}};
+  if (!sequence_.empty()) {
+    legend.push_back({Kind::kMarker, "length of a sequence of detections", std::string(drawing::kPurple),
+                      drawing::Marker::kCircle, true});
+    legend.push_back({Kind::kLine, "its bound", std::string(drawing::kBlack)});
+  }
   const double width = sheet.plot_width(kPanelWidth, kLeft + 28), top = 34 + legend_height(legend, width) + 10;
   drawing::Extent time;
   time.add(seconds(options_.from));
   time.add(seconds(options_.to));
-  drawing::Svg svg(kLeft + width + 28, top + 3 * (kPanelHeight + kBetween) + 40, options_.title, sheet);
+  drawing::Svg svg(kLeft + width + 28, top + static_cast<double>(panels.size()) * (kPanelHeight + kBetween) + 40,
+                   options_.title, sheet);
   svg.text({24, 22}, options_.title, {.size = 14, .bold = true});
   draw_legend(svg, {24, 34}, width, legend);
   for (std::size_t i = 0; i < panels.size(); ++i) {

@@ -1,5 +1,6 @@
 // A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the vehicle's
-// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator.
+// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator. If cameras share a
+// detector, the lengths of its sequences are shown, too.
 #pragma once
 
 #include <optional>
@@ -30,6 +31,7 @@ class DrivingPicture final : public recording::records::Sink {
   void on(const recording::records::CommandTaken&) override;
   void on(const recording::records::Warning&) override;
   void on(const recording::records::PlanMade&) override;
+  void on(const recording::records::SequencePlanned&) override;
 
   std::string svg(const drawing::Sheet& sheet = {}) const;
 
@@ -41,6 +43,8 @@ class DrivingPicture final : public recording::records::Sink {
   DrivingOptions options_;
   Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
   Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
+  Points sequence_, bound_;                                // of detections: lengths as they were, and as planned
+  std::optional<TrueTime> planned_at_;                     // the newest sequence
   std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
   std::optional<recording::records::EgoTruth> ego_;
   std::optional<drawing::Point> ahead_;  // gap and speed of the nearest object in the way

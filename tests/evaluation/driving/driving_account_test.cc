@@ -87,6 +87,37 @@ TEST(DrivingAccount, TheReactionTimeLastsFromTheTruthToTheImage) {
   EXPECT_FALSE(slow.account.finish().reaction) << "it was never fast";
 }
 
+TEST(DetectionAccount, TheIntervalIsThatOfTheCameraLookedAtMost) {
+  DetectionAccount account(at_ms(100));
+  const auto detect = [&](std::int64_t ms, SensorId sensor, bool secondary) {
+    DetectionMade made;
+    made.begin = at_ms(ms);
+    made.id.sensor = sensor;
+    made.secondary = secondary;
+    account.on(made);
+  };
+  EXPECT_FALSE(account.finish());
+  detect(50, SensorId{0}, false);
+  for (const std::int64_t frame : {0, 150, 300, 460}) {
+    SequencePlanned planned;
+    planned.stamp.true_time = at_ms(frame);
+    account.on(planned);
+  }
+  detect(150, SensorId{0}, false);
+  detect(190, SensorId{1}, false);
+  detect(230, SensorId{1}, true);
+  detect(300, SensorId{1}, false);
+  const auto found = account.finish();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->primary, 3u);
+  EXPECT_EQ(found->secondary, 1u);
+  EXPECT_EQ(found->camera, SensorId{1});
+  EXPECT_NEAR(found->intervals.mean(), 0.055, 1e-12);
+  EXPECT_NEAR(found->intervals.deviation(), std::sqrt(2.0) * 0.015, 1e-12);
+  EXPECT_EQ(found->frames.count(), 2u);
+  EXPECT_NEAR(found->frames.mean(), 0.155, 1e-12);
+}
+
 TEST(DrivingAccount, TheSmallestGapAndTimeToCollisionAreOfTheObjectInTheWay) {
   Drive drive;
   drive.at(0, 0, 20, 0, 40, 20);
