@@ -21,13 +21,19 @@ std::size_t place_of(const std::vector<schedules::model::PortBinding>& bindings,
   return place;
 }
 
+FramePlanConfig with_steps(FramePlanConfig plan, Duration step) {
+  plan.shortest = schedules::sequence::occupied({}, step);
+  return plan;
+}
+
 }  // namespace
 
 AdaptiveCamera::AdaptiveCamera(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                                const AdaptiveCameraConfig& config, std::vector<SharedCamera> cameras,
                                const DetectionKey& key)
     : config_(config), key_(key), step_(cluster.cycle() * task.activation.at.repetition), round_(cluster.round()),
-      holds_(task.holds), plan_(config.plan, static_cast<int>(cameras.size())), shares_(cameras.size()) {
+      holds_(task.holds), plan_(with_steps(config.plan, step_), static_cast<int>(cameras.size())),
+      shares_(cameras.size()) {
   int most = 0;
   for (std::size_t in = 0; in < task.reads.size(); ++in) {
     const schedules::model::PortBinding& read = task.reads[in];
@@ -130,7 +136,7 @@ void AdaptiveCamera::begin(host::StepContext& context) {
 
 void AdaptiveCamera::begin_frame(host::StepContext& context) {
   for (std::size_t c = 0; c < cameras_.size(); ++c)
-    shares_[c] = cameras_[c].region ? cameras_[c].region->area() / cameras_[c].area() : 0.0;
+    shares_[c] = cameras_[c].region ? std::min(1.0, cameras_[c].region->area() / cameras_[c].area()) : 0.0;
   plan_.begin(shares_);
   context.sink->on(recording::records::SequencePlanned{context.stamp, plan_.frame(), plan_.letters(), plan_.bound(),
                                                        plan_.length()});

@@ -1,5 +1,7 @@
 #include "nodes/vision/frame_plan.h"
 
+#include <algorithm>
+
 namespace ttf::nodes::vision {
 
 FramePlan::FramePlan(const FramePlanConfig& config, int cameras)
@@ -22,7 +24,8 @@ void FramePlan::begin(std::span<const double> shares) {
   request.sensors = cameras_;
   request.interest = interest_;
   request.primaries = history_.primaries();
-  if (!interest_.empty()) request.secondary = history_.secondary(area / static_cast<double>(interest_.size()));
+  if (!interest_.empty())
+    request.secondary = std::max(history_.secondary(area / static_cast<double>(interest_.size())), config_.shortest);
   request.bound = config_.bound;
   request.slots = config_.slots;
   request.order = config_.order;

@@ -18,6 +18,8 @@ struct FramePlanConfig {
   schedules::sequence::SlotOrder order = schedules::sequence::SlotOrder::kText;
   Duration first_guess = Duration::milliseconds(50);  // of a primary detection, before the first one
   std::size_t history = schedules::sequence::DetectionHistory::kKept;
+  // A detection occupies the detector for whole steps: no secondary one is expected to be shorter.
+  Duration shortest{};
 };
 
 class FramePlan {

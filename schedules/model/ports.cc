@@ -20,6 +20,11 @@ struct Direction {
   std::vector<std::string_view> optional = {};
 };
 
+std::string sensors_names(const Direction& direction) {
+  if (!direction.any) return {};
+  return direction.key == "reads" ? "the sensors' names" : fmt::format("the sensors' names with {} behind", kObjects);
+}
+
 std::string others(const std::vector<std::string_view>& optional) {
   return optional.empty() ? std::string() : fmt::format(", and {}", fmt::join(optional, ", "));
 }
@@ -51,10 +56,7 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
     if (known || sensor) continue;
     findings.add({cluster.file, binding.line, key, "",
                   fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
-                              direction.any ? (direction.key == "reads" ? "the sensors' names"
-                                                                        : "the sensors' names with _objects behind") +
-                                                  others(direction.optional)
-                                            : others(direction.optional))});
+                              sensors_names(direction) + others(direction.optional))});
   }
   if (direction.any && direction.bound.empty())
     findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
