@@ -5,8 +5,8 @@
 // the camera's newest picture, and keeps that picture. A detection takes
 //   T = factor * picture_time * area * (1 + N(0, deviation^2)),
 // with `area` the share of the picture that it looks at. Its result leaves at the execution that ends it, ceil(T / step) steps
-// later, and at least two (schedules/sequence/history.h). That execution begins the next detection. No clock of the machine is
-// asked. All other executions write nothing.
+// later, and at least two (schedules/sequence/history.h). It also begins the next detection. All other executions write nothing. No
+// clock of the machine is asked.
 //
 // A picture is looked at once. A camera whose newest picture is older than kOldestPicture steps, or was looked at before, costs
 // its detection and a step. A detection takes at most as long as the task may hold a list (schedules::model::Task::holds): the
@@ -115,7 +115,7 @@ class AdaptiveCamera final : public host::Step {
   std::optional<RegionPort> regions_;
   std::vector<double> shares_;  // by camera; room for planning
   std::optional<Work> work_;
-  std::vector<camera::CameraObject> objects_;  // of the detection at work
+  std::vector<camera::CameraObject> objects_;  // found by the detection at work
 };
 
 }  // namespace ttf::nodes::vision

@@ -16,7 +16,7 @@ struct FramePlanConfig {
   Duration bound = Duration::milliseconds(200);  // beta
   schedules::sequence::SlotRule slots = schedules::sequence::SlotRule::kText;
   schedules::sequence::SlotOrder order = schedules::sequence::SlotOrder::kText;
-  Duration first_guess = Duration::milliseconds(50);  // of a primary detection, before the first one
+  Duration first_guess = Duration::milliseconds(50);  // a primary detection's, before the first one
   std::size_t history = schedules::sequence::DetectionHistory::kKept;
   // A detection occupies the detector for whole steps: no secondary one is expected to be shorter.
   Duration shortest{};
@@ -38,7 +38,7 @@ class FramePlan {
   void add(int camera, Duration took) { history_.add(camera, took); }
 
   std::uint32_t frame() const { return frames_ - 1; }  // counted from 0
-  std::size_t place() const { return place_; }         // of next(), in the sequence
+  std::size_t place() const { return place_; }         // the place of next() in the sequence
   const std::string& letters() const { return letters_; }
   Duration bound() const { return config_.bound; }
   Duration length() const { return length_; }  // expected

@@ -21,8 +21,8 @@ constexpr const char* kShared = "scenarios/shared_detector.yaml";
 
 struct Detections final : recording::records::Sink {
   std::vector<std::string> frames;
-  std::vector<std::int64_t> values;  // of all detections
-  std::vector<Duration> ages;        // of camera_a's lists, where they are fused
+  std::vector<std::int64_t> values;  // all detections'
+  std::vector<Duration> ages;        // camera_a's lists, where they are fused
   std::uint64_t secondaries = 0;
   std::int64_t allocations_at_start = -1, allocations = 0;
   Detections() {

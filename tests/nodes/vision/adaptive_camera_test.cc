@@ -55,7 +55,7 @@ struct ByHand final : Sink {
   std::vector<host::Output> lists, outputs;
   std::vector<host::Input> inputs;
   std::vector<host::StrobeLatch> strobes{cluster().sensors.size()};
-  std::string sequence;             // of the newest frame
+  std::string sequence;             // the newest frame's
   std::vector<DetectionMade> made;  // all
   std::int64_t now_ms = 0;
   std::uint32_t pictures = 0;
