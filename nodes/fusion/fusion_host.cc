@@ -102,7 +102,7 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
   std::vector<ttf::fusion::strategies::SensorTiming> timings;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     const schedules::model::Sensor& sensor = cluster.sensor(path.sensor);
-    // Which of a detector's pictures give lists is not known beforehand.
+    // A detector chooses among its pictures: the instants of its lists are not known beforehand.
     const bool scheduled = sensor.scheduled && !path.chosen;
     const GlobalTime first =
         scheduled ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time : GlobalTime{};
