@@ -1,19 +1,19 @@
-// Several cameras that share one detector (Wolfe, "Adaptive object detection for autonomous vehicles", Northern Illinois University,
-// 2020). The detector looks at one picture at a time: at the whole of it, or at its region of interest alone.
+// Several cameras that share one detector. It looks at one picture at a time: at the whole of it, or at its region of interest.
+// Wolfe, "Adaptive object detection for autonomous vehicles" (Northern Illinois University, 2020).
 //
-// The task is executed once a step. An execution without a detection at work begins the next one of the frame (frame_plan.h) with
-// the camera's newest picture, and keeps that picture. A detection takes
-//   T = factor * picture_time * area * (1 + N(0, deviation^2)),
-// with `area` the share of the picture that it looks at. Its result leaves at the execution that ends it, ceil(T / step) steps
-// later, and at least two (schedules/sequence/history.h). It also begins the next detection. All other executions write nothing. No
-// clock of the machine is asked.
+// The task is executed once a step. An execution without a detection at work begins the frame's next one (frame_plan.h). It takes
+// the camera's newest picture and keeps it. A detection takes
+//   T = factor * picture_time * area * (1 + N(0, deviation^2)).
+// Here `area` is the share of the picture that it looks at. It ends ceil(T / step) steps later, and at least two
+// (schedules/sequence/history.h). The execution that ends it writes its result, and begins the next one. All others write
+// nothing. No clock of the machine is asked.
 //
-// A picture is looked at once. A camera whose newest picture is older than kOldestPicture steps, or was looked at before, costs
-// its detection and a step. A detection takes at most as long as the task may hold a list (schedules::model::Task::holds): the
-// detector then gives what it has. One whose task missed executions for so long is dropped.
+// A picture is looked at once. It may be kOldestPicture steps old. A camera without one costs its detection and a step. A
+// detection takes at most as long as the task may hold a list (schedules::model::Task::holds). Then the detector gives what it
+// has. If the task missed executions for so long, the detection is dropped.
 //
-// Detections of a picture are those of its camera's model (sim/world/mono_camera.h), which sends them as boxes. A primary one lists
-// them all, a secondary one those whose middle lies in the region. So the region's clutter is as much less as its area.
+// The camera's model finds the boxes (sim/world/mono_camera.h). A primary detection lists them all. A secondary one lists those
+// whose middle lies in the region. So the region's clutter is as much less as its area.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The frames of a detector that several cameras share: which camera's picture comes next, and whether the whole of it or the region
-// of interest (schedules/sequence/generator.h). A frame is planned at its beginning, by the times of earlier detections.
+// The frames of a detector that several cameras share: whose picture comes next, and whether all of it is looked at
+// (schedules/sequence/generator.h). A frame is planned at its beginning. Earlier detections tell the times.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// Regions of interest, as a list on the bus from a planner to an adaptive camera: a rectangle of one camera's picture each.
+// Regions of interest: rectangles of cameras' pictures, a list on the bus from a planner to an adaptive camera.
 //
-// Elements: `sensor`, the camera's place among the cluster's sensors, from 0; `x` and `y`, the left and the upper edge, counted
-// from the middle of the picture, columns to the right and rows downwards; `width` and `height` [px]; `valid`, 0 or 1. The
-// list's time stamp is the instant of its issue. An invalid region counts for nothing, and an empty list says that nothing is
-// of interest. A list replaces all that came before it.
+// An element has `sensor`, the camera's place among the cluster's sensors, from 0. The left edge `x` and the upper edge `y` count
+// from the middle of the picture, rows downwards. They, `width` and `height` are in pixels. An element with `valid` 0 counts for
+// nothing. The list's time stamp is the instant of its issue. A list replaces all before it. An empty one says that nothing is
+// of interest.
 #pragma once
 
 #include <array>
