@@ -194,6 +194,7 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "adaptive_cruise_control") {
       nodes::driving::CruiseConfig cruise = scenario.cruise;
       cruise.path.front_m = ego_of(scenario).front;
+      if (ego_of(scenario).actuator) cruise.memory = ego_of(scenario).actuator->oldest;
       steps.push_back(std::make_shared<nodes::driving::AdaptiveCruiseControl>(cluster, task, cruise));
     } else if (task.step == "emergency_braking") {
       nodes::driving::EmergencyConfig emergency = scenario.emergency;

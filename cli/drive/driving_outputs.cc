@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nodes/control/r157.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {
@@ -65,8 +64,9 @@ const DrivingRow kDrivingRows[] = {
     {"  interval of the camera looked at most, mean / deviation [ms]",
      [](const DrivingFindings& f) { return f.detections ? spread_cell(f.detections->intervals) : std::string("-"); },
      has_detections},
-    {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return cell(f.gap_error_rms_m, 2); }},
-    {"below R157's distance [% of time]", [](const DrivingFindings& f) { return cell(100 * f.below_minimum, 1); }},
+    {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return finite_cell(f.gap_error_rms_m, 2); }},
+    {"below R157's distance [% of time]",
+     [](const DrivingFindings& f) { return finite_cell(100 * f.below_minimum, 1); }},
     {"largest deceleration [m/s^2]", [](const DrivingFindings& f) { return cell(f.largest_deceleration, 2); }},
     {"jerk, RMS / largest [m/s^3]",
      [](const DrivingFindings& f) { return fmt::format("{} / {}", cell(f.jerk_rms, 2), cell(f.largest_jerk, 1)); }},
@@ -96,18 +96,6 @@ nlohmann::ordered_json warnings_json(const WarningFindings& w) {
 
 }  // namespace
 
-evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario) {
-  evaluation::driving::DrivingConfig config;
-  config.front_m = scenario.world.ego->front;
-  config.width_m = scenario.world.ego->width;
-  config.time_gap_s = scenario.cruise.law.time_gap_s;
-  config.standstill_m = scenario.cruise.law.standstill_m;
-  config.hazard_time_s = {scenario.emergency.warning_time_s, scenario.emergency.braking_time_s};
-  config.reaction_speed_mps = scenario.reaction_speed_mps;
-  config.minimum_gap = &nodes::control::minimum_following_distance;
-  return config;
-}
-
 report::plots::DrivingOptions driving_options(const drives::Scenario& scenario, const std::string& title) {
   return {title, drives::evaluation_start(scenario), drives::drive_end(scenario), scenario.world.ego->front,
           scenario.world.ego->width};
@@ -127,22 +115,27 @@ std::vector<std::vector<std::string>> driving_rows(const std::vector<const Strat
 }
 
 nlohmann::ordered_json driving_json(const DrivingFindings& f) {
-  nlohmann::ordered_json json{
-      {"smallest_gap_m", f.smallest_gap_m},
-      {"smallest_time_to_collision_s", f.smallest_ttc_s},
-      {"collision", nullptr},
-      {"stopping_distance_m", nullptr},
-      {"reaction_s", nullptr},
-      {"detections", nullptr},
-      {"gap_error_rms_m", f.gap_error_rms_m},
-      {"below_r157_distance", f.below_minimum},
-      {"largest_deceleration_mps2", f.largest_deceleration},
-      {"jerk_rms_mps3", f.jerk_rms},
-      {"largest_jerk_mps3", f.largest_jerk},
-      {"collision_warnings", warnings_json(f.warnings[kForwardCollision])},
-      {"emergency_brakings", warnings_json(f.warnings[kEmergencyBraking])},
-      {"commands_issued", f.issued},
-      {"readings", {{"applied", f.applied}, {"none_new", f.none_new}, {"invalid", f.invalid}, {"late", f.late}}}};
+  nlohmann::ordered_json json{{"smallest_gap_m", f.smallest_gap_m},
+                              {"smallest_time_to_collision_s", f.smallest_ttc_s},
+                              {"collision", nullptr},
+                              {"stopping_distance_m", nullptr},
+                              {"reaction_s", nullptr},
+                              {"detections", nullptr},
+                              {"gap_error_rms_m", f.gap_error_rms_m},
+                              {"below_r157_distance", f.below_minimum},
+                              {"largest_deceleration_mps2", f.largest_deceleration},
+                              {"jerk_rms_mps3", f.jerk_rms},
+                              {"largest_jerk_mps3", f.largest_jerk},
+                              {"collision_warnings", warnings_json(f.warnings[kForwardCollision])},
+                              {"emergency_brakings", warnings_json(f.warnings[kEmergencyBraking])},
+                              {"commands_issued", f.issued},
+                              {"readings",
+                               {{"applied", f.applied},
+                                {"none_new", f.none_new},
+                                {"invalid", f.invalid},
+                                {"late", f.late},
+                                {"nothing_asked", f.nothing_asked},
+                                {"weaker", f.weaker}}}};
   if (f.collision)
     json["collision"] = {{"at_s", 1e-9 * static_cast<double>(f.collision->at.ns)},
                          {"closing_mps", f.collision->closing_mps}};

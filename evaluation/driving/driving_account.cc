@@ -93,7 +93,9 @@ void DrivingAccount::on(const recording::records::ImageWritten& image) {
   if (speed && *speed < config_.reaction_speed_mps) findings_.reaction = image.stamp.true_time - *slow_at_;
 }
 
+// At a standstill the acceleration ends with the motion, whatever the brakes do: no controller decides about it.
 void DrivingAccount::note_jerk() {
+  if (ego_->vx < kStands_mps) return jerk_from_.reset();
   if (!jerk_from_) jerk_from_ = ego_;
   const Duration over = ego_->at - jerk_from_->at;
   if (over < kJerkOver) return;
@@ -136,6 +138,8 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
     case recording::records::kNoNewCommand: ++findings_.none_new; break;
     case recording::records::kInvalidCommand: ++findings_.invalid; break;
     case recording::records::kLateCommand: ++findings_.late; break;
+    case recording::records::kNothingAsked: ++findings_.nothing_asked; break;
+    case recording::records::kWeakerCommand: ++findings_.weaker; break;
   }
 }
 

@@ -37,11 +37,11 @@ struct WarningFindings {
 
 struct DrivingFindings {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::uint64_t moments = 0;      // at which the truth was judged
-  double smallest_gap_m = kNone;  // 0: a collision
-  double smallest_ttc_s = kNone;  // for constant speeds
-  double gap_error_rms_m = 0.0;   // behind an object, against standstill + time gap * speed
-  double below_minimum = 0.0;     // share of the moments behind an object
+  std::uint64_t moments = 0;       // at which the truth was judged
+  double smallest_gap_m = kNone;   // 0: a collision
+  double smallest_ttc_s = kNone;   // for constant speeds
+  double gap_error_rms_m = kNone;  // behind an object, against standstill + time gap * speed
+  double below_minimum = kNone;    // share of the moments behind an object
   double largest_deceleration = 0.0, largest_jerk = 0.0, jerk_rms = 0.0;  // [m/s^2], [m/s^3]
   struct Collision {
     TrueTime at{};
@@ -52,9 +52,10 @@ struct DrivingFindings {
   std::optional<double> stopping_distance_m;
   // From the instant at which the object ahead truly falls below the reaction speed until an image says so.
   std::optional<Duration> reaction;
-  std::optional<DetectionFindings> detections;                                 // of cameras that share a detector
-  std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0;  // commands; readings of the actuator
-  std::array<WarningFindings, 2> warnings;                                     // by service
+  std::optional<DetectionFindings> detections;  // of cameras that share a detector
+  // Commands; readings of the actuator, by verdict.
+  std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0, nothing_asked = 0, weaker = 0;
+  std::array<WarningFindings, 2> warnings;  // by service
 };
 
 class DrivingAccount final : public recording::records::Sink {

@@ -380,11 +380,14 @@ struct CommandIssued {
   TrackId track{};  // the object ahead, if there is one
 };
 
-// An actuator's reading of its commands: one is applied from the instant `from` on, or none.
+// An actuator's reading of a command: it is applied from the instant `from` on, or not. A reading has a record for the list of
+// adaptive cruise control, and one for each new list of another service. An earlier command that counts on has one of its own.
 inline constexpr std::uint8_t kApplied = 0, kNoNewCommand = 1, kInvalidCommand = 2, kLateCommand = 3;
+// The service asks for nothing, as it is allowed to; another service asks for more.
+inline constexpr std::uint8_t kNothingAsked = 4, kWeakerCommand = 5;
 struct CommandTaken {
   Stamp stamp;
-  PduId pdu{};  // the list that decided
+  PduId pdu{};
   std::uint32_t sequence = 0;
   std::uint8_t verdict = kApplied;
   double acceleration = 0, steering = 0;

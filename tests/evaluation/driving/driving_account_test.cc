@@ -145,6 +145,35 @@ TEST(DrivingAccount, IsJudgedUpToTheFirstCollision) {
   EXPECT_NEAR(found.largest_jerk, 90.0, 1e-9);
 }
 
+TEST(DrivingAccount, AStandstillHasNoJerk) {
+  Drive drive;
+  drive.at(0, 0, 1, -8, 30, 0);
+  drive.at(100, 0.1, 0.2, -8, 30, 0);
+  drive.at(200, 0.1, 0, 0, 30, 0);
+  drive.at(300, 0.1, 0.1, 0.5, 30, 0);
+  drive.at(400, 0.1, 0.2, 0.6, 30, 0);
+  const DrivingFindings found = drive.account.finish();
+  EXPECT_NEAR(found.largest_jerk, 1.0, 1e-9);
+  EXPECT_NEAR(found.jerk_rms, std::sqrt(0.5), 1e-9);
+}
+
+TEST(DrivingAccount, EveryVerdictOfTheActuatorIsCounted) {
+  Drive drive;
+  for (const std::uint8_t verdict :
+       {kApplied, kNoNewCommand, kInvalidCommand, kLateCommand, kLateCommand, kNothingAsked, kWeakerCommand}) {
+    CommandTaken taken;
+    taken.verdict = verdict;
+    drive.account.on(taken);
+  }
+  const DrivingFindings found = drive.account.finish();
+  EXPECT_EQ(found.applied, 1u);
+  EXPECT_EQ(found.none_new, 1u);
+  EXPECT_EQ(found.invalid, 1u);
+  EXPECT_EQ(found.late, 2u);
+  EXPECT_EQ(found.nothing_asked, 1u);
+  EXPECT_EQ(found.weaker, 1u);
+}
+
 TEST(DrivingAccount, TheStoppingDistanceCountsFromTheBrakesAhead) {
   Drive drive;
   drive.at(0, 0, 10, 0, 30, 10);
