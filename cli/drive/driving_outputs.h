@@ -10,8 +10,6 @@
 
 namespace ttf::cli::drive {
 
-// Returns the account's settings for a scenario whose vehicle commands drive.
-evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario);
 // Returns rows of the comparison table, with a cell for each result; none, if no vehicle was driven.
 std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results);
 // Returns the picture's settings for such a scenario.
