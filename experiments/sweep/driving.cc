@@ -11,6 +11,7 @@ evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenar
   config.time_gap_s = scenario.cruise.law.time_gap_s;
   config.standstill_m = scenario.cruise.law.standstill_m;
   config.hazard_time_s = {scenario.emergency.warning_time_s, scenario.emergency.braking_time_s};
+  config.reaction_speed_mps = scenario.reaction_speed_mps;
   config.minimum_gap = &nodes::control::minimum_following_distance;
   return config;
 }

@@ -49,6 +49,9 @@ template <class Of> double driven(const MeasuredDrive& drive, const Of& of) {
   const double value = drive.driving == nullptr ? kNone : of(*drive.driving);
   return value == kNone ? evaluation::accuracy::kNotMeasured : value;
 }
+template <class Of> double detected(const MeasuredDrive& drive, const Of& of) {
+  return driven(drive, [&](const auto& f) { return f.detections ? of(*f.detections) : kNone; });
+}
 inline double warnings(const MeasuredDrive& drive, std::size_t service,
                        std::uint64_t evaluation::driving::WarningFindings::*count) {
   return driven(drive, [&](const auto& f) { return static_cast<double>(f.warnings[service].*count); });
@@ -57,7 +60,7 @@ inline double warnings(const MeasuredDrive& drive, std::size_t service,
 }  // namespace measure
 
 // clang-format off
-inline constexpr std::array<Measure, 67> kMeasures{{
+inline constexpr std::array<Measure, 71> kMeasures{{
   {"position_rmse_truth", "m", "root mean square of the position error against the truth, when the image is used",
    [](const MeasuredDrive& d) { return d.summary.position_rmse_truth; }},
   {"position_mse_truth", "m^2", "mean square of the position error against the truth, unbiased when averaged over drives",
@@ -199,6 +202,15 @@ inline constexpr std::array<Measure, 67> kMeasures{{
    [](const MeasuredDrive& d) { return measure::warnings(d, recording::records::kEmergencyBraking, &evaluation::driving::WarningFindings::missed); }},
   {"brakings_late", "", "hazards whose emergency braking began after them, in a drive",
    [](const MeasuredDrive& d) { return measure::warnings(d, recording::records::kEmergencyBraking, &evaluation::driving::WarningFindings::late); }},
+  {"reaction_time", "s",
+   "time from the instant at which the object ahead truly falls below `judgement.reaction_speed` until an image says so",
+   [](const MeasuredDrive& d) { return measure::driven(d, [](const auto& f) { return f.reaction ? f.reaction->seconds() : measure::kNone; }); }},
+  {"detection_frame", "s", "mean length of the frames of a detector that several cameras share",
+   [](const MeasuredDrive& d) { return measure::detected(d, [](const auto& f) { return f.frames.mean(); }); }},
+  {"detection_interval", "s", "mean time between two detections of the camera that such a detector looks at most",
+   [](const MeasuredDrive& d) { return measure::detected(d, [](const auto& f) { return f.intervals.mean(); }); }},
+  {"detection_interval_sigma", "s", "standard deviation of these times in a drive",
+   [](const MeasuredDrive& d) { return measure::detected(d, [](const auto& f) { return f.intervals.deviation(); }); }},
 }};
 // clang-format on
 
