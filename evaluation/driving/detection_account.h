@@ -21,7 +21,7 @@ class Spread {
   void add(Duration duration);
   std::uint64_t count() const { return count_; }
   double mean() const;
-  double deviation() const;  // of a sample: the sum of squares over count - 1
+  double deviation() const;  // by the sum of squares over count - 1
 
  private:
   std::uint64_t count_ = 0;

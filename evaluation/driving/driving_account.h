@@ -52,7 +52,7 @@ struct DrivingFindings {
   std::optional<double> stopping_distance_m;
   // From the instant at which the object ahead truly falls below the reaction speed until an image says so.
   std::optional<Duration> reaction;
-  std::optional<DetectionFindings> detections;  // of cameras that share a detector
+  std::optional<DetectionFindings> detections;  // if cameras share a detector
   // Commands; readings of the actuator, by verdict.
   std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0, nothing_asked = 0, weaker = 0;
   std::array<WarningFindings, 2> warnings;  // by service

@@ -394,8 +394,8 @@ struct CommandTaken {
   TrueTime from{};
 };
 
-// A detection of a detector that several cameras share, at the execution that ends it. The picture is that of the execution that
-// began it. `area` is the share of the picture that was looked at, `took` the simulated time of the detector.
+// A detection of a detector that several cameras share, at its end. The picture is that of its begin. `area` is the
+// share of the picture that was looked at, `took` the simulated time of the detector.
 struct DetectionMade {
   Stamp stamp;
   TrueTime begin{};
@@ -419,8 +419,8 @@ struct SequencePlanned {
 };
 
 // A motion plan: the speed [m/s] to drive at, and the planner's state (nodes/control/gap_planner.h). An invalid one asks for
-// nothing. It rests on the most important object and the own place on the lane [m, rad]. The region [px] is that of a camera's
-// picture in which the object is. There may be no object (kNoTrack) and no region (kNoSensor).
+// nothing. It rests on the most important object. The own place is that on the lane [m, rad]. The region [px] holds the
+// object. Without an object the track is kNoTrack. Without a region the camera is kNoSensor.
 struct PlanMade {
   Stamp stamp;
   PduId pdu{};

@@ -43,7 +43,7 @@ class DrivingPicture final : public recording::records::Sink {
   DrivingOptions options_;
   Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
   Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
-  Points sequence_, bound_;                                // of detections: lengths as they were, and as planned
+  Points sequence_, bound_;                                // lengths of sequences of detections, and their bounds
   std::optional<TrueTime> planned_at_;                     // the newest sequence
   std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
   std::optional<recording::records::EgoTruth> ego_;
