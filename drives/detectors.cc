@@ -99,7 +99,7 @@ void check_regions(const Scenario& scenario, const Cluster& cluster) {
       for (const nodes::vision::FixedRegion& fixed : scenario.adaptive_camera.regions) {
         if (std::ranges::find(names, fixed.camera) == names.end())
           findings.add({scenario.file, fixed.line, "adaptive_camera.regions.camera", fixed.camera,
-                        fmt::format("must be a camera of {} of {}: {}{}", node.name, cluster.file,
+                        fmt::format("must be a camera of the node {} of {}: {}{}", node.name, cluster.file,
                                     joined(names, " or "), did_you_mean(fixed.camera, names))});
         if (has_port(task.reads, kRegions))
           findings.add(
