@@ -253,8 +253,7 @@ std::string ages_text(const model::Cluster& cluster) {
     if (path.reaches_use && !path.chosen) bound("  newest one at any use", path.newest_worst);
     bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
     if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
-    if (path.reaches_use && !path.chosen)
-      bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
+    if (path.reaches_use && !path.chosen) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
   }
   for (const AgePath& path : odometry) {
     text += fmt::format("{}\n", cluster.sensor(path.sensor).name);
