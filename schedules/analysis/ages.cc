@@ -27,6 +27,11 @@ class Ages {
     Path path = path_of(cluster_, id);
     if (path.stages.empty()) return std::nullopt;
     if (!observes(id)) path.used = 0;
+    return of(path);
+  }
+
+  AgePath of(const Path& path) {
+    const SensorId id = path.sensor;
     AgePath ages;
     ages.sensor = id;
     const model::Sensor& sensor = cluster_.sensor(id);
@@ -82,8 +87,7 @@ class Ages {
     return slowest + apart.value_or(Duration{});
   }
 
-  void buffer(AgePath& ages, const std::vector<Release>& releases, Duration held_for_arrivals) {
-    const Path path = path_of(cluster_, ages.sensor);
+  void buffer(AgePath& ages, const Path& path, const std::vector<Release>& releases, Duration held_for_arrivals) {
     const std::size_t gate = path.available;
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
@@ -212,7 +216,7 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   for (const AgePath& path : paths) ages.releases(path.sensor, releases);
   const Duration held = ages.held_for_arrivals(paths);
   for (AgePath& path : paths) {
-    ages.buffer(path, releases, held);
+    ages.buffer(path, path_of(cluster, path.sensor), releases, held);
     bool fused = false;
     for (Waypoint& point : path.waypoints) {
       fused = fused || point.kind == Waypoint::Kind::kFused;
@@ -222,6 +226,25 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
     }
   }
   return paths;
+}
+
+std::vector<AgePath> ages_along(const model::Cluster& cluster, const std::vector<Path>& paths) {
+  Ages ages(cluster);
+  std::vector<AgePath> observed;
+  std::vector<Ages::Release> releases;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (const auto id = static_cast<SensorId>(s); ages.observes(id))
+      if (auto path = ages.of(id)) {
+        ages.releases(id, releases);
+        observed.push_back(std::move(*path));
+      }
+  const Duration held = ages.held_for_arrivals(observed);
+  std::vector<AgePath> all;
+  for (const Path& path : paths) {
+    all.push_back(ages.of(path));
+    if (path.held) ages.buffer(all.back(), path, releases, held);
+  }
+  return all;
 }
 
 std::vector<AgePath> odometry_ages(const model::Cluster& cluster) {
