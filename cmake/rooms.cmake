@@ -81,8 +81,8 @@ if(TTF_BUILD_TESTS)
   find_package(GTest REQUIRED)
   # Tests' own code is not optimised, which builds faster; the rooms that it calls are. Tests of arithmetic (tests/fusion) are an
   # exception: the linker may take a template of Eigen from them.
-  # Nor is it searched for undefined behaviour, which takes a third of its compile time. Programs link this after ttf_options:
-  # the last option counts.
+  # Sanitizers do not search it for undefined behaviour, which takes a third of its compile time. Programs link this after
+  # ttf_options: the last option counts.
   add_library(ttf_test_options INTERFACE)
   if(TTF_SANITIZE MATCHES "undefined")
     target_compile_options(ttf_test_options INTERFACE -fno-sanitize=undefined)
