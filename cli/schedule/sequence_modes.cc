@@ -20,7 +20,7 @@ using schedules::modes::Detector;
 using schedules::modes::Mode;
 using schedules::modes::PlacedDetection;
 
-[[noreturn]] void refuse(const char* option, const std::string& value, const std::string& expected) {
+[[noreturn]] void refuse_modes(const char* option, const std::string& value, const std::string& expected) {
   throw InputError(Finding{"command line", 0, option, value, expected});
 }
 
@@ -29,7 +29,8 @@ Detector detector_of(const schedules::model::Cluster& cluster, const std::string
   if (const auto node = cluster.find_node(typed.substr(0, dot)); node && dot != std::string::npos)
     for (const schedules::model::Task& task : cluster.node(*node).tasks)
       if (task.name == typed.substr(dot + 1)) return {*node, &task};
-  refuse("--task", typed, fmt::format("must be a node and its task in {}, as in camera_pre.preprocess", cluster.file));
+  refuse_modes("--task", typed,
+               fmt::format("must be a node and its task in {}, as in camera_pre.preprocess", cluster.file));
 }
 
 struct Checked {
@@ -44,8 +45,8 @@ Checked checked(const ModesAsked& asked) {
   found.cluster = schedules::check::load_checked_cluster(file_named(asked.cluster, {kSchedules}));
   found.detector = detector_of(found.cluster, asked.task);
   if (const Duration cycle = found.cluster.cycle(); asked.grid.step.ns % cycle.ns != 0)
-    refuse("--step", scaled_text(asked.grid.step.ns, 1'000'000) + " ms",
-           fmt::format("must be a multiple of the communication cycle, {} ms", scaled_text(cycle.ns, 1'000'000)));
+    refuse_modes("--step", scaled_text(asked.grid.step.ns, 1'000'000) + " ms",
+                 fmt::format("must be a multiple of the communication cycle, {} ms", scaled_text(cycle.ns, 1'000'000)));
   for (std::size_t m = 0; m < asked.sequences.size(); ++m) {
     found.modes.push_back(placed(found.cluster, asked.sequences[m], asked.times, asked.grid));
     found.modes.back().bound = asked.bounds[m];

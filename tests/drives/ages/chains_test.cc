@@ -21,7 +21,7 @@ using schedules::analysis::chain::Chain;
 using List = std::pair<PduId, std::uint32_t>;
 
 // Follows pictures into images, images into commands and commands to the actuator, in the records alone.
-class Followed final : public recording::records::Sink {
+class FollowedChains final : public recording::records::Sink {
  public:
   struct Seen {
     std::size_t pictures = 0, readings = 0;
@@ -30,7 +30,7 @@ class Followed final : public recording::records::Sink {
     Duration age_most{}, age_until_next_most{};
   };
 
-  Followed(const schedules::model::Cluster& cluster, TrueTime from) : from_(from) {
+  FollowedChains(const schedules::model::Cluster& cluster, TrueTime from) : from_(from) {
     for (const Chain& chain : schedules::analysis::chain::chains(cluster)) commands_.insert(chain.command);
   }
 
@@ -103,13 +103,13 @@ class Followed final : public recording::records::Sink {
 };
 
 void expect_within(const Drive& drive, std::uint64_t seed) {
-  Followed followed(drive.cluster, evaluation_start(drive.scenario));
+  FollowedChains followed(drive.cluster, evaluation_start(drive.scenario));
   drive.run(followed, seed);
   const bool held = drive.strategy == StrategyKind::kBuff;
   for (const Chain& chain : schedules::analysis::chain::chains(drive.cluster)) {
     SCOPED_TRACE(chain.name + ", " + std::string(name_of(drive.strategy)) + ", seed " + std::to_string(seed));
     const bool holds = held && chain.fused;
-    const Followed::Seen& seen = followed.seen(chain.command, chain.sensor);
+    const FollowedChains::Seen& seen = followed.seen(chain.command, chain.sensor);
     EXPECT_GT(seen.pictures, 10u);
     EXPECT_GT(seen.readings, 20u);
     EXPECT_GE(seen.first_least, chain.reduced_reaction_best());
