@@ -75,7 +75,7 @@ mistake '--primary = 0ms: must be 0.000001..10 s with its unit' --sensors ABC --
 mistake '--secondary = fast: must be 0.000001..10 s' --sensors ABC --beta 200ms --primary 1ms --secondary fast
 mistake '--slots.*text' --sensors ABC --beta 200ms "${times[@]}" --slots ceil
 mistake '--interest: must name a sensor' --sensors ABC --beta 200ms "${times[@]}" --best-beta
-mistake '--share = 2: must be 0..1' "${best[@]}" --share 2
+mistake '--share = 2: must be a decimal number 0..1' "${best[@]}" --share 2
 mistake '--sigma = nan: must be' "${best[@]}" --sigma nan
 mistake '--share' --sensors ABC --beta 200ms "${times[@]}" --share 0.4
 mistake '--task = camera_pre: must be a node and its task in' "${modes[@]}" --task camera_pre

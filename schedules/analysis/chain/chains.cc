@@ -80,7 +80,7 @@ std::string chains_text(const model::Cluster& cluster, Duration dead_time) {
     row("  data age when a command is read", chain.path.use_best, chain.reduced_age_worst());
     row("  data age until the next command is read", std::nullopt, chain.age_worst());
     if (!chain.fused) continue;
-    row("  first picture to first command" + held, std::nullopt, chain.reduced_reaction_worst(true) + dead_time);
+    row("  first command" + held, std::nullopt, chain.reduced_reaction_worst(true) + dead_time);
     row("  reaction time" + held, std::nullopt, chain.reaction_worst(true) + dead_time);
     row("  data age when read" + held, std::nullopt, chain.reduced_age_worst(true));
   }
