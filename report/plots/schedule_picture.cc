@@ -20,7 +20,7 @@ using schedules::model::Channel;
 using schedules::model::Cluster;
 using schedules::model::FrameSlot;
 
-constexpr double kPlot = 1300, kSlotLane = 110, kTaskLane = 26;
+constexpr double kPlotWidth = 1300, kSlotLane = 110, kTaskLane = 26;
 constexpr std::string_view kSymbolWindowFill = "#f5eeda";
 
 class SchedulePainter {
@@ -41,7 +41,7 @@ class SchedulePainter {
     const double widest = sheet_.on_paper() ? std::max(left_, 0.35 * sheet_.width(0)) : 320.0;
     for (const TaskLane& lane : lanes)
       left_ = std::clamp(drawing::text_width(lane.label, sheet_.text(10)) + 24, left_, widest);
-    plot_ = sheet_.plot_width(kPlot, left_ + 30);
+    plot_ = sheet_.plot_width(kPlotWidth, left_ + 30);
     const double matrix_cell = std::clamp(plot_ / std::max<double>(1.0, static_cast<double>(used_.size())),
                                           sheet_.on_paper() ? 0.0 : 16.0, 90.0);
     const double width = left_ + std::max(plot_, matrix_cell * static_cast<double>(used_.size())) + 30;
@@ -404,7 +404,7 @@ class SchedulePainter {
   drawing::Sheet sheet_;
   drawing::Names names_;
   double left_ = 110;  // start of the plot, right of the lane labels
-  double plot_ = kPlot, words_left_ = 0, words_width_ = 0;
+  double plot_ = kPlotWidth, words_left_ = 0, words_width_ = 0;
   int repetition_ = 1;
   std::map<int, std::vector<const FrameSlot*>> frames_;
   std::vector<int> used_;

@@ -9,11 +9,12 @@
 #include "schedules/exchange/text.h"
 #include "tests/schedules/check/mutation.h"
 #include "tests/schedules/cluster_file.h"
-#include "tests/schedules/durations.h"
 #include "tests/schedules/small_cluster.h"
 
 namespace ttf::schedules::check {
 namespace {
+
+constexpr Duration micros(std::int64_t n) { return Duration::microseconds(n); }
 
 // 40 slots of 84 us, the first 34 in use, 7 us to the action point: 7 x 84 - 7 = 581 us of room. A cycle of 5
 // ms.
@@ -24,9 +25,9 @@ model::Cluster paper(Duration early, Duration late) {
 }
 
 TEST(RealTime, TheRoomIsWhatIsLeftOfTheStaticSegment) {
-  const model::Cluster cluster = paper({}, us(1));
+  const model::Cluster cluster = paper({}, micros(1));
   EXPECT_EQ(last_static_slot(cluster), 34);
-  EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), us(581));
+  EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), micros(581));
   EXPECT_EQ(arrival_room(cluster, 2'500'000), Duration{1'452'500});
   EXPECT_EQ(arrival_room(cluster, 100'000), Duration{58'100});
   EXPECT_EQ(arrival_room(cluster, 1'000'001), Duration{581'000});  // 581000.581 ns
@@ -43,15 +44,15 @@ TEST(RealTime, TheRoomIsExactInPicoseconds) {
 }
 
 TEST(RealTime, DynamicSlotsTakeNoneOfTheRoom) {
-  model::Cluster cluster = paper({}, us(1));
+  model::Cluster cluster = paper({}, micros(1));
   model::FrameSlot dynamic = cluster.frames.back();
   dynamic.slot = 41;
   cluster.frames.push_back(dynamic);
-  EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), us(581));
+  EXPECT_EQ(arrival_room(cluster, kTimeScaleOne), micros(581));
 }
 
 TEST(RealTime, LateMayBeAsLongAsTheRoom) {
-  EXPECT_TRUE(check_real_time(paper({}, us(581)), kTimeScaleOne).empty());
+  EXPECT_TRUE(check_real_time(paper({}, micros(581)), kTimeScaleOne).empty());
   const model::Cluster cluster = paper({}, Duration{581'001});
   const auto findings = check_real_time(cluster, kTimeScaleOne);
   ASSERT_EQ(findings.size(), 1u) << sentences(findings);
@@ -64,8 +65,8 @@ TEST(RealTime, LateMayBeAsLongAsTheRoom) {
 }
 
 TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
-  EXPECT_TRUE(check_real_time(paper(Duration{4'499'999}, us(500)), kTimeScaleOne).empty());
-  const auto findings = check_real_time(paper(us(4'500), us(500)), kTimeScaleOne);
+  EXPECT_TRUE(check_real_time(paper(Duration{4'499'999}, micros(500)), kTimeScaleOne).empty());
+  const auto findings = check_real_time(paper(micros(4'500), micros(500)), kTimeScaleOne);
   ASSERT_EQ(findings.size(), 1u) << sentences(findings);
   EXPECT_EQ(findings[0].key, "real_time.early");
   EXPECT_EQ(findings[0].value, "4500 us");
@@ -76,18 +77,23 @@ TEST(RealTime, TheWindowsOfASlotInTwoCyclesMustNotOverlap) {
 
 // For any window: the named scale suffices, and the one before does not.
 TEST(RealTime, TheTimeScaleNamedIsTheSmallest) {
-  const std::pair<Duration, Duration> windows[] = {
-      {{}, us(582)},          {us(100), us(2'000)},       {us(100), Duration{123'456'789}},
-      {us(9'000), us(1)},     {us(4'500), us(500)},       {us(1'000'000), us(1)},
-      {us(300'000), us(581)}, {Duration{1}, us(580'999)}, {us(1'000'000), us(580'000)}};
+  const std::pair<Duration, Duration> windows[] = {{{}, micros(582)},
+                                                   {micros(100), micros(2'000)},
+                                                   {micros(100), Duration{123'456'789}},
+                                                   {micros(9'000), micros(1)},
+                                                   {micros(4'500), micros(500)},
+                                                   {micros(1'000'000), micros(1)},
+                                                   {micros(300'000), micros(581)},
+                                                   {Duration{1}, micros(580'999)},
+                                                   {micros(1'000'000), micros(580'000)}};
   for (const auto& [early, late] : windows) {
     const model::Cluster cluster = paper(early, late);
     const std::int64_t smallest = smallest_time_scale(cluster, *cluster.arrival_window);
     EXPECT_TRUE(check_real_time(cluster, smallest).empty()) << smallest;
     EXPECT_FALSE(check_real_time(cluster, smallest - 1).empty()) << smallest;
   }
-  EXPECT_EQ(smallest_time_scale(paper({}, us(1'162)), {{}, us(1'162)}), 2'000'000);  // 2 x 581
-  EXPECT_EQ(smallest_time_scale(paper({}, us(1)), {{}, us(1)}), kSmallestTimeScale);
+  EXPECT_EQ(smallest_time_scale(paper({}, micros(1'162)), {{}, micros(1'162)}), 2'000'000);  // 2 x 581
+  EXPECT_EQ(smallest_time_scale(paper({}, micros(1)), {{}, micros(1)}), kSmallestTimeScale);
 }
 
 TEST(RealTime, WhereNoTimeScaleDoesItSaysSo) {
@@ -119,7 +125,7 @@ TEST(RealTime, EachObstacleIsNamedAtItsLine) {
 // Laser and camera have 1 to 4, each on its own CAN: the other's identifiers are free there.
 TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   const auto found = [](std::size_t can, std::uint32_t identifier) {
-    model::Cluster cluster = paper({}, us(500));
+    model::Cluster cluster = paper({}, micros(500));
     cluster.can_buses[can].messages[0].identifier = identifier;
     return check_real_time(cluster, kTimeScaleOne);
   };
@@ -129,7 +135,7 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   EXPECT_EQ(strobe[0].value, "identifier 1");
   EXPECT_EQ(strobe[0].expected,
             "must be another identifier in real time: laser uses 1 for its strobe and 2 for its trigger");
-  EXPECT_NE(line_of(paper({}, us(500)).text, strobe[0].line).find("laser_scan"), std::string::npos);
+  EXPECT_NE(line_of(paper({}, micros(500)).text, strobe[0].line).find("laser_scan"), std::string::npos);
   ASSERT_EQ(trigger.size(), 1u) << sentences(trigger);
   EXPECT_EQ(trigger[0].key, "can.camera_can.messages[0]");
   EXPECT_EQ(found(0, 2).size(), 1u);
@@ -141,7 +147,7 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
 
 // A device that keeps its raw data, or whose task begins by the schedule instead of with its sensor.
 TEST(RealTime, ASensorsLinesNeedACan) {
-  const model::Cluster whole = paper({}, us(500));
+  const model::Cluster whole = paper({}, micros(500));
   const NodeId device = whole.sensors[1].device;
   const auto found = [&](const auto& edit) {
     model::Cluster cluster = whole;
@@ -174,10 +180,10 @@ TEST(RealTime, ShippedClustersHoldAtTimeScaleOne) {
         << name;
     if (!cluster.arrival_window) continue;
     EXPECT_TRUE(check_real_time(cluster, kTimeScaleOne).empty()) << sentences(check_real_time(cluster, kTimeScaleOne));
-    EXPECT_EQ(cluster.arrival_window->early, us(100));
+    EXPECT_EQ(cluster.arrival_window->early, micros(100));
     // One slot more leaves less room.
     EXPECT_EQ(cluster.arrival_window->late,
-              us(name.starts_with("moving") || name.starts_with("closed_loop") ? 400 : 500));
+              micros(name.starts_with("moving") || name.starts_with("closed_loop") ? 400 : 500));
   }
 }
 
@@ -209,11 +215,11 @@ TEST(RealTime, TheSectionIsReadStrictly) {
 }
 
 TEST(RealTime, IsShown) {
-  EXPECT_NE(exchange::show_text(paper(us(100), us(400)))
+  EXPECT_NE(exchange::show_text(paper(micros(100), micros(400)))
                 .find("\nreal time\n  frames may arrive from 100 us before to 400 us after their action point; time "
                       "scale 1 has room for\n      581 us\n"),
             std::string::npos);
-  EXPECT_NE(exchange::show_text(paper(us(100), us(1'162)))
+  EXPECT_NE(exchange::show_text(paper(micros(100), micros(1'162)))
                 .find("\n  not at time scale 1: real_time.late = 1162 us must be at most 581 us"),
             std::string::npos);
   EXPECT_NE(exchange::show_text(file::load_cluster(shipped_path("laser_radar")))
