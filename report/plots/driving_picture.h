@@ -1,7 +1,8 @@
-// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the vehicle's
-// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator.
+// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, the vehicle's
+// acceleration, and its place in its lane if it keeps one. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +13,16 @@
 
 namespace ttf::report::plots {
 
+struct PlaceInLane {
+  double offset = 0.0, heading = 0.0;  // [m], [rad]
+};
+
 struct DrivingOptions {
   std::string title{};
   TrueTime from{}, to{};
   double front_m = 3.4, width_m = 1.8;  // the vehicle's front, ahead of its rear axle
+  // Returns the vehicle's true place in the lane that it keeps; empty if it keeps none.
+  std::function<PlaceInLane(const recording::records::EgoTruth&)> lane{};
 };
 
 class DrivingPicture final : public recording::records::Sink {
@@ -39,6 +46,7 @@ class DrivingPicture final : public recording::records::Sink {
 
   DrivingOptions options_;
   Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
+  Points offset_, heading_;                                // likewise; degrees
   Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
   std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
   std::optional<recording::records::EgoTruth> ego_;
