@@ -77,6 +77,14 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.emergency = nodes::driving::load_emergency(*emergency);
     emergency->finish();
   }
+  if (auto lane = root.map_if("lane_keeping")) {
+    scenario.lane_keeping = nodes::driving::load_lane_keeping(*lane);
+    lane->finish();
+  }
+  if (auto blind_spot = root.map_if("blind_spot_warning")) {
+    scenario.blind_spot = nodes::driving::load_blind_spot(*blind_spot);
+    blind_spot->finish();
+  }
   if (auto judgement = root.map_if("judgement")) {
     scenario.cut_off = fusion::loading::load_cut_off(*judgement);
     judgement->finish();

@@ -17,7 +17,9 @@
 #include "fusion/metrics/cut_off.h"
 #include "fusion/strategies/strategy.h"
 #include "nodes/driving/adaptive_cruise_control.h"
+#include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
+#include "nodes/driving/lane_keeping.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
@@ -51,6 +53,8 @@ struct Scenario {
   nodes::service::FeatureConfig feature;
   nodes::driving::CruiseConfig cruise;
   nodes::driving::EmergencyConfig emergency;
+  nodes::driving::LaneKeepingConfig lane_keeping;
+  nodes::driving::BlindSpotConfig blind_spot;
   fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged
   // The world of another simulator, in place of all in `world` that moves (drives/traced.h); null: none.
   std::shared_ptr<const recording::osi::TruthTrace> truth;

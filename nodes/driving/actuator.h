@@ -6,15 +6,16 @@
 #include <optional>
 
 #include "nodes/driving/command.h"
+#include "nodes/driving/lateral.h"
 #include "nodes/host/step.h"
 #include "sim/world/vehicle/actuator.h"
 
 namespace ttf::nodes::driving {
 
-// Ports `command` and, if it is bound, `emergency`. A list is taken once. It is refused if its instant is too far away, and if it
+// Ports `command` and, if they are bound, `emergency` and `lateral`. A list is taken once. It is refused if its instant is too far away, and if it
 // is invalid: a valid list of `emergency` asks for more deceleration than `command`, or counts for nothing. A reading
 // remembers no earlier one: without a new list of `emergency`, `command` alone counts. A list that lost a fragment, or whose frame
-// was not intact, never gets here (bus/cni/list_buffer.h).
+// was not intact, never gets here (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (lateral.h).
 class Actuator final : public host::Step {
  public:
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -22,6 +23,8 @@ class Actuator final : public host::Step {
   void run(host::StepContext& context) override;
 
  private:
+  void run_longitudinal(host::StepContext& context);
+
   struct Port {
     std::size_t input = 0;
     CommandSignals signals;
@@ -32,6 +35,7 @@ class Actuator final : public host::Step {
   Duration round_;
   Port command_;
   std::optional<Port> emergency_;
+  std::optional<LateralCommands> lateral_;
   double steering_ = 0.0;  // [rad], of the last accepted command
 };
 

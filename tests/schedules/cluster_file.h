@@ -34,6 +34,8 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "moving_synchronised",
                                                "closed_loop_unsynchronised",
                                                "closed_loop_synchronised",
+                                               "driven_surround_unsynchronised",
+                                               "driven_surround_synchronised",
                                                "laser_and_radar_unsynchronised",
                                                "laser_and_radar_synchronised",
                                                "four_kinds_unsynchronised",
