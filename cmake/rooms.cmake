@@ -34,7 +34,7 @@ endif()
 target_compile_options(ttf_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 
 # Headers that nearly every source includes are compiled once for the rooms and once for the tests. A source still includes
-# every header it needs: presets without compiled headers (clang, sanitizers) find a missing one.
+# every header it needs: clang-tidy (tools/tidy.sh) and builds without compiled headers (debug) find a missing one.
 set(TTF_COMMON_HEADERS
   <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numeric>
   <optional> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector> <fmt/format.h> <Eigen/Core>)
@@ -81,15 +81,21 @@ if(TTF_BUILD_TESTS)
   find_package(GTest REQUIRED)
   # Tests' own code is not optimised, which builds faster; the rooms that it calls are. Tests of arithmetic (tests/fusion) are an
   # exception: the linker may take a template of Eigen from them.
+  # Sanitizers do not search it for undefined behaviour, which takes a third of its compile time. Programs link this after
+  # ttf_options: the last option counts.
+  add_library(ttf_test_options INTERFACE)
+  if(TTF_SANITIZE MATCHES "undefined")
+    target_compile_options(ttf_test_options INTERFACE -fno-sanitize=undefined)
+  endif()
   ttf_common_headers(ttf_test_headers
-    OPTIONS -O0 HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
+    OPTIONS -O0 HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock ttf_test_options)
   ttf_common_headers(ttf_arithmetic_test_headers
-    OPTIONS -O1 HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
+    OPTIONS -O1 HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock ttf_test_options)
 endif()
 
 # ttf_as_test(<name>): compiles a program as a test is compiled, with the tests' headers.
 function(ttf_as_test name)
-  target_link_libraries(${name} PRIVATE ttf_options)
+  target_link_libraries(${name} PRIVATE ttf_options ttf_test_options)
   target_compile_definitions(${name} PRIVATE GTEST_HAS_PTHREAD=1)
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/fusion")
     target_compile_options(${name} PRIVATE -O1)

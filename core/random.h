@@ -34,6 +34,7 @@ enum class Purpose : std::uint16_t {
   kOtherTraffic = 17,
   kObjectSize = 18,
   kSpeedAtStart = 19,
+  kDetectionTime = 20,
 };
 
 struct StreamKey {

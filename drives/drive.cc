@@ -9,6 +9,7 @@
 #include "core/counted.h"
 #include "core/nearest.h"
 #include "core/strict_yaml.h"
+#include "drives/detectors.h"
 #include "drives/known_fields.h"
 #include "drives/played_recording.h"
 #include "drives/step_catalog.h"
@@ -123,6 +124,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   check_fusion(cluster, strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
+  check_regions(scenario, cluster);
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -141,6 +143,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   check_fusion(cluster, config.strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
+  check_regions(scenario, cluster);
   std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;

@@ -69,6 +69,10 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.feature = nodes::service::load_feature(*feature);
     feature->finish();
   }
+  if (auto adaptive = root.map_if("adaptive_camera")) {
+    scenario.adaptive_camera = nodes::vision::load_adaptive_camera(*adaptive);
+    adaptive->finish();
+  }
   if (auto cruise = root.map_if("adaptive_cruise_control")) {
     scenario.cruise = nodes::driving::load_cruise(*cruise);
     cruise->finish();
@@ -85,8 +89,18 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.blind_spot = nodes::driving::load_blind_spot(*blind_spot);
     blind_spot->finish();
   }
+  if (auto planner = root.map_if("motion_planner")) {
+    scenario.planner = nodes::driving::load_planner(*planner);
+    planner->finish();
+  }
+  if (auto control = root.map_if("vehicle_control")) {
+    scenario.control = nodes::driving::load_control(*control);
+    control->finish();
+  }
   if (auto judgement = root.map_if("judgement")) {
     scenario.cut_off = fusion::loading::load_cut_off(*judgement);
+    scenario.reaction_speed_mps =
+        judgement->number_or("reaction_speed", scenario.reaction_speed_mps, {0.1, 100.0}, "m/s");
     judgement->finish();
   }
   scenario.faults = faults::load_fault_plan(root, latest);

@@ -20,9 +20,12 @@
 #include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
 #include "nodes/driving/lane_keeping.h"
+#include "nodes/driving/motion_planner.h"
+#include "nodes/driving/vehicle_control.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
+#include "nodes/vision/adaptive_camera.h"
 #include "recording/osi/truth_trace.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/reference.h"
@@ -51,11 +54,15 @@ struct Scenario {
   nodes::sensing::RecordedNoises recorded_noises;
   nodes::sensing::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
+  nodes::vision::AdaptiveCameraConfig adaptive_camera;
   nodes::driving::CruiseConfig cruise;
   nodes::driving::EmergencyConfig emergency;
   nodes::driving::LaneKeepingConfig lane_keeping;
   nodes::driving::BlindSpotConfig blind_spot;
-  fusion::metrics::CutOff cut_off;  // with which the drive's tracking is judged
+  nodes::driving::PlannerConfig planner;
+  nodes::driving::ControlConfig control;
+  double reaction_speed_mps = 27.0;  // the reaction time is judged at it (evaluation/driving/driving_account.h)
+  fusion::metrics::CutOff cut_off;   // with which the drive's tracking is judged
   // The world of another simulator, in place of all in `world` that moves (drives/traced.h); null: none.
   std::shared_ptr<const recording::osi::TruthTrace> truth;
   faults::FaultPlan faults;  // names as written: resolve() looks them up in the drive's cluster

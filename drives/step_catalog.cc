@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/check.h"
 #include "core/errors.h"
+#include "drives/detectors.h"
 #include "drives/drive.h"
 #include "drives/known_fields.h"
 #include "drives/played_recording.h"
@@ -14,6 +16,8 @@
 #include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
 #include "nodes/driving/lane_keeping.h"
+#include "nodes/driving/motion_planner.h"
+#include "nodes/driving/vehicle_control.h"
 #include "nodes/foreign/foreign_step.h"
 #include "nodes/fusion/fusion_host.h"
 #include "nodes/host/signals.h"
@@ -35,6 +39,19 @@ std::string_view name_of(const schedules::model::Cluster& cluster, SensorId sens
 const sim::world::vehicle::EgoConfig& ego_of(const Scenario& scenario) {
   static const sim::world::vehicle::EgoConfig kUsual;
   return scenario.world.ego ? *scenario.world.ego : kUsual;
+}
+// Returns the pictures of the cluster's cameras with one lens, as far as they measure.
+std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const schedules::model::Cluster& cluster) {
+  std::vector<nodes::driving::Picture> pictures;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
+    if (cluster.sensors[s].kind != schedules::model::SensorKind::kMonoCamera) continue;
+    const sim::world::MonoCameraConfig& camera = scenario.sensors.mono_cameras.of(cluster.sensors[s].name).model;
+    if (!camera.device.enabled) continue;
+    const sim::world::Placement& at = camera.device.placement;
+    pictures.push_back({static_cast<SensorId>(s), at.x, at.y, at.heading, camera.height_m, camera.focal_px,
+                        camera.focal_px * std::tan(camera.half_field_rad), camera.half_height_px});
+  }
+  return pictures;
 }
 // Returns the name of the sensor whose raw list the task reads.
 std::string_view name_read(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
@@ -79,6 +96,7 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"lane_camera_preprocessing", {"raw", "marks"}, {"objects", "lanes"}, false},
       {"odometry_preprocessing", {"raw"}, {"odometry"}, false},
       {"recorded_preprocessing", {"raw"}, {"objects"}, false},
+      {"adaptive_camera", {}, {}, true, {"regions"}, true},
       {"gateway", {"in"}, {"out"}, false},
       {"fusion", {}, {}, true},
       {"image_output", {}, {"image"}, false},
@@ -87,6 +105,8 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"emergency_braking", {"image", "odometry"}, {"command"}, false},
       {"lane_keeping", {"marks", "odometry"}, {"command"}, false},
       {"blind_spot_warning", {"image"}, {}, false},
+      {"motion_planner", {"image", "odometry"}, {"plan"}, false, {}, false, {"regions"}},
+      {"vehicle_control", {"plan", "odometry"}, {"command"}, false},
       {"actuator", {"command"}, {}, false, {"emergency", "lateral"}},
   };
   return kPorts;
@@ -96,6 +116,7 @@ void check_steps(const schedules::model::Cluster& cluster) {
   schedules::model::bind_ports(cluster, step_ports());
   const SensorId odometry = nodes::fusion::fused_odometry(cluster);
   Findings findings;
+  check_detectors(cluster, findings);
   for (const schedules::model::Node& node : cluster.nodes) {
     const schedules::model::Task* fusion = nullptr;
     bool reads = false;
@@ -182,6 +203,10 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "recorded_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(
           cluster, task, scenario.recorded_noises.of(name_read(cluster, task))));
+    } else if (is_detector(task)) {
+      steps.push_back(std::make_shared<nodes::vision::AdaptiveCamera>(
+          cluster, task, scenario.adaptive_camera, pictures_of(scenario, cluster, task),
+          nodes::vision::DetectionKey{config.seed, config.replication}));
     } else if (task.step == "gateway") {
       steps.push_back(std::make_shared<nodes::sensing::Gateway>());
     } else if (task.step == "fusion") {
@@ -193,6 +218,7 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "adaptive_cruise_control") {
       nodes::driving::CruiseConfig cruise = scenario.cruise;
       cruise.path.front_m = ego_of(scenario).front;
+      if (ego_of(scenario).actuator) cruise.memory = ego_of(scenario).actuator->oldest;
       steps.push_back(std::make_shared<nodes::driving::AdaptiveCruiseControl>(cluster, task, cruise));
     } else if (task.step == "emergency_braking") {
       nodes::driving::EmergencyConfig emergency = scenario.emergency;
@@ -205,6 +231,16 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       nodes::driving::BlindSpotConfig blind_spot = scenario.blind_spot;
       blind_spot.width_m = ego_of(scenario).width;
       steps.push_back(std::make_shared<nodes::driving::BlindSpotWarning>(cluster, task, blind_spot));
+    } else if (task.step == "motion_planner") {
+      nodes::driving::PlannerConfig planner = scenario.planner;
+      planner.path.front_m = ego_of(scenario).front;
+      planner.width_m = ego_of(scenario).width;
+      steps.push_back(
+          std::make_shared<nodes::driving::MotionPlanner>(cluster, task, planner, pictures_of(scenario, cluster)));
+    } else if (task.step == "vehicle_control") {
+      nodes::driving::ControlConfig control = scenario.control;
+      control.wheelbase_m = ego_of(scenario).vehicle.wheelbase();
+      steps.push_back(std::make_shared<nodes::driving::VehicleControl>(cluster, task, control));
     } else if (task.step == "actuator") {
       steps.push_back(std::make_shared<nodes::driving::Actuator>(
           cluster, task, ego_of(scenario).actuator.value_or(sim::world::vehicle::ActuatorConfig{})));

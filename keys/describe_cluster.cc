@@ -41,6 +41,10 @@ constexpr Description kCluster[] = {
     {"nodes.NAME.tasks.NAME.draw",
      "Each execution takes a time drawn between best and worst case, or always the worst.", "worst"},
     {"nodes.NAME.tasks.NAME.deadline", "The task ends at the latest this long after its activation.", "5 ms"},
+    {"nodes.NAME.tasks.NAME.holds",
+     "The task writes the list of a measurement at an execution up to this long after the one that began to work at "
+     "it.",
+     "70 ms"},
     {"nodes.NAME.tasks.NAME.reads", "The task reads lists at these ports."},
     {"nodes.NAME.tasks.NAME.reads.NAME", "The port receives this PDU, on FlexRay or on a CAN.",
      "laser_objects on flexray"},

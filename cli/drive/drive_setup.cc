@@ -17,6 +17,7 @@
 #include "core/hash.h"
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
+#include "experiments/sweep/driving.h"
 #include "recording/mcap/bytes.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
@@ -161,7 +162,7 @@ DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model:
               drives::evaluation_start(scenario)),
       startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {
   if (scenario.world.ego && scenario.world.ego->actuator) {
-    evaluation::driving::DrivingConfig config = driving_config(scenario);
+    evaluation::driving::DrivingConfig config = experiments::sweep::driving_config(scenario);
     add_services(config, scenario, cluster);
     driving_.emplace(config, drives::evaluation_start(scenario));
   }

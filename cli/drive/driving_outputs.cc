@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "nodes/control/r157.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {
@@ -34,16 +33,19 @@ WarningFindings beside(const DrivingFindings& f) {
                                        f.warnings[recording::records::kBlindSpotRight]);
 }
 
-bool always(const DrivingFindings&) { return true; }
-bool keeps_lane(const DrivingFindings& f) { return f.lane.has_value(); }
-bool watches(const DrivingFindings& f) { return f.watches_blind_spot; }
+std::string spread_cell(const evaluation::driving::Spread& spread) {
+  return fmt::format("{} / {}", cell(1e3 * spread.mean(), 0), cell(1e3 * spread.deviation(), 0));
+}
 
-// A row is there if a drive has such a service.
 struct DrivingRow {
   const char* name;
   std::string (*value)(const DrivingFindings&);
-  bool (*is_there)(const DrivingFindings&) = always;
+  // Only some drives have the row.
+  bool (*has)(const DrivingFindings&) = [](const DrivingFindings&) { return true; };
 };
+bool keeps_lane(const DrivingFindings& f) { return f.lane.has_value(); }
+bool watches(const DrivingFindings& f) { return f.watches_blind_spot; }
+bool has_detections(const DrivingFindings& f) { return f.detections.has_value(); }
 const DrivingRow kDrivingRows[] = {
     {"smallest gap [m]", [](const DrivingFindings& f) { return finite_cell(f.smallest_gap_m, 2); }},
     {"smallest time to collision [s]", [](const DrivingFindings& f) { return finite_cell(f.smallest_ttc_s, 2); }},
@@ -57,8 +59,23 @@ const DrivingRow kDrivingRows[] = {
      [](const DrivingFindings& f) {
        return f.stopping_distance_m ? cell(*f.stopping_distance_m, 2) : std::string("-");
      }},
-    {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return cell(f.gap_error_rms_m, 2); }},
-    {"below R157's distance [% of time]", [](const DrivingFindings& f) { return cell(100 * f.below_minimum, 1); }},
+    {"reaction time [s]",
+     [](const DrivingFindings& f) { return f.reaction ? cell(f.reaction->seconds(), 2) : std::string("-"); },
+     [](const DrivingFindings& f) { return f.reaction.has_value(); }},
+    {"detections of whole pictures / of regions",
+     [](const DrivingFindings& f) {
+       return f.detections ? fmt::format("{} / {}", f.detections->primary, f.detections->secondary) : std::string("-");
+     },
+     has_detections},
+    {"  frame, mean / deviation [ms]",
+     [](const DrivingFindings& f) { return f.detections ? spread_cell(f.detections->frames) : std::string("-"); },
+     has_detections},
+    {"  interval of the camera looked at most, mean / deviation [ms]",
+     [](const DrivingFindings& f) { return f.detections ? spread_cell(f.detections->intervals) : std::string("-"); },
+     has_detections},
+    {"error of the gap, RMS [m]", [](const DrivingFindings& f) { return finite_cell(f.gap_error_rms_m, 2); }},
+    {"below R157's distance [% of time]",
+     [](const DrivingFindings& f) { return finite_cell(100 * f.below_minimum, 1); }},
     {"largest deceleration [m/s^2]", [](const DrivingFindings& f) { return cell(f.largest_deceleration, 2); }},
     {"jerk, RMS / largest [m/s^3]",
      [](const DrivingFindings& f) { return fmt::format("{} / {}", cell(f.jerk_rms, 2), cell(f.largest_jerk, 1)); }},
@@ -122,17 +139,6 @@ std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario&
 
 }  // namespace
 
-evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario) {
-  evaluation::driving::DrivingConfig config;
-  config.front_m = scenario.world.ego->front;
-  config.width_m = scenario.world.ego->width;
-  config.time_gap_s = scenario.cruise.law.time_gap_s;
-  config.standstill_m = scenario.cruise.law.standstill_m;
-  config.hazard_time_s = {scenario.emergency.warning_time_s, scenario.emergency.braking_time_s};
-  config.minimum_gap = &nodes::control::minimum_following_distance;
-  return config;
-}
-
 void add_services(evaluation::driving::DrivingConfig& config, const drives::Scenario& scenario,
                   const schedules::model::Cluster& cluster) {
   config.lane = lane_kept(scenario, cluster);
@@ -158,7 +164,7 @@ std::vector<std::vector<std::string>> driving_rows(const std::vector<const Strat
   std::vector<std::vector<std::string>> rows;
   if (std::ranges::none_of(results, [](const StrategyResult* one) { return one->driving.has_value(); })) return rows;
   for (const DrivingRow& row : kDrivingRows) {
-    const auto has = [&](const StrategyResult* one) { return one->driving && row.is_there(*one->driving); };
+    const auto has = [&](const StrategyResult* one) { return one->driving && row.has(*one->driving); };
     if (std::ranges::none_of(results, has)) continue;
     rows.push_back({row.name});
     for (const StrategyResult* one : results) rows.back().push_back(has(one) ? row.value(*one->driving) : "-");
@@ -167,20 +173,27 @@ std::vector<std::vector<std::string>> driving_rows(const std::vector<const Strat
 }
 
 nlohmann::ordered_json driving_json(const DrivingFindings& f) {
-  nlohmann::ordered_json json{
-      {"smallest_gap_m", f.smallest_gap_m},
-      {"smallest_time_to_collision_s", f.smallest_ttc_s},
-      {"collision", nullptr},
-      {"stopping_distance_m", nullptr},
-      {"gap_error_rms_m", f.gap_error_rms_m},
-      {"below_r157_distance", f.below_minimum},
-      {"largest_deceleration_mps2", f.largest_deceleration},
-      {"jerk_rms_mps3", f.jerk_rms},
-      {"largest_jerk_mps3", f.largest_jerk},
-      {"collision_warnings", warnings_json(f.warnings[kForwardCollision])},
-      {"emergency_brakings", warnings_json(f.warnings[kEmergencyBraking])},
-      {"commands_issued", f.issued},
-      {"readings", {{"applied", f.applied}, {"none_new", f.none_new}, {"invalid", f.invalid}, {"late", f.late}}}};
+  nlohmann::ordered_json json{{"smallest_gap_m", f.smallest_gap_m},
+                              {"smallest_time_to_collision_s", f.smallest_ttc_s},
+                              {"collision", nullptr},
+                              {"stopping_distance_m", nullptr},
+                              {"reaction_s", nullptr},
+                              {"detections", nullptr},
+                              {"gap_error_rms_m", f.gap_error_rms_m},
+                              {"below_r157_distance", f.below_minimum},
+                              {"largest_deceleration_mps2", f.largest_deceleration},
+                              {"jerk_rms_mps3", f.jerk_rms},
+                              {"largest_jerk_mps3", f.largest_jerk},
+                              {"collision_warnings", warnings_json(f.warnings[kForwardCollision])},
+                              {"emergency_brakings", warnings_json(f.warnings[kEmergencyBraking])},
+                              {"commands_issued", f.issued},
+                              {"readings",
+                               {{"applied", f.applied},
+                                {"none_new", f.none_new},
+                                {"invalid", f.invalid},
+                                {"late", f.late},
+                                {"nothing_asked", f.nothing_asked},
+                                {"weaker", f.weaker}}}};
   if (f.collision)
     json["collision"] = {{"at_s", 1e-9 * static_cast<double>(f.collision->at.ns)},
                          {"closing_mps", f.collision->closing_mps}};
@@ -194,6 +207,14 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
     json["lane_departure_warnings"] = warnings_json(f.warnings[recording::records::kLaneDeparture]);
   }
   if (f.watches_blind_spot) json["blind_spot_warnings"] = warnings_json(beside(f));
+  if (f.reaction) json["reaction_s"] = f.reaction->seconds();
+  if (f.detections)
+    json["detections"] = {{"primary", f.detections->primary},
+                          {"secondary", f.detections->secondary},
+                          {"frame_s", f.detections->frames.mean()},
+                          {"frame_sigma_s", f.detections->frames.deviation()},
+                          {"interval_s", f.detections->intervals.mean()},
+                          {"interval_sigma_s", f.detections->intervals.deviation()}};
   return json;
 }
 

@@ -10,8 +10,6 @@
 
 namespace ttf::cli::drive {
 
-// Returns the account's settings for a scenario whose vehicle commands drive.
-evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario);
 // Adds the services of the cluster that keep the lane or watch the blind spot.
 void add_services(evaluation::driving::DrivingConfig& config, const drives::Scenario& scenario,
                   const schedules::model::Cluster& cluster);

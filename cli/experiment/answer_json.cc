@@ -18,7 +18,13 @@ nlohmann::ordered_json to_json(double value) {
   return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
 }
 nlohmann::ordered_json to_json(const results::Interval& interval) {
-  return {{"count", interval.count}, {"mean", to_json(interval.mean)}, {"half_width", to_json(interval.half_width)}};
+  nlohmann::ordered_json json{
+      {"count", interval.count}, {"mean", to_json(interval.mean)}, {"half_width", to_json(interval.half_width)}};
+  if (interval.uneven()) {
+    json["low"] = interval.low();
+    json["high"] = interval.high();
+  }
+  return json;
 }
 
 // A ratio as a change in per cent, with its interval.

@@ -72,7 +72,7 @@ std::map<SensorId, Duration> promised_ages(const schedules::model::Cluster& clus
   const Duration late{real_ns * 1'000'000 / time_scale_ppm};
   std::map<SensorId, Duration> ages;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
-    if (!path.reaches_use) continue;
+    if (!path.reaches_use || path.chosen) continue;
     const bool held = strategy == fusion::strategies::StrategyKind::kBuff;
     ages.emplace(path.sensor, (held ? path.buffered_newest_worst : path.newest_worst) + late);
   }

@@ -14,10 +14,12 @@
 #include "cli/schedule/sequence.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
+#include "drives/scenario.h"
 #include "drives/step_catalog.h"
 #include "report/drawing/render.h"
 #include "report/plots/schedule_picture.h"
 #include "schedules/analysis/ages.h"
+#include "schedules/analysis/chain/chains.h"
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/check/rules.h"
 #include "schedules/exchange/dbc.h"
@@ -35,6 +37,7 @@ struct ScheduleOptions {
   std::string out;
   std::string format;
   std::string can;
+  std::string scenario;
   bool json = false;
   PaperSizeOptions paper;
   CaptureArguments capture;
@@ -97,13 +100,44 @@ nlohmann::ordered_json contributions_json(const std::vector<schedules::analysis:
   return json;
 }
 
+// Returns the dead time of the scenario's actuator; zero without a scenario.
+Duration dead_time_in(const std::string& scenario) {
+  if (scenario.empty()) return {};
+  const drives::Scenario read = drives::load_scenario(file_named(scenario, {kScenarios}));
+  if (!read.world.ego || !read.world.ego->actuator)
+    throw InputError({"command line", 0, "--scenario", scenario, "must have a vehicle with world.ego.actuator"});
+  return read.world.ego->actuator->dead_time;
+}
+
+nlohmann::ordered_json chain_json(const schedules::model::Cluster& cluster,
+                                  const schedules::analysis::chain::Chain& chain, Duration dead_time) {
+  nlohmann::ordered_json json{
+      {"sensor", cluster.sensor(chain.sensor).name},
+      {"chain", chain.name},
+      {"exact", chain.exact},
+      {"dead_time_ms", in_ms(dead_time)},
+      {"reduced_reaction_time_ms",
+       {in_ms(chain.reduced_reaction_best() + dead_time), in_ms(chain.reduced_reaction_worst() + dead_time)}},
+      {"reaction_time_worst_ms", in_ms(chain.reaction_worst() + dead_time)},
+      {"reduced_data_age_worst_ms", in_ms(chain.reduced_age_worst())},
+      {"data_age_worst_ms", in_ms(chain.age_worst())}};
+  if (chain.fused) {
+    json["held_reduced_reaction_time_worst_ms"] = in_ms(chain.reduced_reaction_worst(true) + dead_time);
+    json["held_reaction_time_worst_ms"] = in_ms(chain.reaction_worst(true) + dead_time);
+    json["held_reduced_data_age_worst_ms"] = in_ms(chain.reduced_age_worst(true));
+  }
+  json["contributions"] = contributions_json(chain.path.to_use);
+  return json;
+}
+
 int check(const ScheduleOptions& options) {
   const schedules::model::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
+  const Duration dead_time = dead_time_in(options.scenario);
   if (!options.json) {
-    fmt::print("{}: consistent\n{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
-               schedules::analysis::ages_text(cluster));
+    fmt::print("{}: consistent\n{}{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
+               schedules::analysis::ages_text(cluster), schedules::analysis::chain::chains_text(cluster, dead_time));
     if (const std::string skipped = schedules::check::skipped_text(cluster); !skipped.empty())
       fmt::print("{}; measurements have no ages\n", skipped);
     return 0;
@@ -130,6 +164,8 @@ int check(const ScheduleOptions& options) {
                                      {"available_ms", {in_ms(path.fusion_best), in_ms(path.fusion_worst)}},
                                      {"read_ms", {in_ms(path.fused_best), in_ms(path.fused_worst)}},
                                      {"contributions", contributions_json(path.to_fusion)}});
+  for (const schedules::analysis::chain::Chain& chain : schedules::analysis::chain::chains(cluster))
+    json["chains"].push_back(chain_json(cluster, chain, dead_time));
   fmt::print("{}\n", json.dump(2));
   return 0;
 }
@@ -201,16 +237,23 @@ void add_schedule(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("schedule", "Validate, draw and exchange schedules");
   command->require_subcommand(1);
   auto options = std::make_shared<ScheduleOptions>();
-  CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
+  CLI::App* checking =
+      command->add_subcommand("check", "Prove a cluster consistent; bound its measurements' ages and its chains");
   checking->footer(
       "Examples: ttfusion schedule check schedules/paper_synchronised.yaml\n"
       "          ttfusion schedule check schedules/paper_synchronised.yaml --against out/drive.pcapng\n"
+      "          ttfusion schedule check closed_loop_synchronised --scenario acc_braking_lead\n"
       "          ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
   checking->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
+  checking
+      ->add_option("--scenario", options->scenario,
+                   "Scenario whose actuator's dead time ends the chains to an actuator")
+      ->check(named());
   add_capture_arguments(*checking, options->capture);
   add_medium_arguments(*checking, options->medium);
   checking->get_option("--medium")->excludes("--against");
+  for (const char* other : {"--medium", "--against"}) checking->get_option("--scenario")->excludes(other);
   call_on_file(*checking, options, action, check);
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "cli/argument_checks.h"
+#include "cli/decimal_option.h"
+#include "cli/schedule/best_bound.h"
+#include "cli/schedule/sequence_modes.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 #include "core/strict_yaml.h"
@@ -29,7 +32,10 @@ using schedules::sequence::SlotRule;
 struct SequenceOptions {
   std::string sensors, interest, bound, primary, secondary;
   std::string slots = "text", order = "text";
-  bool json = false;
+  bool json = false, best_bound = false;
+  std::string cluster, task, step = "10ms", offset = "0";
+  std::vector<std::string> modes;
+  std::string process_noise = "1", sigma = "1", share = "0.5";
 };
 
 [[noreturn]] void refuse(const char* option, const std::string& text, const std::string& expected) {
@@ -73,9 +79,13 @@ struct Frame {
   }
 };
 
-Frame frame_of(const SequenceOptions& options) {
-  check_sensors(options.sensors);
-  const std::vector<int> interest = interest_of(options);
+// The request of the options. `interest` outlives it.
+struct Asked {
+  FrameRequest request;
+  DetectionTimes times;
+};
+
+Asked asked_for(const SequenceOptions& options, const std::vector<int>& interest) {
   constexpr Duration kShortest = Duration::microseconds(1), kLongest = Duration::milliseconds(10'000);
   const Duration primary = duration("--primary", options.primary, {kShortest, kLongest});
   const Duration secondary = duration("--secondary", options.secondary, {kShortest, kLongest});
@@ -84,7 +94,11 @@ Frame frame_of(const SequenceOptions& options) {
   FrameRequest request{sensors, interest, primary * sensors, secondary, bound};
   if (options.slots == "floor") request.slots = SlotRule::kFloor;
   if (options.order == "reversed") request.order = SlotOrder::kReversed;
-  Frame frame{generated(request), DetectionTimes(sensors, primary, secondary), bound, {}, {}, {}};
+  return {request, DetectionTimes(sensors, primary, secondary)};
+}
+
+Frame frame_of(const Asked& asked) {
+  Frame frame{generated(asked.request), asked.times, asked.request.bound, {}, {}, {}};
   frame.length = frame_time(frame.sequence, frame.times);
   frame.intervals = intervals(frame.sequence, frame.times);
   frame.best = best_order(frame.sequence, frame.times);
@@ -128,6 +142,54 @@ void print_text(const SequenceOptions& options, const Frame& frame) {
                frame.deviation_ms(frame.sequence));
 }
 
+constexpr Duration kLongestBound = Duration::milliseconds(100'000);
+
+ModesAsked modes_of(const SequenceOptions& options, const Asked& asked) {
+  const Duration step = duration("--step", options.step, {Duration::microseconds(100), Duration::milliseconds(1'000)});
+  const std::int64_t offset = decimal_option("--offset", options.offset, 1, {0, 65'535}, " macroticks");
+  ModesAsked modes{options.cluster,
+                   options.task,
+                   {step, Macroticks{static_cast<int>(offset)}},
+                   asked.times,
+                   options.sensors,
+                   {asked.request.bound},
+                   {generated(asked.request)},
+                   options.json};
+  for (const std::string& mode : options.modes) {
+    FrameRequest request = asked.request;
+    request.bound = duration("--mode", mode, {Duration{}, kLongestBound});
+    modes.bounds.push_back(request.bound);
+    modes.sequences.push_back(generated(request));
+  }
+  return modes;
+}
+
+void run(const SequenceOptions& options) {
+  check_sensors(options.sensors);
+  const std::vector<int> interest = interest_of(options);
+  const Asked asked = asked_for(options, interest);
+  if (!options.cluster.empty()) return print_modes(modes_of(options, asked));
+  if (options.best_bound) {
+    if (interest.empty()) refuse("--interest", "", "must name a sensor: without one, no bound makes a difference");
+    const auto number = [](const char* option, const std::string& text, std::int64_t least, std::int64_t most) {
+      constexpr std::int64_t kScale = 1'000'000;
+      return 1e-6 * static_cast<double>(decimal_option(option, text, kScale, {least, most}, ""));
+    };
+    return print_best_bound({asked.request,
+                             asked.times,
+                             {number("--process-noise", options.process_noise, 1'000, 10'000'000'000),
+                              number("--sigma", options.sigma, 1'000, 100'000'000)},
+                             number("--share", options.share, 0, 1'000'000),
+                             options.sensors,
+                             options.json});
+  }
+  const Frame frame = frame_of(asked);
+  if (options.json)
+    print_json(options, frame);
+  else
+    print_text(options, frame);
+}
+
 }  // namespace
 
 void add_sequence(CLI::App& schedule, Action& action) {
@@ -135,8 +197,11 @@ void add_sequence(CLI::App& schedule, Action& action) {
   CLI::App* command = schedule.add_subcommand(
       "sequence", "Order the detections of several cameras that share one detector, within a bound");
   command->footer(
-      "Example: ttfusion schedule sequence --sensors ABC --interest A --beta 200ms --primary 46.3ms --secondary "
-      "27.7ms");
+      "Examples: ttfusion schedule sequence --sensors ABC --interest A --beta 200ms --primary 46.3ms --secondary "
+      "27.7ms\n"
+      "          ttfusion schedule sequence --sensors ABC --interest A --beta 500ms --primary 46.3ms --secondary "
+      "27.7ms "
+      "--best-beta");
   command->add_option("--sensors", options->sensors, "A capital letter for each sensor")->required()->check(named());
   command->add_option("--interest", options->interest, "The sensors with a region of interest (default: none)");
   command->add_option("--beta", options->bound, "Bound of a frame")->required();
@@ -150,13 +215,33 @@ void add_sequence(CLI::App& schedule, Action& action) {
       ->check(one_of({"text", "reversed"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Result as JSON on standard output");
+  command->add_flag("--best-beta", options->best_bound,
+                    "Print the expected error of all frames up to --beta, and the best one");
+  command
+      ->add_option("--process-noise", options->process_noise,
+                   "With --best-beta: density of the objects' white acceleration [m^2/s^3]")
+      ->capture_default_str();
+  command->add_option("--sigma", options->sigma, "With --best-beta: standard deviation of a detected position [m]")
+      ->capture_default_str();
+  command->add_option("--share", options->share, "With --best-beta: weight of the objects of interest, 0..1")
+      ->capture_default_str();
+  command
+      ->add_option("--cluster", options->cluster, "Print the checked time-triggered modes of this cluster's detector")
+      ->check(named());
+  command->add_option("--task", options->task, "With --cluster: the detector's task, as NODE.TASK");
+  command->add_option("--mode", options->modes, "With --cluster: the bound of one more mode, any number of times");
+  command->add_option("--step", options->step, "With --cluster: grid of the detections' beginnings")
+      ->capture_default_str();
+  command->add_option("--offset", options->offset, "With --cluster: macrotick of the cycle at which detections begin")
+      ->capture_default_str();
+  command->get_option("--cluster")->needs("--task")->excludes("--best-beta");
+  for (const char* of_modes : {"--task", "--mode", "--step", "--offset"})
+    command->get_option(of_modes)->needs(command->get_option("--cluster"));
+  for (const char* of_best : {"--process-noise", "--sigma", "--share"})
+    command->get_option(of_best)->needs(command->get_option("--best-beta"));
   command->callback([options, &action] {
     action = [options] {
-      const Frame frame = frame_of(*options);
-      if (options->json)
-        print_json(*options, frame);
-      else
-        print_text(*options, frame);
+      run(*options);
       return 0;
     };
   });

@@ -17,7 +17,7 @@ constexpr Duration kJerkOver = Duration::milliseconds(40);
 }  // namespace
 
 DrivingAccount::DrivingAccount(const DrivingConfig& config, TrueTime from)
-    : config_(config), from_(from), warnings_(from) {
+    : config_(config), from_(from), detections_(from), warnings_(from) {
   if (config.lane) lane_.emplace(*config.lane);
 }
 
@@ -54,6 +54,7 @@ void DrivingAccount::judge() {
     if (config_.minimum_gap != nullptr && gap < config_.minimum_gap(ego_->vx)) ++below_;
     if (ahead_->gap <= 0.0) findings_.collision = {ego_->at, closing};
     note_braking(ahead_->acceleration);
+    note_slowing(ahead_->speed);
   } else {
     note_braking(0.0);
   }
@@ -75,7 +76,35 @@ void DrivingAccount::note_braking(double acceleration) {
   if (ego_->vx < kStands_mps) findings_.stopping_distance_m = braking_way_;
 }
 
+void DrivingAccount::note_slowing(double speed_ahead) {
+  if (!slow_at_ && was_fast_ && speed_ahead < config_.reaction_speed_mps) slow_at_ = ego_->at;
+  was_fast_ = speed_ahead >= config_.reaction_speed_mps;
+}
+
+void DrivingAccount::on(const recording::records::ImageWritten& image) {
+  if (!slow_at_ || findings_.reaction || findings_.collision || image.stamp.true_time < *slow_at_) return;
+  // The image's object in the way is found as the true one is.
+  std::optional<double> nearest, speed;
+  for (const recording::records::ImageObject& object : image.objects) {
+    if ((object.status & recording::records::kImageConfirmed) == 0) continue;
+    recording::records::TruthState believed;
+    believed.x = object.x;
+    believed.y = object.y;
+    believed.heading = object.heading;
+    believed.length = object.length;
+    believed.width = object.width;
+    const std::optional<double> gap = recording::scene::gap_ahead(
+        believed, config_.front_m, config_.width_m, before_ ? recording::scene::way_curvature(*before_) : 0.0);
+    if (!gap || (nearest && *nearest <= *gap)) continue;
+    nearest = gap;
+    speed = object.speed * std::cos(object.heading);
+  }
+  if (speed && *speed < config_.reaction_speed_mps) findings_.reaction = image.stamp.true_time - *slow_at_;
+}
+
+// At a standstill the acceleration ends with the motion, whatever the brakes do: no controller decides about it.
 void DrivingAccount::note_jerk() {
+  if (ego_->vx < kStands_mps) return jerk_from_.reset();
   if (!jerk_from_) jerk_from_ = ego_;
   const Duration over = ego_->at - jerk_from_->at;
   if (over < kJerkOver) return;
@@ -121,6 +150,8 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
     case recording::records::kNoNewCommand: ++findings_.none_new; break;
     case recording::records::kInvalidCommand: ++findings_.invalid; break;
     case recording::records::kLateCommand: ++findings_.late; break;
+    case recording::records::kNothingAsked: ++findings_.nothing_asked; break;
+    case recording::records::kWeakerCommand: ++findings_.weaker; break;
   }
 }
 
@@ -139,6 +170,7 @@ DrivingFindings DrivingAccount::finish() {
     findings_.warnings[service] = warnings_.finish(service, before_ ? before_->at : TrueTime{});
   if (lane_) findings_.lane = lane_->findings();
   findings_.watches_blind_spot = config_.blind_spot.has_value();
+  findings_.detections = detections_.finish();
   return findings_;
 }
 

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "core/time.h"
+#include "evaluation/driving/detection_account.h"
 #include "evaluation/driving/lane_account.h"
 #include "evaluation/driving/warning_account.h"
 #include "recording/records/records.h"
@@ -29,6 +30,7 @@ struct BlindSpotZone {
 struct DrivingConfig {
   double front_m = 3.4, width_m = 1.8;            // the vehicle's front, ahead of its rear axle
   double time_gap_s = 1.5, standstill_m = 2.0;    // the gap that it is to keep
+  double reaction_speed_mps = 27.0;               // the object ahead falls below it, in truth and in the image
   std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
   std::optional<LaneConfig> lane;                 // if a service keeps one
   std::optional<BlindSpotZone> blind_spot;        // if a service watches it
@@ -38,11 +40,11 @@ struct DrivingConfig {
 
 struct DrivingFindings {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  std::uint64_t moments = 0;      // at which the truth was judged
-  double smallest_gap_m = kNone;  // 0: a collision
-  double smallest_ttc_s = kNone;  // for constant speeds
-  double gap_error_rms_m = 0.0;   // behind an object, against standstill + time gap * speed
-  double below_minimum = 0.0;     // share of the moments behind an object
+  std::uint64_t moments = 0;       // at which the truth was judged
+  double smallest_gap_m = kNone;   // 0: a collision
+  double smallest_ttc_s = kNone;   // for constant speeds
+  double gap_error_rms_m = kNone;  // behind an object, against standstill + time gap * speed
+  double below_minimum = kNone;    // share of the moments behind an object
   double largest_deceleration = 0.0, largest_jerk = 0.0, jerk_rms = 0.0;  // [m/s^2], [m/s^3]
   struct Collision {
     TrueTime at{};
@@ -51,8 +53,12 @@ struct DrivingFindings {
   std::optional<Collision> collision;
   // The way from the instant at which the object ahead brakes until the vehicle stands [m].
   std::optional<double> stopping_distance_m;
-  std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0;  // commands; readings of the actuator
-  std::array<WarningFindings, recording::records::kWarningKinds> warnings;     // by service
+  // From the instant at which the object ahead truly falls below the reaction speed until an image says so.
+  std::optional<Duration> reaction;
+  std::optional<DetectionFindings> detections;  // if cameras share a detector
+  // Commands; readings of the actuator, by verdict.
+  std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0, nothing_asked = 0, weaker = 0;
+  std::array<WarningFindings, recording::records::kWarningKinds> warnings;  // by service
   std::optional<LaneFindings> lane;
   bool watches_blind_spot = false;
 };
@@ -69,6 +75,9 @@ class DrivingAccount final : public recording::records::Sink {
   void on(const recording::records::EgoTruth&) override;
   void on(const recording::records::TruthState&) override;
   void on(const recording::records::TaskRun&) override;
+  void on(const recording::records::ImageWritten&) override;
+  void on(const recording::records::DetectionMade& r) override { detections_.on(r); }
+  void on(const recording::records::SequencePlanned& r) override { detections_.on(r); }
   void on(const recording::records::CommandIssued&) override;
   void on(const recording::records::CommandTaken&) override;
   void on(const recording::records::Warning&) override;
@@ -79,6 +88,7 @@ class DrivingAccount final : public recording::records::Sink {
   };
   void judge();
   void note_braking(double acceleration);
+  void note_slowing(double speed_ahead);
   void note_hazards(double time_to_collision);
   void note_jerk();
   void note_beside(const recording::records::TruthState& object);
@@ -86,10 +96,13 @@ class DrivingAccount final : public recording::records::Sink {
   DrivingConfig config_;
   TrueTime from_;
   DrivingFindings findings_;
+  DetectionAccount detections_;
   std::optional<recording::records::EgoTruth> ego_;  // the moment whose objects come
   std::optional<Ahead> ahead_;
   std::optional<recording::records::EgoTruth> before_, jerk_from_;
   std::optional<double> braking_way_;  // since the object ahead braked
+  bool was_fast_ = false;              // the object ahead, at the moment before
+  std::optional<TrueTime> slow_at_;    // it fell below the reaction speed
   std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
   WarningAccount warnings_;

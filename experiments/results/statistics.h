@@ -1,6 +1,7 @@
 // Means and their confidence.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -27,9 +28,12 @@ struct Interval {
   std::uint64_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();
   double half_width = std::numeric_limits<double>::quiet_NaN();
+  // The ends of an interval that is not even about the mean (share.h); otherwise not numbers.
+  double low_end = std::numeric_limits<double>::quiet_NaN(), high_end = std::numeric_limits<double>::quiet_NaN();
 
-  double low() const { return mean - half_width; }
-  double high() const { return mean + half_width; }
+  bool uneven() const { return !std::isnan(low_end); }
+  double low() const { return uneven() ? low_end : mean - half_width; }
+  double high() const { return uneven() ? high_end : mean + half_width; }
   bool below(double x) const { return high() < x; }  // for certain
   bool above(double x) const { return low() > x; }
 };

@@ -17,6 +17,7 @@
 #include "drives/drive.h"
 #include "drives/step_catalog.h"
 #include "evaluation/accuracy/drive_measures.h"
+#include "experiments/sweep/driving.h"
 #include "experiments/sweep/expected_drive.h"
 #include "experiments/sweep/measures.h"
 #include "faults/plan.h"
@@ -232,6 +233,9 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     if ((asked_for("face_mse_expected") || asked_for("position_mse_expected")) &&
         ExpectedError::is_defined(drive.scenario) && measures_positions_alone(drive))
       sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
+    std::optional<evaluation::driving::DrivingAccount> driving;
+    if (is_driven(drive.scenario))
+      sinks.push_back(&driving.emplace(driving_config(drive.scenario), drives::evaluation_start(drive.scenario)));
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);
     drives::DriveConfig config{
@@ -246,7 +250,10 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
       summary.face_mse_expected = expected->face_mse();
       summary.position_mse_expected = expected->position_mse();
     }
-    for (const std::string& name : sweep_.measures) row.values.push_back(find_measure(name)->of(summary, outcome));
+    std::optional<evaluation::driving::DrivingFindings> driven;
+    if (driving) driven = driving->finish();
+    const MeasuredDrive measured{summary, outcome, driven ? &*driven : nullptr};
+    for (const std::string& name : sweep_.measures) row.values.push_back(find_measure(name)->of(measured));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -1,7 +1,8 @@
 // Limits of acceleration and jerk, and the step of a command within them.
 //
-// An adaptive cruise control's limits depend on the speed. ISO 15622 gives them at 5 m/s and below, and at 20 m/s and above;
-// they are linear between. Accelerations are positive forwards.
+// An adaptive cruise control's limits depend on the speed: they are constant at 5 m/s and below, and at 20 m/s and above, and
+// linear between. The defaults are ISO 15622's as they are commonly cited. The standard limits averages over 1 to 2 s; here
+// each instant is limited. Accelerations are positive forwards.
 #pragma once
 
 namespace ttf::nodes::control {
@@ -12,7 +13,7 @@ struct Limits {
   double jerk = 2.5;          // [m/s^3], to either side; infinite: no limit
 };
 
-// Limits at slow and at fast speeds. The defaults are those of ISO 15622, which says 5 m/s^2 and 5 m/s^3 for slow speeds.
+// Limits at slow and at fast speeds.
 struct LimitsBySpeed {
   double slow_mps = 5.0, fast_mps = 20.0;
   Limits slow{2.0, 5.0, 5.0};

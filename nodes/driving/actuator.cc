@@ -9,14 +9,20 @@ Actuator::Actuator(const schedules::model::Cluster& cluster, const schedules::mo
     : config_(config), round_(cluster.round()) {
   for (std::size_t i = 0; i < task.reads.size(); ++i) {
     if (task.reads[i].port == "lateral") lateral_.emplace(cluster, task, i, config);
-    const Port port{i, bind_command(cluster, cluster.pdu(task.reads[i].pdu))};
+    const Port port{i, bind_command(cluster, cluster.pdu(task.reads[i].pdu)), {}};
     if (task.reads[i].port == "command") command_ = port;
     if (task.reads[i].port == "emergency") emergency_ = port;
   }
 }
 
-CommandTaken Actuator::read(host::StepContext& context, const Port& port) const {
+bool Actuator::is_old(const host::StepContext& context, GlobalTime issued) const {
+  const Duration age = context.stamp.global - issued;
+  return !context.global_time || age > config_.oldest || -age > config_.oldest;
+}
+
+CommandTaken Actuator::read(host::StepContext& context, Port& port) {
   host::Input& input = context.inputs[port.input];
+  if (port.living && is_old(context, port.living->issued)) port.living.reset();
   CommandTaken taken;
   taken.stamp = context.stamp;
   taken.pdu = input.pdu;
@@ -27,12 +33,18 @@ CommandTaken Actuator::read(host::StepContext& context, const Port& port) const 
   taken.acceleration = command.acceleration;
   taken.steering = command.steering;
   const GlobalTime issued = host::past_time_stamp(*input.layout, *input.list, context.stamp.global, round_);
-  const Duration age = context.stamp.global - issued;
-  if (!context.global_time || age > config_.oldest || -age > config_.oldest) {
+  if (is_old(context, issued)) {
     taken.verdict = recording::records::kLateCommand;
     input.discarded = true;
+    return taken;
+  }
+  port.living.reset();
+  if (command.valid) {
+    taken.verdict = recording::records::kApplied;
+    port.living = Living{taken, issued};
   } else {
-    taken.verdict = command.valid ? recording::records::kApplied : recording::records::kInvalidCommand;
+    // Emergency braking that does not brake says so by an invalid command.
+    taken.verdict = &port == &command_ ? recording::records::kInvalidCommand : recording::records::kNothingAsked;
   }
   return taken;
 }
@@ -45,19 +57,42 @@ void Actuator::run(host::StepContext& context) {
 void Actuator::run_longitudinal(host::StepContext& context) {
   CommandTaken taken = read(context, command_);
   if (taken.verdict == recording::records::kApplied) steering_ = taken.steering;
-  if (emergency_) {
-    const CommandTaken emergency = read(context, *emergency_);
-    const bool stronger = taken.verdict != recording::records::kApplied || emergency.acceleration < taken.acceleration;
-    if (emergency.verdict == recording::records::kApplied && stronger) {
-      taken = emergency;
-      taken.steering = steering_;
+  std::optional<CommandTaken> emergency;
+  if (emergency_) emergency = read(context, *emergency_);
+
+  const std::optional<Living>* counts = &command_.living;
+  if (emergency_ && emergency_->living &&
+      (!*counts || emergency_->living->taken.acceleration < (*counts)->taken.acceleration))
+    counts = &emergency_->living;
+  const auto is_new = [](const CommandTaken& read) {
+    return read.verdict != recording::records::kNoNewCommand && read.verdict != recording::records::kLateCommand;
+  };
+  const bool acts = counts->has_value() && (is_new(taken) || (emergency && is_new(*emergency)));
+  bool told = false;
+  const auto tell = [&](CommandTaken read) {
+    if (read.verdict == recording::records::kApplied) {
+      if (read.pdu == (*counts)->taken.pdu) {
+        hand_over(context, read);
+        told = true;
+      } else {
+        read.verdict = recording::records::kWeakerCommand;
+      }
     }
-  }
-  if (taken.verdict == recording::records::kApplied) {
-    taken.from = context.stamp.true_time + config_.dead_time;
-    context.actuation = host::Actuation{taken.from, taken.acceleration, taken.steering};
-  }
-  context.sink->on(taken);
+    context.sink->on(read);
+  };
+  tell(taken);
+  if (emergency && emergency->verdict != recording::records::kNoNewCommand) tell(*emergency);
+  if (!acts || told) return;
+  CommandTaken earlier = (*counts)->taken;
+  earlier.stamp = context.stamp;
+  hand_over(context, earlier);
+  context.sink->on(earlier);
+}
+
+void Actuator::hand_over(host::StepContext& context, CommandTaken& taken) const {
+  taken.steering = steering_;
+  taken.from = context.stamp.true_time + config_.dead_time;
+  context.actuation = host::Actuation{taken.from, taken.acceleration, taken.steering};
 }
 
 }  // namespace ttf::nodes::driving

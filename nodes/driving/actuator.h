@@ -12,10 +12,11 @@
 
 namespace ttf::nodes::driving {
 
-// Ports `command` and, if they are bound, `emergency` and `lateral`. A list is taken once. It is refused if its instant is too far away, and if it
-// is invalid: a valid list of `emergency` asks for more deceleration than `command`, or counts for nothing. A reading
-// remembers no earlier one: without a new list of `emergency`, `command` alone counts. A list that lost a fragment, or whose frame
-// was not intact, never gets here (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (lateral.h).
+// Ports `command` and, if they are bound, `emergency` and `lateral`. A list is taken once. It is refused if its instant is too far
+// away, or if it is invalid. An accepted command lives until its service's next list, or until it is older than `oldest`. So a lost list
+// ends no command. The strongest deceleration among the living ones counts, with the wheels of `command`. It is handed over
+// when a list is new. A list that lost a fragment, or whose frame was not intact, never gets here
+// (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (lateral.h).
 class Actuator final : public host::Step {
  public:
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -23,13 +24,20 @@ class Actuator final : public host::Step {
   void run(host::StepContext& context) override;
 
  private:
-  void run_longitudinal(host::StepContext& context);
-
+  struct Living {
+    recording::records::CommandTaken taken;
+    GlobalTime issued{};
+  };
   struct Port {
     std::size_t input = 0;
     CommandSignals signals;
+    std::optional<Living> living;
   };
-  recording::records::CommandTaken read(host::StepContext& context, const Port& port) const;
+  // Returns the verdict on a port's list, and keeps an accepted command.
+  recording::records::CommandTaken read(host::StepContext& context, Port& port);
+  bool is_old(const host::StepContext& context, GlobalTime issued) const;
+  void run_longitudinal(host::StepContext& context);
+  void hand_over(host::StepContext& context, recording::records::CommandTaken& taken) const;
 
   sim::world::vehicle::ActuatorConfig config_;
   Duration round_;

@@ -30,15 +30,18 @@ AdaptiveCruiseControl::AdaptiveCruiseControl(const schedules::model::Cluster& cl
 
 void AdaptiveCruiseControl::run(host::StepContext& context) {
   const std::optional<View> view = way_.look(context);
-  const double dt = context.activation > 0 ? (context.stamp.local - last_).seconds() : 0.0;
-  last_ = context.stamp.local;
+  const LocalTime now = context.stamp.local;
+  if (issued_ && now - *issued_ > config_.memory) {
+    issued_.reset();
+    before_ = 0.0;
+  }
+  const double dt = context.activation > 0 ? (now - issued_.value_or(last_)).seconds() : 0.0;
+  last_ = now;
   recording::records::CommandIssued record;
   record.gap = std::numeric_limits<double>::infinity();
   record.track = kNoTrack;
-  if (!view) {
-    before_ = 0.0;
-    return out_.issue(context, {}, record);
-  }
+  if (!view) return out_.issue(context, {}, record);
+  issued_ = now;
   std::optional<control::Ahead> ahead;
   if (view->ahead) ahead = control::Ahead{view->ahead->clearance, view->ahead->speed};
   const double free = control::time_gap_acceleration(config_.law, view->own_speed, config_.set_speed_mps, std::nullopt);

@@ -1,7 +1,10 @@
 // Adaptive cruise control: keeps a set speed, and a time gap to the vehicle ahead (nodes/control/time_gap.h).
 #pragma once
 
+#include <optional>
+
 #include "core/strict_yaml.h"
+#include "core/time.h"
 #include "nodes/control/limits.h"
 #include "nodes/control/time_gap.h"
 #include "nodes/driving/ahead.h"
@@ -15,12 +18,14 @@ struct CruiseConfig {
   control::TimeGapConfig law;
   control::LimitsBySpeed limits;
   PathConfig path;
+  // A command counts at the actuator for this long. The last one is remembered for as long without a view.
+  Duration memory = Duration::milliseconds(100);
 };
-// Reads all but the vehicle's front.
+// Reads all but the vehicle's front and the memory.
 CruiseConfig load_cruise(YamlMap& yaml);
 
-// Ports `image` and `odometry` -> `command`. Each execution issues a command; it is invalid without a view of the way ahead. The
-// acceleration begins at zero then, and after it.
+// Ports `image` and `odometry` -> `command`. Each execution issues a command; it is invalid without a view of the way ahead. After a
+// gap within the last command's life the acceleration goes on from there, and after a longer one from zero.
 class AdaptiveCruiseControl final : public host::Step {
  public:
   AdaptiveCruiseControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -31,8 +36,9 @@ class AdaptiveCruiseControl final : public host::Step {
   CruiseConfig config_;
   WayAhead way_;
   CommandOutput out_;
-  double before_ = 0.0;  // [m/s^2], the last command
-  LocalTime last_{};     // the last execution
+  double before_ = 0.0;              // [m/s^2], the last valid command; 0 without one to go on from
+  std::optional<LocalTime> issued_;  // when it was issued
+  LocalTime last_{};                 // the last execution
 };
 
 }  // namespace ttf::nodes::driving

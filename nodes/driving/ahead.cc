@@ -7,17 +7,17 @@
 namespace ttf::nodes::driving {
 namespace {
 
-std::size_t place_of(const schedules::model::Task& task, std::string_view port) {
-  for (std::size_t i = 0; i < task.reads.size(); ++i)
-    if (task.reads[i].port == port) return i;
-  return 0;  // ports are known to be bound (schedules/model/ports.h)
-}
-
 constexpr std::uint8_t kConfirmed = 1;
 // A slower vehicle says too little about its way.
 constexpr double kSlowestOnCircle_mps = 3.0;
 
 }  // namespace
+
+std::size_t place_of(const schedules::model::Task& task, std::string_view port) {
+  for (std::size_t i = 0; i < task.reads.size(); ++i)
+    if (task.reads[i].port == port) return i;
+  return 0;  // ports are known to be bound (schedules/model/ports.h)
+}
 
 void load_path(YamlMap& yaml, PathConfig& path) {
   path.curved = yaml.choice_or("corridor", path.curved, Choices<bool>{{"straight", false}, {"curved", true}});
@@ -31,9 +31,30 @@ WayAhead::WayAhead(const schedules::model::Cluster& cluster, const schedules::mo
     : config_(config), round_(cluster.round()), image_(place_of(task, "image")), odometry_(place_of(task, "odometry")),
       motion_(host::bind_element<4>(cluster, cluster.pdu(task.reads[odometry_].pdu),
                                     {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})),
-      signals_(fusion::bind_image(cluster, cluster.pdu(task.reads[image_].pdu))) {}
+      signals_(fusion::bind_image(cluster, cluster.pdu(task.reads[image_].pdu))) {
+  most_objects_ = static_cast<std::size_t>(cluster.pdu(task.reads[image_].pdu).max_elements);
+}
 
 std::optional<View> WayAhead::look(const host::StepContext& context) {
+  const std::optional<double> speed = own_speed(context);
+  if (!speed) return std::nullopt;
+  double curvature = 0.0;
+  if (config_.curved && *speed > kSlowestOnCircle_mps) {
+    const host::Input& odometry = context.inputs[odometry_];
+    curvature = host::element_value(*odometry.layout, *odometry.list, 0, motion_[1]) / *speed;
+  }
+  return View{*speed, nearest(context.inputs[image_], curvature)};
+}
+
+void WayAhead::list(const host::StepContext& context, std::vector<recording::records::ImageObject>& objects) const {
+  const host::Input& image = context.inputs[image_];
+  objects.clear();
+  const int count = host::element_count(*image.layout, *image.list);
+  for (int i = 0; i < count; ++i)
+    objects.push_back(fusion::decode_image_object(*image.layout, *image.list, i, signals_));
+}
+
+std::optional<double> WayAhead::own_speed(const host::StepContext& context) {
   const host::Input& image = context.inputs[image_];
   const host::Input& odometry = context.inputs[odometry_];
   if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
@@ -46,9 +67,7 @@ std::optional<View> WayAhead::look(const host::StepContext& context) {
   };
   if (!is_near(valid_at_, config_.max_image_age) || !is_near(measured_at_, config_.max_odometry_age))
     return std::nullopt;
-  const double speed = host::element_value(*odometry.layout, *odometry.list, 0, motion_[0]);
-  const double yaw_rate = host::element_value(*odometry.layout, *odometry.list, 0, motion_[1]);
-  return View{speed, nearest(image, config_.curved && speed > kSlowestOnCircle_mps ? yaw_rate / speed : 0.0)};
+  return host::element_value(*odometry.layout, *odometry.list, 0, motion_[0]);
 }
 
 std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image, double curvature) const {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string_view>
+#include <vector>
 
 #include "core/ids.h"
 #include "core/strict_yaml.h"
@@ -41,6 +43,9 @@ struct View {
   std::optional<ObjectAhead> ahead;
 };
 
+// Returns the place of a task's input among its `reads`; the port is bound.
+std::size_t place_of(const schedules::model::Task& task, std::string_view port);
+
 // Ports `image` and `odometry`.
 class WayAhead {
  public:
@@ -48,6 +53,11 @@ class WayAhead {
   // Returns nothing without an image and a list of odometry that are fresh enough, or without global time. Call it at each
   // execution.
   std::optional<View> look(const host::StepContext& context);
+  // Returns the own speed alone, under the same conditions, for a service that judges the image's objects itself.
+  std::optional<double> own_speed(const host::StepContext& context);
+  // Replaces `objects` by those of the newest image, which there must be.
+  void list(const host::StepContext& context, std::vector<recording::records::ImageObject>& objects) const;
+  std::size_t most_objects() const { return most_objects_; }
 
  private:
   // `curvature` [1/m] is that of the line of travel.
@@ -56,7 +66,8 @@ class WayAhead {
   PathConfig config_;
   Duration round_;
   std::size_t image_ = 0, odometry_ = 0;  // the ports' places among the inputs
-  std::array<std::size_t, 4> motion_;     // the signals of odometry
+  std::size_t most_objects_ = 0;
+  std::array<std::size_t, 4> motion_;  // the signals of odometry
   fusion::ImageSignals signals_;
   GlobalTime valid_at_{};     // the newest image's
   GlobalTime measured_at_{};  // the newest list's of odometry

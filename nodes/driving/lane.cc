@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "nodes/driving/ahead.h"
 #include "nodes/host/signals.h"
 
 namespace ttf::nodes::driving {
@@ -9,10 +10,6 @@ namespace {
 
 // Marks further than this from their expected place belong to another lane, or to none.
 constexpr double kMostApart_m = 0.8;
-
-std::size_t input_of(const schedules::model::Task& task, std::string_view port) {
-  return static_cast<std::size_t>(&host::binding_of(task.reads, port) - task.reads.data());
-}
 
 double taken_up(double from, double to) { return from + OwnLane::kGain * (to - from); }
 
@@ -32,7 +29,7 @@ LaneLine after(const LaneLine& line, double speed, double yaw_rate, double secon
 }
 
 OwnLane::OwnLane(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const LaneConfig& config)
-    : config_(config), round_(cluster.round()), marks_(input_of(task, "marks")), odometry_(input_of(task, "odometry")),
+    : config_(config), round_(cluster.round()), marks_(place_of(task, "marks")), odometry_(place_of(task, "odometry")),
       mark_signals_(host::bind_element<7>(
           cluster, cluster.pdu(task.reads[marks_].pdu),
           {"offset", "heading", "curvature", "sigma_offset", "sigma_heading", "sigma_curvature", "validity"})),

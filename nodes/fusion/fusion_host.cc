@@ -102,10 +102,11 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
   std::vector<ttf::fusion::strategies::SensorTiming> timings;
   for (const schedules::analysis::AgePath& path : schedules::analysis::measurement_ages(cluster)) {
     const schedules::model::Sensor& sensor = cluster.sensor(path.sensor);
-    const GlobalTime first = sensor.scheduled
-                                 ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
-                                 : GlobalTime{};
-    timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period_of(cluster, sensor),
+    // A detector chooses among its pictures: the instants of its lists are not known beforehand.
+    const bool scheduled = sensor.scheduled && !path.chosen;
+    const GlobalTime first =
+        scheduled ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time : GlobalTime{};
+    timings.push_back({path.sensor, settling(cluster, path), scheduled, first, period_of(cluster, sensor),
                        sensor.kind == schedules::model::SensorKind::kRadar});
   }
   return timings;

@@ -94,11 +94,16 @@ std::optional<Strobe> StrobeLatch::find(std::uint32_t sequence, int bits) const 
   return std::nullopt;
 }
 
+std::optional<Strobe> strobe_of(const StepContext& context, const Input& raw, SensorId sensor) {
+  if (!raw.list) return std::nullopt;
+  const int bits = raw.layout->header[bus::wire::header_signal(*raw.layout, "sequence")].bits;
+  return context.strobes[index_of(sensor)].find(raw.list->sequence, bits);
+}
+
 std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor) {
   Input& raw = context.inputs[0];
   if (!raw.fresh || !raw.list) return std::nullopt;
-  const int bits = raw.layout->header[bus::wire::header_signal(*raw.layout, "sequence")].bits;
-  const auto measurement = context.strobes[index_of(sensor)].find(raw.list->sequence, bits);
+  const auto measurement = strobe_of(context, raw, sensor);
   raw.discarded = !measurement;
   return measurement;
 }

@@ -112,6 +112,8 @@ class Step {
   virtual void run(StepContext& context) = 0;
 };
 
+// Returns the measurement of a raw list, new or not, if its strobe is among the newest.
+std::optional<Strobe> strobe_of(const StepContext& context, const Input& raw, SensorId sensor);
 // Returns the measurement of a new raw list at the first input. A list whose strobe was not seen has no time
 // and is discarded.
 std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);

@@ -10,11 +10,12 @@ namespace ttf::nodes::host {
 namespace {
 
 // The fusion needs every sample of odometry. To services the newest one is the vehicle's state. To an actuator the newest
-// command is the demand.
+// command is the demand, and to low-level control the newest plan.
 bool tells_a_state(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const schedules::model::PortBinding& port) {
-  if (task.step == "actuator") return true;
+  if (task.step == "actuator" || task.step == "vehicle_control") return true;
   const SensorId sensor = cluster.pdu(port.pdu).sensor;
+  if (task.step == "adaptive_camera") return true;  // it looks at the newest picture
   return is_service(task.step) && sensor != kNoSensor &&
          cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
 }

@@ -44,6 +44,9 @@ template <> struct PayloadOf<records::EgoTruth> : std::type_identity<ttfusion::E
 template <> struct PayloadOf<records::Warning> : std::type_identity<ttfusion::Warning> {};
 template <> struct PayloadOf<records::CommandIssued> : std::type_identity<ttfusion::Command> {};
 template <> struct PayloadOf<records::CommandTaken> : std::type_identity<ttfusion::Actuator> {};
+template <> struct PayloadOf<records::DetectionMade> : std::type_identity<ttfusion::Detection> {};
+template <> struct PayloadOf<records::SequencePlanned> : std::type_identity<ttfusion::Sequence> {};
+template <> struct PayloadOf<records::PlanMade> : std::type_identity<ttfusion::Plan> {};
 template <> struct PayloadOf<records::StateChanged> : std::type_identity<ttfusion::StateChange> {};
 template <> struct PayloadOf<records::SymbolSent> : std::type_identity<ttfusion::Symbol> {};
 template <> struct PayloadOf<records::PowerChanged> : std::type_identity<ttfusion::Power> {};

@@ -264,6 +264,40 @@ records::CommandTaken record_of(const ttfusion::Actuator& in, Reading& read) {
           TrueTime{in.from()}};
 }
 
+records::DetectionMade record_of(const ttfusion::Detection& in, Reading& read) {
+  return {read.stamp(in.stamp()),
+          TrueTime{in.begin()},
+          read.measurement(in.id()),
+          in.frame(),
+          read.to<std::uint16_t>(in.place()),
+          in.secondary(),
+          in.area(),
+          Duration{in.took()},
+          read.to<std::uint16_t>(in.found())};
+}
+
+records::SequencePlanned record_of(const ttfusion::Sequence& in, Reading& read) {
+  return {read.stamp(in.stamp()), in.frame(), in.text(), Duration{in.bound()}, Duration{in.length()}};
+}
+
+records::PlanMade record_of(const ttfusion::Plan& in, Reading& read) {
+  return {read.stamp(in.stamp()),
+          read.id<PduId>(in.pdu()),
+          in.sequence(),
+          in.valid(),
+          read.to<std::uint8_t>(in.state()),
+          in.speed(),
+          read.id<TrackId>(in.track()),
+          in.gap(),
+          in.speed_ahead(),
+          in.own_speed(),
+          in.along(),
+          in.offset(),
+          in.heading(),
+          read.id<SensorId>(in.camera()),
+          {in.region_x(), in.region_y(), in.region_width(), in.region_height()}};
+}
+
 records::EgoTruth record_of(const ttfusion::Ego& in, Reading& read) {
   return {TrueTime{in.at()},
           in.x(),

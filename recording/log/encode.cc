@@ -309,6 +309,50 @@ LogTimes encode(const records::CommandTaken& in, ttfusion::Actuator& out) {
   return times_of(in.stamp);
 }
 
+LogTimes encode(const records::DetectionMade& in, ttfusion::Detection& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_begin(in.begin.ns);
+  fill(*out.mutable_id(), in.id);
+  out.set_frame(in.frame);
+  out.set_place(in.place);
+  out.set_secondary(in.secondary);
+  out.set_area(in.area);
+  out.set_took(in.took.ns);
+  out.set_found(in.found);
+  return times_of(in.stamp);
+}
+
+LogTimes encode(const records::SequencePlanned& in, ttfusion::Sequence& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_frame(in.frame);
+  out.set_text(in.text.data(), in.text.size());
+  out.set_bound(in.bound.ns);
+  out.set_length(in.length.ns);
+  return times_of(in.stamp);
+}
+
+LogTimes encode(const records::PlanMade& in, ttfusion::Plan& out) {
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_valid(in.valid);
+  out.set_state(in.state);
+  out.set_speed(in.speed);
+  out.set_track(number(in.track));
+  out.set_gap(in.gap);
+  out.set_speed_ahead(in.speed_ahead);
+  out.set_own_speed(in.own_speed);
+  out.set_along(in.along);
+  out.set_offset(in.offset);
+  out.set_heading(in.heading);
+  out.set_camera(number(in.camera));
+  out.set_region_x(in.region[0]);
+  out.set_region_y(in.region[1]);
+  out.set_region_width(in.region[2]);
+  out.set_region_height(in.region[3]);
+  return times_of(in.stamp);
+}
+
 LogTimes encode(const records::EgoTruth& in, ttfusion::Ego& out) {
   out.set_at(in.at.ns);
   out.set_x(in.x);

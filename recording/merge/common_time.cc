@@ -85,6 +85,9 @@ void put_on(const CommonTime& time, records::EgoTruth& r) { rescale_all(time, r.
 void put_on(const CommonTime& time, records::Warning& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::CommandIssued& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::CommandTaken& r) { rescale_all(time, r.stamp, r.from); }
+void put_on(const CommonTime& time, records::DetectionMade& r) { rescale_all(time, r.stamp, r.begin); }
+void put_on(const CommonTime& time, records::SequencePlanned& r) { rescale_all(time, r.stamp); }
+void put_on(const CommonTime& time, records::PlanMade& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::StateChanged& r) { rescale_all(time, r.stamp); }
 void put_on(const CommonTime& time, records::SymbolSent& r) { rescale_all(time, r.stamp, r.end); }
 void put_on(const CommonTime& time, records::PowerChanged& r) { rescale_all(time, r.stamp); }

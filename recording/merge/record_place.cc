@@ -27,9 +27,10 @@ using CausalOrder =
           records::CanFrameSent, records::TimingProblem, records::SlotProblem, records::ClockCorrected,
           records::StateChanged, records::ListHop, records::Measured, records::OdometryTaken, records::FusionInput,
           records::ObservationSeen, records::ListFused, records::TrackState, records::FusionStep, records::ReferenceFix,
-          records::ImageWritten, records::FeatureUsed, records::Warning, records::CommandIssued, records::CommandTaken,
-          records::EgoTruth, records::TruthState, records::TaskRun, records::PrecisionSample,
-          records::LatenessHistogram, records::MediumCounts>;
+          records::ImageWritten, records::FeatureUsed, records::Warning, records::PlanMade, records::CommandIssued,
+          records::CommandTaken, records::DetectionMade, records::SequencePlanned, records::EgoTruth,
+          records::TruthState, records::TaskRun, records::PrecisionSample, records::LatenessHistogram,
+          records::MediumCounts>;
 static_assert(CausalOrder::kNone == records::kKindCount, "each kind of record has one rank");
 
 // Nodes stamp a fault's effects in whole microticks of their own; these may seem to precede it by less than
@@ -76,6 +77,9 @@ RecordPlace place_of(const records::EgoTruth& r) { return of_node(r, r.at, r.nod
 RecordPlace place_of(const records::Warning& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::CommandIssued& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::CommandTaken& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::DetectionMade& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::SequencePlanned& r) { return of_node(r, r.stamp); }
+RecordPlace place_of(const records::PlanMade& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::StateChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::SymbolSent& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::PowerChanged& r) { return of_node(r, r.stamp); }

@@ -5,6 +5,7 @@
 // Covariances are row-major.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -369,7 +370,8 @@ struct Warning {
 
 // A command of a service to the actuator: acceleration [m/s^2] and angle of the front wheels [rad]. An invalid one asks for
 // nothing. The gap [m] and the object's speed [m/s] are those that it rests on; the gap is infinite without an object ahead.
-inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3, kForLane = 4;
+inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3, kForPlan = 4,
+                              kForLane = 5;
 struct CommandIssued {
   Stamp stamp;
   PduId pdu{};
@@ -381,15 +383,59 @@ struct CommandIssued {
   TrackId track{};  // the object ahead, if there is one
 };
 
-// An actuator's reading of its commands: one is applied from the instant `from` on, or none.
+// An actuator's reading of a command: it is applied from the instant `from` on, or not. A reading has a record for the list of
+// adaptive cruise control, and one for each new list of another service. An earlier command that counts on has one of its own.
 inline constexpr std::uint8_t kApplied = 0, kNoNewCommand = 1, kInvalidCommand = 2, kLateCommand = 3;
+// The service asks for nothing, as it is allowed to; another service asks for more.
+inline constexpr std::uint8_t kNothingAsked = 4, kWeakerCommand = 5;
 struct CommandTaken {
   Stamp stamp;
-  PduId pdu{};  // the list that decided
+  PduId pdu{};
   std::uint32_t sequence = 0;
   std::uint8_t verdict = kApplied;
   double acceleration = 0, steering = 0;
   TrueTime from{};
+};
+
+// A detection of a detector that several cameras share, at its end. The picture is that of its begin. `area` is the
+// share of the picture that was looked at, `took` the simulated time of the detector.
+struct DetectionMade {
+  Stamp stamp;
+  TrueTime begin{};
+  MeasurementId id;         // the picture
+  std::uint32_t frame = 0;  // SequencePlanned::frame
+  std::uint16_t place = 0;  // in the frame's sequence, from 0
+  bool secondary = false;
+  double area = 1.0;
+  Duration took{};
+  std::uint16_t found = 0;
+};
+
+// A frame of detections as its detector planned it, at the execution that begins it. The letters of `text` name cameras in the
+// order of the detector's ports, capital ones primary detections (schedules/sequence/detections.h).
+struct SequencePlanned {
+  Stamp stamp;
+  std::uint32_t frame = 0;  // counted from 0
+  std::string_view text;
+  Duration bound{};
+  Duration length{};  // expected, by the times of earlier detections
+};
+
+// A motion plan: the speed [m/s] to drive at, and the planner's state (nodes/control/gap_planner.h). An invalid one asks for
+// nothing. It rests on the most important object. The own place is that on the lane [m, rad]. The region [px] holds the
+// object. Without an object the track is kNoTrack. Without a region the camera is kNoSensor.
+struct PlanMade {
+  Stamp stamp;
+  PduId pdu{};
+  std::uint32_t sequence = 0;
+  bool valid = false;
+  std::uint8_t state = 0;
+  double speed = 0;
+  TrackId track = kNoTrack;
+  double gap = 0, speed_ahead = 0;
+  double own_speed = 0, along = 0, offset = 0, heading = 0;
+  SensorId camera = kNoSensor;
+  std::array<double, 4> region{};  // left and upper edge from the picture's middle, width, height
 };
 
 struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneous) alignment
@@ -516,6 +562,9 @@ inline constexpr std::tuple kKinds{
     Kind<Warning>{"/warning"},
     Kind<CommandIssued>{"/command"},
     Kind<CommandTaken>{"/actuator"},
+    Kind<DetectionMade>{"/detection"},
+    Kind<SequencePlanned>{"/sequence"},
+    Kind<PlanMade>{"/plan"},
 };
 inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
 template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;

@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "core/file_bytes.h"
+#include "report/drawing/figures.h"
 #include "report/drive/results_folder.h"
 
 namespace ttf::report::experiment {
@@ -62,7 +63,13 @@ class AnswerReader {
     return value.get<double>();
   }
   experiments::results::Interval interval(const Json& in, const std::string& place) const {
-    return {count(in, place, "count"), number(in, place, "mean"), number(in, place, "half_width")};
+    experiments::results::Interval read{count(in, place, "count"), number(in, place, "mean"),
+                                        number(in, place, "half_width")};
+    if (in.contains("low")) {
+      read.low_end = number(in, place, "low");
+      read.high_end = number(in, place, "high");
+    }
+    return read;
   }
 
  private:
@@ -175,6 +182,15 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
     if (std::ranges::find(folder.store->head().measures, measure.name) == folder.store->head().measures.end())
       throw InputError(
           {path, 0, measure.name, "", "is no column of its runs: answer.json belongs to another experiment"});
+}
+
+std::string interval_words(const experiments::results::Interval& interval, bool sign, std::uint64_t runs) {
+  std::string words = drawing::with_interval(interval.mean, interval.half_width, sign);
+  if (interval.uneven())
+    words = fmt::format("{}{} ({} to {})", sign && interval.mean > 0.0 ? "+" : "", drawing::brief(interval.mean),
+                        drawing::brief(interval.low()), drawing::brief(interval.high()));
+  if (interval.count < runs && interval.count > 0) words += fmt::format(" of {}", interval.count);
+  return words;
 }
 
 ExperimentFolder parse_answer(std::string_view text, const std::string& file) {

@@ -76,10 +76,10 @@ std::string table_of(const ExperimentFolder& folder, std::size_t m, const Family
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p, ++at) {
       const Estimate& estimate = point.estimates[p][m];
       runs = std::max(runs, estimate.mean.count);
-      if (has_mean(p)) means.push_back(drawing::with_interval(estimate.mean.mean, estimate.mean.half_width));
+      if (has_mean(p)) means.push_back(interval_words(estimate.mean));
       if (!has_difference(p)) continue;
       const Interval difference = difference_of(estimate);
-      const std::string words = drawing::with_interval(difference.mean, difference.half_width, true);
+      const std::string words = interval_words(difference, true);
       compared.push_back(family.stays[at] ? "**" + words + "**" : words);
     }
     row.push_back(std::to_string(runs));

@@ -111,8 +111,7 @@ page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
     std::uint64_t drives = 0;
     for (const auto& estimates : point.estimates) drives = std::max(drives, estimates[m].mean.count);
     row.push_back(std::to_string(drives));
-    for (const auto& estimates : point.estimates)
-      row.push_back(drawing::with_interval(estimates[m].mean.mean, estimates[m].mean.half_width));
+    for (const auto& estimates : point.estimates) row.push_back(interval_words(estimates[m].mean, false, drives));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -164,7 +163,7 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
       if (is_baseline(folder, folder.paradigms[p])) continue;
       const auto& difference = point.estimates[p][m].difference;
       row.push_back(difference
-                        ? fmt::format("{} {}{}", drawing::with_interval(difference->mean, difference->half_width, true),
+                        ? fmt::format("{} {}{}", interval_words(*difference, true),
                                       drawing::verdict(difference->mean, difference->half_width), *stays ? "*" : "")
                         : "-");
       if (has_percent(folder, m))
@@ -191,8 +190,7 @@ std::string expectation_sentence(const ExperimentExpectation& one) {
 // The first measure of a paradigm at the first point.
 std::string mean_text(const ExperimentFolder& folder, std::size_t paradigm) {
   const experiments::results::Interval& mean = folder.points[0].estimates[paradigm][0].mean;
-  return drawing::with_interval(mean.mean, mean.half_width) +
-         (folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
+  return interval_words(mean) + (folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
 }
 
 // Says which paradigm has the smallest first measure.

@@ -106,6 +106,20 @@ void DrivingPicture::on(const recording::records::CommandTaken& taken) {
     asked_.push_back({seconds(taken.from), taken.acceleration});
 }
 
+void DrivingPicture::on(const recording::records::PlanMade& plan) {
+  const double at = seconds(plan.stamp.true_time);
+  if (!shown(plan.stamp.true_time) || plan.track == kNoTrack) return;
+  seen_gap_.push_back({at, plan.gap});
+  seen_ahead_.push_back({at, plan.speed_ahead});
+}
+
+void DrivingPicture::on(const recording::records::SequencePlanned& planned) {
+  const TrueTime at = planned.stamp.true_time;
+  if (planned_at_ && shown(at)) sequence_.push_back({seconds(at), (at - *planned_at_).seconds()});
+  if (shown(at)) bound_.push_back({seconds(at), planned.bound.seconds()});
+  planned_at_ = at;
+}
+
 void DrivingPicture::on(const recording::records::Warning& warning) {
   if (warning.on && warning.service < kWarningStyles.size() && shown(warning.stamp.true_time))
     warnings_.emplace_back(seconds(warning.stamp.true_time), warning.service);
@@ -126,6 +140,8 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
     panels.push_back({"offset in lane [m]", {{&offset_, drawing::kBlack, false}}});
     panels.push_back({"heading in lane [deg]", {{&heading_, drawing::kBlack, false}}});
   }
+  if (!sequence_.empty())
+    panels.push_back({"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false}}, true});
   using Kind = drawing::LegendEntry::Kind;
   std::vector<drawing::LegendEntry> legend{
       {Kind::kLine, "the vehicle, true", std::string(drawing::kBlack)},
@@ -140,6 +156,11 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
     const WarningStyle& style = kWarningStyles[service];
     legend.push_back(
         {Kind::kLine, std::string(style.words), std::string(style.colour), {}, false, std::string(style.dash)});
+  }
+  if (!sequence_.empty()) {
+    legend.push_back({Kind::kMarker, "length of a sequence of detections", std::string(drawing::kPurple),
+                      drawing::Marker::kCircle, true});
+    legend.push_back({Kind::kLine, "its bound", std::string(drawing::kBlack)});
   }
   const double width = sheet.plot_width(kPanelWidth, kLeft + 28), top = 34 + legend_height(legend, width) + 10;
   drawing::Extent time;

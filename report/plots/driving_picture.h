@@ -1,5 +1,6 @@
-// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, the vehicle's
-// acceleration, and its place in its lane if it keeps one. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator.
+// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the vehicle's
+// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator. The place in the lane is
+// shown if a service keeps it, and the lengths of sequences if cameras share a detector.
 #pragma once
 
 #include <functional>
@@ -36,6 +37,8 @@ class DrivingPicture final : public recording::records::Sink {
   void on(const recording::records::CommandIssued&) override;
   void on(const recording::records::CommandTaken&) override;
   void on(const recording::records::Warning&) override;
+  void on(const recording::records::PlanMade&) override;
+  void on(const recording::records::SequencePlanned&) override;
 
   std::string svg(const drawing::Sheet& sheet = {}) const;
 
@@ -48,6 +51,8 @@ class DrivingPicture final : public recording::records::Sink {
   Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
   Points offset_, heading_;                                // likewise; degrees
   Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
+  Points sequence_, bound_;                                // lengths of sequences of detections, and their bounds
+  std::optional<TrueTime> planned_at_;                     // the newest sequence
   std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
   std::optional<recording::records::EgoTruth> ego_;
   std::optional<drawing::Point> ahead_;  // gap and speed of the nearest object in the way

@@ -47,22 +47,20 @@ class Builder {
 
   Path build(SensorId sensor) {
     Path path;
+    path.sensor = sensor;
     NodeId node = cluster_.sensor(sensor).device;
-    const model::Task* task = measuring_task(node, sensor);
+    const model::Task* task = measuring_task(cluster_, sensor);
     std::size_t hops = 0, tasks = 0;
     for (const model::Node& any : cluster_.nodes) tasks += any.tasks.size();
     while (task != nullptr) {
       TTF_CHECK(++hops <= tasks, "the lists of {} go round in a ring", cluster_.sensor(sensor).name);
       const model::PortBinding* out = written(*task, sensor);
       if (out == nullptr) break;
-      execution(path, node, *task);
-      pass(path, Waypoint::Kind::kWritten, node, out->pdu);
-      transfer(path, *out);
+      send(path, node, *task, *out);
       path.available = path.stages.size();
       task = reader(*out, node);
       if (task == nullptr) return {};
-      pass(path, Waypoint::Kind::kReceived, node, out->pdu);
-      activation(path, node, *task, *out);
+      receive(path, node, *task, *out);
       pass(path, Waypoint::Kind::kRead, node, out->pdu);
       path.on_arrival = activates(*out, *task);
     }
@@ -70,6 +68,38 @@ class Builder {
     path.fused = path.stages.size();
     pass(path, Waypoint::Kind::kFused, node);
     publish(path, node, *task);
+    return path;
+  }
+
+  Path along(SensorId sensor, const std::vector<Reading>& way) {
+    Path path;
+    path.sensor = sensor;
+    NodeId node = cluster_.sensor(sensor).device;
+    const model::Task* task = measuring_task(cluster_, sensor);
+    bool of_sensor = true, held = false;
+    for (const Reading& next : way) {
+      if (of_sensor && cluster_.pdu(next.out->pdu).sensor != sensor) {
+        of_sensor = false;
+        path.fused = path.stages.size();
+        held = !writes(*task, *next.out) || !reads_shared(*task);
+        if (held) pass(path, Waypoint::Kind::kFused, node);
+        if (!writes(*task, *next.out)) {
+          const Publisher publisher = publisher_of(cluster_, node);
+          if (publisher.image != next.out || !wait_for_image(path, node, *task, *publisher.task)) return {};
+          task = publisher.task;
+        }
+      }
+      send(path, node, *task, *next.out);
+      if (of_sensor) path.available = path.stages.size();
+      node = next.node;
+      task = next.task;
+      receive(path, node, *task, *next.out);
+      if (of_sensor) path.on_arrival = activates(*next.out, *task);
+      pass(path, &next == &way.back() ? Waypoint::Kind::kUsed : Waypoint::Kind::kRead, node, next.out->pdu);
+    }
+    path.held = held;
+    path.used = path.stages.size();
+    if (task->activation.kind == model::ActivationKind::kTime) path.use = task->activation.at;
     return path;
   }
 
@@ -86,10 +116,26 @@ class Builder {
     path.waypoints.push_back({kind, node, pdu, path.stages.size(), {}, {}, {}});
   }
 
-  const model::Task* measuring_task(NodeId node, SensorId sensor) const {
-    for (const model::Task& task : cluster_.node(node).tasks)
-      if (task.activation.kind == model::ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
-    return nullptr;
+  // From the task's start until its list is complete at the reader.
+  void send(Path& path, NodeId node, const model::Task& task, const model::PortBinding& out) {
+    execution(path, node, task);
+    pass(path, Waypoint::Kind::kWritten, node, out.pdu);
+    transfer(path, out);
+  }
+  // From there until the reader starts.
+  void receive(Path& path, NodeId node, const model::Task& task, const model::PortBinding& out) {
+    pass(path, Waypoint::Kind::kReceived, node, out.pdu);
+    activation(path, node, task, out);
+  }
+
+  // Whether the task reads a list of no single sensor, as a service does; a fusing one reads none.
+  bool reads_shared(const model::Task& task) const {
+    return std::any_of(task.reads.begin(), task.reads.end(),
+                       [&](const auto& binding) { return cluster_.pdu(binding.pdu).sensor == kNoSensor; });
+  }
+
+  static bool writes(const model::Task& task, const model::PortBinding& out) {
+    return std::any_of(task.writes.begin(), task.writes.end(), [&](const auto& binding) { return &binding == &out; });
   }
 
   const model::PortBinding* written(const model::Task& task, SensorId sensor) const {
@@ -99,6 +145,9 @@ class Builder {
   }
 
   void execution(Path& path, NodeId node, const model::Task& task) {
+    path.chosen = path.chosen || task.holds > Duration{};
+    if (task.holds > Duration{})
+      span(path, fmt::format("{}.{} holds it", cluster_.node(node).name, task.name), {}, task.holds);
     span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name), shortest_execution(task),
          task.worst_case);
   }
@@ -241,38 +290,35 @@ class Builder {
     return static_cast<std::size_t>(&task - node.tasks.data());
   }
 
+  // Adds the time from the fusing task's start to that of the task that writes the image. Returns false if it has no
+  // bound.
+  bool wait_for_image(Path& path, NodeId id, const model::Task& fusing, const model::Task& publisher) {
+    const bool follows =
+        publisher.activation.kind == model::ActivationKind::kCompletion && publisher.activation.after == fusing.name;
+    if (!follows && publisher.activation.kind != model::ActivationKind::kTime) return false;
+    execution(path, id, fusing);
+    // The instant of the image may come while this list is fused. Its task then follows directly, and the
+    // fusing adds nothing to the least age.
+    if (!follows && fusing.activation.kind == model::ActivationKind::kMessage) path.stages.back().best = {};
+    if (!follows) {
+      instant(path, fmt::format("{}.{}", cluster_.node(id).name, publisher.name), publisher.activation.at);
+      path.stages.back().behind_execution = true;
+    }
+    queue(path, id, publisher, {});
+    pass(path, Waypoint::Kind::kImage, id);
+    return true;
+  }
+
   // Adds the path from the fusing task's start to the start of the image's reader.
   void publish(Path& path, NodeId id, const model::Task& fusing) {
-    const model::Node& node = cluster_.node(id);
-    const model::Task* publisher = nullptr;
-    const model::PortBinding* image = nullptr;
-    for (const model::Task& task : node.tasks)
-      for (const model::PortBinding& binding : task.writes)
-        if (publisher == nullptr && cluster_.pdu(binding.pdu).sensor == kNoSensor) {
-          publisher = &task;
-          image = &binding;
-        }
+    const auto [publisher, image] = publisher_of(cluster_, id);
     if (publisher == nullptr) return;
-    if (publisher != &fusing) {
-      const bool follows = publisher->activation.kind == model::ActivationKind::kCompletion &&
-                           publisher->activation.after == fusing.name;
-      if (!follows && publisher->activation.kind != model::ActivationKind::kTime) return;
-      execution(path, id, fusing);
-      // The instant of the image may come while this list is fused. Its task then follows directly, and the
-      // fusing adds nothing to the least age.
-      if (!follows && fusing.activation.kind == model::ActivationKind::kMessage) path.stages.back().best = {};
-      if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
-      queue(path, id, *publisher, {});
-      pass(path, Waypoint::Kind::kImage, id);
-    }
-    execution(path, id, *publisher);
-    pass(path, Waypoint::Kind::kWritten, id, image->pdu);
-    transfer(path, *image);
+    if (publisher != &fusing && !wait_for_image(path, id, fusing, *publisher)) return;
+    send(path, id, *publisher, *image);
     NodeId at = id;
     const model::Task* user = reader(*image, at);
     if (user == nullptr) return;
-    pass(path, Waypoint::Kind::kReceived, at, image->pdu);
-    activation(path, at, *user, *image);
+    receive(path, at, *user, *image);
     pass(path, Waypoint::Kind::kUsed, at);
     path.used = path.stages.size();
     if (user->activation.kind == model::ActivationKind::kTime) path.use = user->activation.at;
@@ -286,6 +332,23 @@ class Builder {
 
 Path path_of(const model::Cluster& cluster, SensorId sensor) { return Builder(cluster).build(sensor); }
 
+Path path_along(const model::Cluster& cluster, SensorId sensor, const std::vector<Reading>& way) {
+  return Builder(cluster).along(sensor, way);
+}
+
+const model::Task* measuring_task(const model::Cluster& cluster, SensorId sensor) {
+  for (const model::Task& task : cluster.node(cluster.sensor(sensor).device).tasks)
+    if (task.activation.kind == model::ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
+  return nullptr;
+}
+
+Publisher publisher_of(const model::Cluster& cluster, NodeId node) {
+  for (const model::Task& task : cluster.node(node).tasks)
+    for (const model::PortBinding& binding : task.writes)
+      if (cluster.pdu(binding.pdu).sensor == kNoSensor) return {&task, &binding};
+  return {};
+}
+
 std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
                                std::int64_t start, bool latest, bool first_is_exact) {
   const std::int64_t apart = clock_bounds(cluster).apart_ns;
@@ -297,9 +360,13 @@ std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, 
     // The difference between clocks may bring a nominally late event in time, and the reverse.
     switch (stage.kind) {
       case Stage::Kind::kSpan: t += latest ? stage.worst.ns : stage.best.ns; break;
-      case Stage::Kind::kActivation:
-        t = next_occurrence(cluster.flexray, stage.at, GlobalTime{t + margin}).time.ns;
+      case Stage::Kind::kActivation: {
+        const bool behind = stage.behind_execution && i > first;
+        const std::int64_t from = !behind ? t : i == first + 1 ? start : instants[i - first - 2];
+        t = std::max(behind ? t : INT64_MIN,
+                     next_occurrence(cluster.flexray, stage.at, GlobalTime{from + margin}).time.ns);
         break;
+      }
       case Stage::Kind::kSlots:
         t = stage.on_grid(latest) ? transmitted(cluster, stage.slots, t + margin, latest) : t + stage.shortest.ns;
         break;

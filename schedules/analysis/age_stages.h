@@ -20,6 +20,9 @@ struct Stage {
   model::CycleInstant at{};      // kActivation
   std::vector<SlotGroup> slots;  // kSlots
   Duration shortest{};           // kSlots in the dynamic segment: from write to arrival, drift included
+  // kActivation: the stage before is another task's execution on the same processor. An instant that comes while
+  // it runs does not pass: first come, first served, and the task starts right behind it.
+  bool behind_execution = false;
 
   // In the dynamic segment an early list is sent as soon as it is written, at any phase. The stage is then on
   // the cycle's grid for the latest instants only.
@@ -29,11 +32,14 @@ struct Stage {
 };
 
 struct Path {
+  SensorId sensor = kNoSensor;
   std::vector<Stage> stages;
   std::size_t available = 0;          // stages until the list is in the fusion node's CNI
   std::size_t fused = 0;              // until the fusing task starts
   std::size_t used = 0;               // until the image's reader starts; 0: no reader
   bool on_arrival = false;            // the fusing task is activated by this list
+  bool chosen = false;                // a task that holds lists passes some measurements on, and not others
+  bool held = true;                   // BUFF may hold the list: it is fused, and not read by a service itself
   model::CycleInstant use{0, 0, {}};  // the reader's; repetition 0 if time does not activate it
   std::vector<Waypoint> waypoints;    // without bounds
 };
@@ -41,6 +47,27 @@ struct Path {
 // Returns the path of a sensor's lists; without stages if they reach no fusing task. The cluster must have
 // passed check().
 Path path_of(const model::Cluster& cluster, SensorId sensor);
+
+// One hop of a way from task to task: `task` of `node` reads the list `out`. The task before it writes the list. Or it
+// fuses and writes nothing, and another task of its node writes the list, the image.
+struct Reading {
+  const model::PortBinding* out = nullptr;
+  NodeId node{};
+  const model::Task* task = nullptr;
+};
+// Returns the path from the sensor's measuring task along the readings, to the start of the last one's task; without
+// stages if there is no bound. The cluster must have passed check().
+Path path_along(const model::Cluster& cluster, SensorId sensor, const std::vector<Reading>& way);
+// Returns the ages along such paths, to their ends.
+std::vector<AgePath> ages_along(const model::Cluster& cluster, const std::vector<Path>& paths);
+
+const model::Task* measuring_task(const model::Cluster& cluster, SensorId sensor);
+// Returns the task of a fusing node that writes the image, and the image's binding; null if there is none.
+struct Publisher {
+  const model::Task* task = nullptr;
+  const model::PortBinding* image = nullptr;
+};
+Publisher publisher_of(const model::Cluster& cluster, NodeId node);
 
 // Returns the latest or earliest instants after stages first..last-1 of the path, entered at `start`
 // (nanoseconds of global time). They include the difference between clocks, except at an exact first stage on

@@ -27,6 +27,11 @@ class Ages {
     Path path = path_of(cluster_, id);
     if (path.stages.empty()) return std::nullopt;
     if (!observes(id)) path.used = 0;
+    return of(path);
+  }
+
+  AgePath of(const Path& path) {
+    const SensorId id = path.sensor;
     AgePath ages;
     ages.sensor = id;
     const model::Sensor& sensor = cluster_.sensor(id);
@@ -36,6 +41,7 @@ class Ages {
     ages.to_fusion = contributions(path, all, path.available);
     bounds(all, path.fused, ages.fused_best, ages.fused_worst);
     ages.reaches_use = path.used != 0;
+    ages.chosen = path.chosen;
     for (Waypoint point : path.waypoints) {
       if (!ages.reaches_use && point.stages > path.fused) break;
       bounds(all, point.stages, point.best, point.worst);
@@ -81,8 +87,7 @@ class Ages {
     return slowest + apart.value_or(Duration{});
   }
 
-  void buffer(AgePath& ages, const std::vector<Release>& releases, Duration held_for_arrivals) {
-    const Path path = path_of(cluster_, ages.sensor);
+  void buffer(AgePath& ages, const Path& path, const std::vector<Release>& releases, Duration held_for_arrivals) {
     const std::size_t gate = path.available;
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
@@ -211,7 +216,7 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
   for (const AgePath& path : paths) ages.releases(path.sensor, releases);
   const Duration held = ages.held_for_arrivals(paths);
   for (AgePath& path : paths) {
-    ages.buffer(path, releases, held);
+    ages.buffer(path, path_of(cluster, path.sensor), releases, held);
     bool fused = false;
     for (Waypoint& point : path.waypoints) {
       fused = fused || point.kind == Waypoint::Kind::kFused;
@@ -221,6 +226,25 @@ std::vector<AgePath> measurement_ages(const model::Cluster& cluster) {
     }
   }
   return paths;
+}
+
+std::vector<AgePath> ages_along(const model::Cluster& cluster, const std::vector<Path>& paths) {
+  Ages ages(cluster);
+  std::vector<AgePath> observed;
+  std::vector<Ages::Release> releases;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (const auto id = static_cast<SensorId>(s); ages.observes(id))
+      if (auto path = ages.of(id)) {
+        ages.releases(id, releases);
+        observed.push_back(std::move(*path));
+      }
+  const Duration held = ages.held_for_arrivals(observed);
+  std::vector<AgePath> all;
+  for (const Path& path : paths) {
+    all.push_back(ages.of(path));
+    if (path.held) ages.buffer(all.back(), path, releases, held);
+  }
+  return all;
 }
 
 std::vector<AgePath> odometry_ages(const model::Cluster& cluster) {
@@ -249,10 +273,10 @@ std::string ages_text(const model::Cluster& cluster) {
     row("  available to the fusion", path.fusion_best, path.fusion_worst);
     row("  fused", path.fused_best, path.fused_worst);
     if (path.reaches_use) row("  used first", path.use_best, path.use_worst);
-    if (path.reaches_use) bound("  newest one at any use", path.newest_worst);
+    if (path.reaches_use && !path.chosen) bound("  newest one at any use", path.newest_worst);
     bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
     if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
-    if (path.reaches_use) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
+    if (path.reaches_use && !path.chosen) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
   }
   for (const AgePath& path : odometry) {
     text += fmt::format("{}\n", cluster.sensor(path.sensor).name);

@@ -323,9 +323,10 @@ class Loader {
     task.draw = map.choice<model::ExecutionDraw>(
         "draw", {{"uniform", model::ExecutionDraw::kUniform}, {"worst", model::ExecutionDraw::kWorst}});
     task.deadline = map.duration("deadline", kExecution);
+    task.holds = map.duration_or("holds", task.holds, kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
-    for (const char* key : {"step", "activation", "worst_case", "deadline"}) remember(map, key);
+    for (const char* key : {"step", "activation", "worst_case", "deadline", "holds"}) remember(map, key);
     map.finish();
   }
 

@@ -10,7 +10,7 @@
 namespace ttf::schedules::model {
 namespace {
 
-constexpr std::string_view kLibraryEnd = ".so";
+constexpr std::string_view kLibraryEnd = ".so", kObjects = "_objects";
 
 struct Direction {
   std::string_view key;  // "reads" or "writes"
@@ -20,8 +20,19 @@ struct Direction {
   std::vector<std::string_view> optional = {};
 };
 
+std::string sensors_names(const Direction& direction) {
+  if (!direction.any) return {};
+  return direction.key == "reads" ? "the sensors' names" : fmt::format("the sensors' names with {} behind", kObjects);
+}
+
 std::string others(const std::vector<std::string_view>& optional) {
   return optional.empty() ? std::string() : fmt::format(", and {}", fmt::join(optional, ", "));
+}
+
+// Returns the sensor after which a port is called.
+std::optional<SensorId> sensor_of(const Cluster& cluster, const Direction& direction, std::string_view port) {
+  if (direction.key == "reads") return cluster.find_sensor(port);
+  return port.ends_with(kObjects) ? cluster.find_sensor(port.substr(0, port.size() - kObjects.size())) : std::nullopt;
 }
 
 void bind_direction(const Cluster& cluster, const std::string& path, const Task& task, const Direction& direction,
@@ -36,25 +47,29 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
       return std::find(ports.begin(), ports.end(), binding.port) != ports.end();
     };
     const bool known = is_among(direction.needed) || is_among(direction.optional);
-    const auto sensor = direction.any ? cluster.find_sensor(binding.port) : std::nullopt;
+    const auto sensor = direction.any ? sensor_of(cluster, direction, binding.port) : std::nullopt;
     const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
     if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
-      findings.add({cluster.file, binding.line, key, cluster.pdu(binding.pdu).name,
-                    fmt::format("must be a PDU of the sensor {}, as its port is called", binding.port)});
+      findings.add(
+          {cluster.file, binding.line, key, cluster.pdu(binding.pdu).name,
+           fmt::format("must be a PDU of the sensor {}, as its port is called", cluster.sensor(*sensor).name)});
     if (known || sensor) continue;
     findings.add({cluster.file, binding.line, key, "",
                   fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
-                              direction.any ? std::string("the sensors' names") : others(direction.optional))});
+                              sensors_names(direction) + others(direction.optional))});
   }
   if (direction.any && direction.bound.empty())
     findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
-                  fmt::format("must bind at least one sensor's list: step {} fuses them", task.step)});
+                  fmt::format("must bind at least one sensor's list: step {} {} them", task.step,
+                              task.step == "fusion" ? "fuses" : direction.key)});
 }
 
 // A zero would end the name for the system, and other control characters would hide it from the reader.
 bool no_file_name_has(char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 }  // namespace
+
+std::string written_port(std::string_view sensor) { return std::string(sensor).append(kObjects); }
 
 bool names_library(std::string_view step) { return step.ends_with(kLibraryEnd); }
 
@@ -82,7 +97,8 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
       }
       bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads, step->may_read},
                      findings);
-      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, false}, findings);
+      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, step->any_writes, step->may_write},
+                     findings);
     }
   findings.throw_if_any();
 }

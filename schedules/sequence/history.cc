@@ -7,17 +7,19 @@
 
 namespace ttf::schedules::sequence {
 
-DetectionHistory::DetectionHistory(int sensors, Duration first_guess)
-    : times_(static_cast<std::size_t>(sensors)), first_guess_(first_guess) {}
+DetectionHistory::DetectionHistory(int sensors, Duration first_guess, std::size_t kept)
+    : times_(static_cast<std::size_t>(sensors)), first_guess_(first_guess), kept_(kept) {
+  TTF_CHECK(kept >= 1 && kept <= kMostKept, "{} kept times", kept);
+}
 
 void DetectionHistory::add(int sensor, Duration primary) {
   Times& times = times_.at(static_cast<std::size_t>(sensor));
-  times.last[times.count++ % kKept] = primary;
+  times.last[times.count++ % kept_] = primary;
 }
 
 Duration DetectionHistory::primary(int sensor) const {
   const Times& times = times_.at(static_cast<std::size_t>(sensor));
-  const std::size_t kept = std::min(times.count, kKept);
+  const std::size_t kept = std::min(times.count, kept_);
   if (kept == 0) return first_guess_;
   Duration sum{};
   for (std::size_t i = 0; i < kept; ++i) sum += times.last[i];

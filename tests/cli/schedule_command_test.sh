@@ -41,6 +41,25 @@ expect 2 'png' schedule show "$schedule" -o "$work/schedule.bmp"
 expect 1 'error: .*/file/x.svg: cannot be written' schedule show "$schedule" -o "$work/file/x.svg"
 expect_full schedule show "$schedule"
 
+# Chains from a picture to the actuator, with and without its dead time.
+loop=$source/schedules/closed_loop_synchronised.yaml
+expect 0 '^camera -> .* -> fusion.fuse -> feature.cruise -> actuator.act \(exact\)$' schedule check "$loop"
+says "the actuator's dead time \(--scenario\)"
+expect 0 '^    the actuator.s dead time +50.000 +50.000$' schedule check "$loop" --scenario "$source/scenarios/acc_braking_lead.yaml"
+expect 2 '--scenario = .*: must have a vehicle with world.ego.actuator' schedule check "$loop" \
+  --scenario "$source/scenarios/paper_scenario1.yaml"
+"$program" schedule check "$loop" --json --scenario "$source/scenarios/acc_braking_lead.yaml" >"$work/loop.json" ||
+  fail "a loop as JSON fails"
+python3 - "$work/loop.json" <<'PY' || fail "the chains of a loop are wrong"
+import json, sys
+chains = json.load(open(sys.argv[1]))["chains"]
+assert len(chains) == 6 and all(c["exact"] and c["dead_time_ms"] == 50 for c in chains), chains
+for c in chains:
+    best, worst = c["reduced_reaction_time_ms"]
+    assert best < worst < c["reaction_time_worst_ms"] == c["data_age_worst_ms"] + 50, c
+    assert abs(sum(p["worst_ms"] for p in c["contributions"]) + 50 - worst) < 1e-6, c
+PY
+
 # On real CAN FD: the failing rules, and the time scale at which all hold.
 expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" \
   --medium can-fd:1M/5M

@@ -30,6 +30,39 @@ assert [s["detections"] for s in frame["sensors"]] == [1, 4, 1], frame
 assert frame["best"] == {"sequence": "AbBbCb", "deviation_ms": frame["deviation_ms"]}, frame
 PY
 
+# The best bound: its rows, and other assumptions.
+best=(--sensors ABC --interest A --beta 400ms "${times[@]}" --best-beta)
+expect 0 '^best bound: AaBC with a share of interest of 0.5$' schedule sequence "${best[@]}"
+says '^ +138\.900  AaBC '
+says '^ +0\.000  ABC +138\.900 +0\.6011 +0\.6011 +0\.6011'
+says '^  with ten times the process noise: AaBC$'
+expect 0 'is the last one tried' schedule sequence "${best[@]}" --share 1
+expect 0 'process noise of 25 m' schedule sequence "${best[@]}" --process-noise 25 --sigma 0.5
+"$program" schedule sequence "${best[@]}" --json >"$work/best.json" || fail "a best bound as JSON fails"
+python3 - "$work/best.json" <<'PY' || fail "a best bound is no JSON"
+import json, sys
+found = json.load(open(sys.argv[1]))
+assert found["best"] == min(found["choices"], key=lambda c: c["rms_m"]), found
+assert len(found["best_with"]) == 5 and len(found["choices"]) == 11, found
+PY
+
+# Modes of a detector in a cluster: table 4's three frames.
+modes=(--sensors ABC --interest A --beta 0ms "${times[@]}" --cluster "$source/schedules/closed_loop_synchronised.yaml")
+expect 0 '^mode AaBaCa for a bound of 200 ms: a frame of 240 ms, 48 cycles$' schedule sequence "${modes[@]}" \
+  --task camera_pre.preprocess --mode 200ms --mode 300ms
+says '^  a +10 +0 +50.000 +77.700 +80.000$'
+says '^consistent with closed_loop_synchronised: '
+says '^  AaaBaaCaa then ABC +A '
+"$program" schedule sequence "${modes[@]}" --task camera_pre.preprocess --mode 200ms --json >"$work/modes.json" ||
+  fail "modes as JSON fail"
+python3 - "$work/modes.json" <<'PY' || fail "modes are no JSON"
+import json, sys
+found = json.load(open(sys.argv[1]))
+assert [m["frame_cycles"] for m in found["modes"]] == [30, 48], found
+assert [a["cycle"] for a in found["modes"][0]["activations"]] == [0, 10, 20], found
+assert len(found["chains"]) == 2 and len(found["chains"][0]["bounds"]) == 12, found
+PY
+
 mistake() {  # WORDS ARGS...
   expect 2 "$1" schedule sequence "${@:2}"
 }
@@ -41,6 +74,17 @@ mistake '--beta = 0.2: must be 0..100 s with its unit, as in 200ms' --sensors AB
 mistake '--primary = 0ms: must be 0.000001..10 s with its unit' --sensors ABC --beta 200ms --primary 0ms --secondary 1ms
 mistake '--secondary = fast: must be 0.000001..10 s' --sensors ABC --beta 200ms --primary 1ms --secondary fast
 mistake '--slots.*text' --sensors ABC --beta 200ms "${times[@]}" --slots ceil
+mistake '--interest: must name a sensor' --sensors ABC --beta 200ms "${times[@]}" --best-beta
+mistake '--share = 2: must be 0..1' "${best[@]}" --share 2
+mistake '--sigma = nan: must be' "${best[@]}" --sigma nan
+mistake '--share' --sensors ABC --beta 200ms "${times[@]}" --share 0.4
+mistake '--task = camera_pre: must be a node and its task in' "${modes[@]}" --task camera_pre
+mistake '--step = 7 ms: must be a multiple of the communication cycle, 5 ms' "${modes[@]}" \
+  --task camera_pre.preprocess --step 7ms
+mistake '--offset = 5000: must be 0..4999 macroticks' "${modes[@]}" --task camera_pre.preprocess --offset 5000
+mistake '--primary = 50 ms: must end .* before its steps of 50 ms do' --sensors ABC --beta 0ms --primary 50ms \
+  --secondary 20ms --cluster closed_loop_synchronised --task camera_pre.preprocess
+mistake '--cluster' "${modes[@]}"
 mistake '--primary' --sensors ABC --beta 200ms --secondary 1ms
 
 [[ $failures -eq 0 ]] && echo "schedule sequence: all as documented"

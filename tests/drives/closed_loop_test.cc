@@ -35,7 +35,7 @@ evaluation::driving::DrivingFindings found_in(const Drive& drive) {
   return account.finish();
 }
 
-struct WayOfTheVehicle final : recording::records::Sink {
+struct WayOfTheVehicle : recording::records::Sink {
   std::vector<double> values;
   std::int64_t allocations_at_start = -1, allocations = 0;
   using recording::records::Sink::on;
@@ -61,6 +61,31 @@ TEST(ClosedLoop, RepeatsItselfAndAllocatesNothing) {
   EXPECT_EQ(once.values, again.values);
   EXPECT_NE(once.values, otherwise.values) << "another seed measures otherwise, so the vehicle drives otherwise";
   EXPECT_EQ(once.allocations, once.allocations_at_start);
+}
+
+// A planner and low-level control instead of services, and regions of interest on their way back to the detector.
+TEST(ClosedLoop, OfAPlannerRepeatsItselfAndAllocatesNothing) {
+  struct Way final : WayOfTheVehicle {
+    int plans = 0, regions = 0, secondary = 0;
+    using Sink::on;
+    void on(const recording::records::PlanMade& plan) override {
+      ++plans;
+      if (plan.camera != kNoSensor) ++regions;
+    }
+    void on(const recording::records::DetectionMade& made) override { secondary += made.secondary ? 1 : 0; }
+  };
+  Drive drive("scenarios/adaptive_detection.yaml", StrategyKind::kAdva);
+  drive.scenario.duration = Duration::milliseconds(2'000);
+  Way once, again;
+  drive.run(once);
+  drive.run(again);
+  ASSERT_GT(once.values.size(), 400u);
+  EXPECT_EQ(once.values, again.values);
+  EXPECT_EQ(once.allocations, once.allocations_at_start);
+  EXPECT_GT(once.plans, 190);
+  EXPECT_GT(once.regions, 100);
+  EXPECT_GT(once.secondary, 10);
+  EXPECT_NEAR(once.values[once.values.size() - 2], 29.5, 1.0) << "the planner asks for 30 m/s during start-up";
 }
 
 TEST(ClosedLoop, StopsBehindTheOneAheadInTheWholeDrive) {

@@ -14,7 +14,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 const [expected, found] = process.argv.slice(2).map((path) => JSON.parse(readFileSync(path, "utf8")));
 assert.deepEqual(found.counts, expected.counts);
-assert.equal(Object.keys(found.counts).length, 33);
+assert.equal(Object.keys(found.counts).length, 35);
 assert.deepEqual(found.attachments, { "cluster.yaml": 12 });
 const manifest = found.metadata["ttfusion.manifest"];
 assert.equal(manifest.seed, "18446744073709551615");

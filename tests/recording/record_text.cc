@@ -226,6 +226,18 @@ std::string text_of(const records::CommandTaken& r) {
   return line("actuator", r.stamp, r.pdu, r.sequence, r.verdict, r.acceleration, r.steering, r.from);
 }
 
+std::string text_of(const records::DetectionMade& r) {
+  return line("detection", r.stamp, r.begin, r.id, r.frame, r.place, r.secondary, r.area, r.took, r.found);
+}
+std::string text_of(const records::SequencePlanned& r) {
+  return line("sequence", r.stamp, r.frame, r.text, r.bound, r.length);
+}
+
+std::string text_of(const records::PlanMade& r) {
+  return line("plan", r.stamp, r.pdu, r.sequence, r.valid, r.state, r.speed, r.track, r.gap, r.speed_ahead, r.own_speed,
+              r.along, r.offset, r.heading, r.camera, r.region[0], r.region[1], r.region[2], r.region[3]);
+}
+
 std::string text_of(const records::StateChanged& r) {
   return line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence);
 }
@@ -411,6 +423,30 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 33:
       return sink.on(records::CommandTaken{stamp, d.get<PduId>(), d.get<U32>(), d.get<U8>(), d.get<double>(),
                                            d.get<double>(), d.get<TrueTime>()});
+    case 34:
+      return sink.on(records::DetectionMade{stamp, d.get<TrueTime>(), d.get<MeasurementId>(), d.get<U32>(),
+                                            d.get<U16>(), d.get<bool>(), d.get<double>(), d.get<Duration>(),
+                                            d.get<U16>()});
+    case 35: {
+      const auto words = d.fixed<std::string>(1);
+      return sink.on(records::SequencePlanned{stamp, d.get<U32>(), words[0], d.get<Duration>(), d.get<Duration>()});
+    }
+    case 36:
+      return sink.on(records::PlanMade{stamp,
+                                       d.get<PduId>(),
+                                       d.get<U32>(),
+                                       d.get<bool>(),
+                                       d.get<U8>(),
+                                       d.get<double>(),
+                                       d.get<TrackId>(),
+                                       d.get<double>(),
+                                       d.get<double>(),
+                                       d.get<double>(),
+                                       d.get<double>(),
+                                       d.get<double>(),
+                                       d.get<double>(),
+                                       d.get<SensorId>(),
+                                       {d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>()}});
   }
   TTF_CHECK(false, "nothing to draw of kind {}", kind);
 }

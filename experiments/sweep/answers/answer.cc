@@ -27,7 +27,7 @@ void compare(const SweepFile& sweep, std::size_t measure, const PointDrives& dri
     differences.add(x - y);
     if (std::isfinite(x) && std::isfinite(y)) pairs.emplace_back(x, y);
   });
-  difference = interval_of(differences, sweep.confidence);
+  difference = difference_interval(sweep, measure, differences);
   if (is_ratio_scale(*find_measure(sweep.measures[measure]))) ratio = results::ratio_of(pairs, sweep.confidence);
 }
 
@@ -44,7 +44,7 @@ PointAnswer answer_at(const SweepFile& sweep, std::uint32_t point, const PointDr
     for (std::size_t m = 0; m < measures; ++m) {
       Moments moments;
       for (const Row* row : drives.of(p)) moments.add(drives.value(*row, m));
-      answer.means[p][m] = interval_of(moments, sweep.confidence);
+      answer.means[p][m] = mean_interval(sweep, m, moments);
       if (reference)
         compare(sweep, m, drives, p, others != nullptr ? *others : drives, reference->paradigm,
                 answer.differences[p][m], answer.ratios[p][m]);
@@ -148,7 +148,7 @@ bool sure_enough(const SweepFile& sweep, const std::vector<Row>& rows, std::uint
     for_each_pair(drives.of(p), drives.of(sweep.baseline), [&](const Row& one, const Row& other) {
       differences.add(drives.value(one, 0) - drives.value(other, 0));
     });
-    if (!(interval_of(differences, sweep.confidence).half_width <= sweep.stop->half_width)) return false;
+    if (!(difference_interval(sweep, 0, differences).half_width <= sweep.stop->half_width)) return false;
   }
   return true;
 }

@@ -68,7 +68,7 @@ Verdict less(const SweepFile& sweep, const Expectation& expectation, const Point
   for_each_pair(
       drives.of(index_of(sweep, expectation.less)), drives.of(index_of(sweep, expectation.than)),
       [&](const Row& one, const Row& other) { differences.add(drives.value(one, m) - drives.value(other, m)); });
-  const Interval difference = interval_of(differences, sweep.confidence);
+  const Interval difference = difference_interval(sweep, m, differences);
   if (difference.below(0.0)) return {};
   if (difference.count < 2)
     return undecided(fmt::format("{} of both paradigms; more replications", counted(difference.count, "pair")));

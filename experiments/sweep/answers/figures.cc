@@ -15,7 +15,11 @@ std::string interval_text(const results::Interval& interval, bool sign) {
   const int decimals =
       width > 0.0 && std::isfinite(width) ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
   std::string text = results::plain_number(interval.mean, decimals, sign);
-  if (!std::isnan(interval.half_width)) text += fmt::format(" +- {:.{}f}", interval.half_width, decimals);
+  if (interval.uneven())
+    text += fmt::format(" ({} to {})", results::plain_number(interval.low(), decimals, sign),
+                        results::plain_number(interval.high(), decimals, sign));
+  else if (!std::isnan(interval.half_width))
+    text += fmt::format(" +- {:.{}f}", interval.half_width, decimals);
   return text;
 }
 

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "experiments/results/share.h"
+#include "experiments/sweep/measures.h"
+
 namespace ttf::experiments::sweep::answers {
 
 PointDrives::PointDrives(const SweepFile& sweep, std::vector<results::Row> rows)
@@ -12,6 +15,17 @@ PointDrives::PointDrives(const SweepFile& sweep, std::vector<results::Row> rows)
     else
       ++failed_;
   }
+}
+
+results::Interval mean_interval(const SweepFile& sweep, std::size_t measure, const results::Moments& values) {
+  return find_measure(sweep.measures[measure])->is_event ? share_of(values, sweep.confidence)
+                                                         : interval_of(values, sweep.confidence);
+}
+
+results::Interval difference_interval(const SweepFile& sweep, std::size_t measure,
+                                      const results::Moments& differences) {
+  return find_measure(sweep.measures[measure])->is_event ? difference_of_shares(differences, sweep.confidence)
+                                                         : interval_of(differences, sweep.confidence);
 }
 
 }  // namespace ttf::experiments::sweep::answers

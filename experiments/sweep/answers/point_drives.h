@@ -45,4 +45,8 @@ void for_each_pair(const std::vector<const results::Row*>& ones, const std::vect
   }
 }
 
+// Return the interval of a measure's mean, and of its paired differences: those of shares if the measure is an event.
+results::Interval mean_interval(const SweepFile& sweep, std::size_t measure, const results::Moments& values);
+results::Interval difference_interval(const SweepFile& sweep, std::size_t measure, const results::Moments& differences);
+
 }  // namespace ttf::experiments::sweep::answers

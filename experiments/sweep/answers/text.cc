@@ -61,17 +61,23 @@ std::vector<Column> difference_columns(const SweepFile& sweep, const SweepAnswer
 
 std::string measure_table(const SweepFile& sweep, const SweepAnswer& answer) {
   std::vector<std::uint32_t> points;
+  std::vector<std::uint64_t> most_runs;
   Column runs{"runs", {}};
   for (const PointAnswer& point : answer.points) {
     points.push_back(point.point);
-    std::uint64_t most = 0;
+    std::uint64_t& most = most_runs.emplace_back(0);
     for (const auto& means : point.means) most = std::max(most, means.front().count);
     runs.cells.push_back(std::to_string(most));
   }
   std::vector<std::vector<Column>> groups{{std::move(runs)}};
   for (std::size_t p = 0; p < sweep.paradigms.size(); ++p) {
     Column& means = groups.emplace_back().emplace_back(Column{sweep.paradigms[p].name, {}});
-    for (const PointAnswer& point : answer.points) means.cells.push_back(interval_text(point.means[p].front(), false));
+    for (std::size_t i = 0; i < answer.points.size(); ++i) {
+      const results::Interval& mean = answer.points[i].means[p].front();
+      means.cells.push_back(interval_text(mean, false));
+      // Drives without a value are told apart.
+      if (mean.count > 0 && mean.count < most_runs[i]) means.cells.back() += fmt::format(" of {}", mean.count);
+    }
   }
   for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
     if (sweep.compared_axis || p != sweep.baseline) groups.push_back(difference_columns(sweep, answer, p));

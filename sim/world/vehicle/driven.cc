@@ -66,13 +66,20 @@ void Driven::actuate(const Actuation& actuation) {
   actuations_.push_back(actuation);
 }
 
+// Returns the instant from which on the vehicle is without a command, if no other one comes.
+std::int64_t Driven::alone_from(const State& state) const {
+  return (state.commands == 0 ? 0 : actuations_[state.commands - 1].from.ns) + actuator_.after.ns;
+}
+
 // The wheels stay as they are before the first command, and while the actuator brakes by itself.
 Driven::Demand Driven::demand(const State& state) const {
-  if (state.commands == 0) return {0.0, state.motion.steering};
-  const Actuation& newest = actuations_[state.commands - 1];
-  const Demand last{std::clamp(newest.acceleration, -actuator_.largest_deceleration, actuator_.largest_acceleration),
-                    std::clamp(newest.steering, -actuator_.largest_steering, actuator_.largest_steering)};
-  const std::int64_t alone = state.at - newest.from.ns - actuator_.after.ns;
+  Demand last{0.0, state.motion.steering};
+  if (state.commands > 0) {
+    const Actuation& newest = actuations_[state.commands - 1];
+    last = {std::clamp(newest.acceleration, -actuator_.largest_deceleration, actuator_.largest_acceleration),
+            std::clamp(newest.steering, -actuator_.largest_steering, actuator_.largest_steering)};
+  }
+  const std::int64_t alone = state.at - alone_from(state);
   if (alone < 0) return last;
   switch (actuator_.without) {
     case WithoutCommand::kHold: return last;
@@ -89,10 +96,7 @@ Driven::Demand Driven::demand(const State& state) const {
 std::int64_t Driven::next_change(const State& state, std::int64_t until) const {
   std::int64_t next = until;
   if (state.commands < actuations_.size()) next = std::min(next, actuations_[state.commands].from.ns);
-  if (state.commands > 0) {
-    const std::int64_t alone = actuations_[state.commands - 1].from.ns + actuator_.after.ns;
-    if (alone > state.at) next = std::min(next, alone);
-  }
+  if (const std::int64_t alone = alone_from(state); alone > state.at) next = std::min(next, alone);
   return next;
 }
 

@@ -4,13 +4,13 @@
 // the command. So every look at an instant comes when all actuations until then are known. The way is a pure function of them,
 // in one process or in several, for any number of looks.
 //
-//   u   the newest command, within the actuator's limits; before the first one, none: no acceleration, wheels as they are
+//   u   the newest command, within the actuator's limits; before the first one, no acceleration, and wheels as they are
 //   a'  = (gain u - a) / lag            acceleration
 //   d'  = (u_steering - d) / lag        angle of the front wheels, within the vehicle's rate
 // Both are exact within a step of the vehicle's model (single_track.h), with their mean over the step. The vehicle does not
 // drive backwards: braking ends in a standstill.
 //
-// When no actuation has come for the time `after`, the actuator holds the last one, lets it fade with the time constant `decay`,
+// When no actuation has come for the time `after`, or since the start for as long, the actuator holds the last one, lets it fade with the time constant `decay`,
 // or brakes by `deceleration` with the wheels as they are. It does not ask for the reason: a list that got lost, came late or was
 // refused, a dead controller, and an actuator without supply are all the same.
 //
@@ -57,6 +57,7 @@ class Driven {
   struct Demand {
     double acceleration = 0.0, steering = 0.0;
   };
+  std::int64_t alone_from(const State& state) const;
   Demand demand(const State& state) const;
   std::int64_t next_change(const State& state, std::int64_t until) const;
   void step(State& state, std::int64_t ns) const;

@@ -41,12 +41,82 @@ struct Drive {
     warning.on = on;
     account.on(warning);
   }
+  // An image with an object at this gap and speed, and a nearer one that is not confirmed.
+  void image(std::int64_t ms, double gap, double speed) {
+    ImageObject objects[2];
+    objects[0].x = gap + 3.4 + 2.0;
+    objects[0].length = 4.0;
+    objects[0].width = 1.8;
+    objects[0].speed = speed;
+    objects[0].status = kImageConfirmed;
+    objects[1] = objects[0];
+    objects[1].x -= 5.0;
+    objects[1].speed = 0.0;
+    objects[1].status = 0;
+    ImageWritten written;
+    written.stamp.true_time = at_ms(ms);
+    written.objects = objects;
+    account.on(written);
+  }
   void command(std::int64_t ms) {
     CommandIssued command;
     command.stamp.true_time = at_ms(ms);
     account.on(command);
   }
 };
+
+TEST(DrivingAccount, TheReactionTimeLastsFromTheTruthToTheImage) {
+  Drive drive;
+  drive.at(0, 0, 29, 0, 40, 29.0);
+  drive.image(50, 40, 26.0);  // noise, before anything happens
+  drive.at(100, 3, 29, 0, 40, 27.1, 8.0);
+  drive.at(200, 6, 29, 0, 40, 26.9, 8.0);
+  drive.image(250, 40, 28.0);
+  drive.at(300, 9, 29, 0, 40, 26.0, 8.0);
+  drive.image(350, 40, 27.1);
+  drive.at(400, 12, 29, 0, 40, 25.0, 8.0);
+  drive.image(450, 40, 26.9);
+  drive.image(550, 40, 20.0);
+  const DrivingFindings found = drive.account.finish();
+  ASSERT_TRUE(found.reaction);
+  EXPECT_EQ(*found.reaction, Duration::milliseconds(250));
+  Drive slow;
+  slow.at(0, 0, 29, 0, 40, 26.0);
+  slow.image(50, 40, 26.0);
+  slow.at(100, 0, 29, 0, 40, 26.0);
+  EXPECT_FALSE(slow.account.finish().reaction) << "it was never fast";
+}
+
+TEST(DetectionAccount, TheIntervalIsThatOfTheCameraLookedAtMost) {
+  DetectionAccount account(at_ms(100));
+  const auto detect = [&](std::int64_t ms, SensorId sensor, bool secondary) {
+    DetectionMade made;
+    made.begin = at_ms(ms);
+    made.id.sensor = sensor;
+    made.secondary = secondary;
+    account.on(made);
+  };
+  EXPECT_FALSE(account.finish());
+  detect(50, SensorId{0}, false);
+  for (const std::int64_t frame : {0, 150, 300, 460}) {
+    SequencePlanned planned;
+    planned.stamp.true_time = at_ms(frame);
+    account.on(planned);
+  }
+  detect(150, SensorId{0}, false);
+  detect(190, SensorId{1}, false);
+  detect(230, SensorId{1}, true);
+  detect(300, SensorId{1}, false);
+  const auto found = account.finish();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->primary, 3u);
+  EXPECT_EQ(found->secondary, 1u);
+  EXPECT_EQ(found->camera, SensorId{1});
+  EXPECT_NEAR(found->intervals.mean(), 0.055, 1e-12);
+  EXPECT_NEAR(found->intervals.deviation(), std::sqrt(2.0) * 0.015, 1e-12);
+  EXPECT_EQ(found->frames.count(), 2u);
+  EXPECT_NEAR(found->frames.mean(), 0.155, 1e-12);
+}
 
 TEST(DrivingAccount, TheSmallestGapAndTimeToCollisionAreOfTheObjectInTheWay) {
   Drive drive;
@@ -73,6 +143,35 @@ TEST(DrivingAccount, IsJudgedUpToTheFirstCollision) {
   EXPECT_EQ(found.smallest_gap_m, 0.0);
   EXPECT_EQ(found.largest_deceleration, 9.0);
   EXPECT_NEAR(found.largest_jerk, 90.0, 1e-9);
+}
+
+TEST(DrivingAccount, AStandstillHasNoJerk) {
+  Drive drive;
+  drive.at(0, 0, 1, -8, 30, 0);
+  drive.at(100, 0.1, 0.2, -8, 30, 0);
+  drive.at(200, 0.1, 0, 0, 30, 0);
+  drive.at(300, 0.1, 0.1, 0.5, 30, 0);
+  drive.at(400, 0.1, 0.2, 0.6, 30, 0);
+  const DrivingFindings found = drive.account.finish();
+  EXPECT_NEAR(found.largest_jerk, 1.0, 1e-9);
+  EXPECT_NEAR(found.jerk_rms, std::sqrt(0.5), 1e-9);
+}
+
+TEST(DrivingAccount, EveryVerdictOfTheActuatorIsCounted) {
+  Drive drive;
+  for (const std::uint8_t verdict :
+       {kApplied, kNoNewCommand, kInvalidCommand, kLateCommand, kLateCommand, kNothingAsked, kWeakerCommand}) {
+    CommandTaken taken;
+    taken.verdict = verdict;
+    drive.account.on(taken);
+  }
+  const DrivingFindings found = drive.account.finish();
+  EXPECT_EQ(found.applied, 1u);
+  EXPECT_EQ(found.none_new, 1u);
+  EXPECT_EQ(found.invalid, 1u);
+  EXPECT_EQ(found.late, 2u);
+  EXPECT_EQ(found.nothing_asked, 1u);
+  EXPECT_EQ(found.weaker, 1u);
 }
 
 TEST(DrivingAccount, TheStoppingDistanceCountsFromTheBrakesAhead) {

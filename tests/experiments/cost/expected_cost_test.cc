@@ -142,6 +142,18 @@ TEST(ExpectedCost, OfAFollowingVehicleIsThePagesTable) {
   }
 }
 
+// The loop of experiments/closed_loop_age.yaml, without limits, tracker and noise of sensors. A list is 40 ms old and more.
+TEST(ExpectedCost, OfAgeAndJitterIsTheTableOfResults) {
+  const std::string text = read_file(std::string(TTF_SOURCE_DIR) + "/docs/results/closed_loop_age.md");
+  const FollowingLoop loop{1.8, 0.2, 10.0, 8};
+  for (const int age : {0, 40, 80, 160}) {
+    const auto gap = [&](const Delays& delay) { return follow(1 + age / 40, delay, loop).gap_m; };
+    EXPECT_THAT(text, testing::HasSubstr(fmt::format("\n| {} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n", age,
+                                                     gap(constant_delay(3)), gap(uniform_delay(0, 6)),
+                                                     gap(constant_delay(0)), gap(constant_delay(6)))));
+  }
+}
+
 // The servo by its draws: states in closed form from grain to grain, a trapezium for the cost, delays and losses drawn.
 struct Sampled {
   double mean = 0.0, half_width = 0.0;  // three and a half standard errors

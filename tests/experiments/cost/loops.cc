@@ -99,10 +99,10 @@ ExpectedCost ball_and_beam(BeamRates rates) {
   return expected_cost(loop.flow(), timing);
 }
 
-Following follow(int periods, const Delays& delay) {
+Following follow(int periods, const Delays& delay, const FollowingLoop& of) {
   constexpr nodes::control::TimeGapConfig law;
-  constexpr double k1 = law.gap_gain, k2 = law.speed_gain, gap = law.time_gap_s;
-  constexpr double lag = 0.3, memory = 20.0, period = 0.04;
+  constexpr double k1 = law.gap_gain, k2 = law.speed_gain, period = 0.04;
+  const double gap = of.time_gap_s, lag = of.lag_s, memory = of.memory_s;
   const auto mean_square = [&](bool of_gap) {
     ControlLoop loop;
     constexpr Block kLead = 0, kCar = 1, kClosing = 2, kAcceleration = 3, kNothing = 4, kActuator = 5, kSampler = 6;
@@ -123,8 +123,9 @@ Following follow(int periods, const Delays& delay) {
     std::vector<Block> sampling{kNothing};
     for (int old = periods; old >= 0; --old) sampling.push_back(kSampler + static_cast<Block>(old));
     loop.add_cost(of_gap ? kCar : kAcceleration, 1.0);
-    return expected_cost(loop.flow(),
-                         {period / 4.0, 4, {{{loop.executes(sampling)}, delay}, {{loop.executes({kActuator})}, {}}}})
+    return expected_cost(loop.flow(), {period / of.grains,
+                                       of.grains,
+                                       {{{loop.executes(sampling)}, delay}, {{loop.executes({kActuator})}, {}}}})
         .cost;
   };
   return {std::sqrt(mean_square(true)), std::sqrt(mean_square(false))};

@@ -33,11 +33,17 @@ enum class BeamRates { kBothSlow, kBothFast, kMultirate };
 ExpectedCost ball_and_beam(BeamRates rates);
 
 // A vehicle with the default gains of nodes/control/time_gap.h. The lead's speed is driven by white noise of density 1 m^2/s^3,
-// and forgets with a time constant of 20 s. Lists come every 40 ms. A command rests on the list of `periods` before. It goes
-// out after a delay in grains of 10 ms. The drive train lags by 0.3 s.
+// and forgets. Lists come every 40 ms, which are so many grains. A command rests on the list of `periods` before. It goes out
+// after a delay in grains.
+struct FollowingLoop {
+  double time_gap_s = 1.5;
+  double lag_s = 0.3;      // the drive train's
+  double memory_s = 20.0;  // the lead's speed forgets
+  int grains = 4;
+};
 struct Following {
   double gap_m = 0.0, acceleration = 0.0;  // root mean squares: the gap's error, the acceleration [m/s^2]
 };
-Following follow(int periods, const Delays& delay);
+Following follow(int periods, const Delays& delay, const FollowingLoop& of = {});
 
 }  // namespace ttf::experiments::cost

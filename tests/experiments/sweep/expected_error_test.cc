@@ -17,6 +17,7 @@
 #include "drives/scenario.h"
 #include "experiments/results/statistics.h"
 #include "fusion/strategies/strategy.h"
+#include "schedules/sequence/expected_error.h"
 #include "tests/experiments/sweep/known_lists.h"
 
 namespace ttf::experiments::sweep {
@@ -64,6 +65,37 @@ TEST(ExpectedError, MeasuredAllTheTimeItIsTheKalmanBucyFilter) {
   const Eigen::Matrix4d p = recursion.at(at_ms(0.1 * 40'000));
   EXPECT_NEAR(p(0, 0), std::sqrt(2.0) * std::pow(density, 0.25) * std::pow(variance * t, 0.75), 0.002 * p(0, 0));
   EXPECT_NEAR(p(0, 2), std::sqrt(density * variance * t), 0.002 * p(0, 2));
+}
+
+// Detections of unequal intervals, repeated for ever: a sequence has the same error by its own recursion
+// (schedules/sequence/expected_error.h). Each result is there when its detection ends.
+TEST(ExpectedError, IsThatOfASequenceOfDetections) {
+  const schedules::sequence::Sequence frame{{0, false}, {0, true}, {1, false}, {0, true}};
+  const schedules::sequence::DetectionTimes times(2, Duration::milliseconds(46), Duration::milliseconds(28));
+  const auto found = schedules::sequence::expected_errors(frame, times, {3.0, 0.5});
+  for (int sensor = 0; sensor < 2; ++sensor) {
+    ErrorRecursion recursion(PointMotion::known(3.0, 8.0));
+    double now = 0.0, shown_from = 0.0, mean = 0.0, worst = 0.0;
+    const auto variance = [&](double ms) { return recursion.at(at_ms(ms))(0, 0); };
+    for (int n = 0; n < 100; ++n) {
+      if (n == 99) mean = worst = 0.0;
+      for (const schedules::sequence::Detection& detection : frame) {
+        const double begins = now;
+        now += in_ms(times.of(detection));
+        if (detection.sensor != sensor) continue;
+        if (n > 0) {  // Simpson's rule is exact for a cubic
+          mean += (now - shown_from) / 6.0 *
+                  (variance(shown_from) + 4.0 * variance(0.5 * (shown_from + now)) + variance(now));
+          worst = std::max(worst, variance(now));
+        }
+        recursion.fuse(look_at(begins, 0.25));
+        shown_from = now;
+      }
+    }
+    const schedules::sequence::ExpectedError& sequence = found[static_cast<std::size_t>(sensor)];
+    EXPECT_NEAR(sequence.mean, mean / in_ms(frame_time(frame, times)), 1e-6 * mean);
+    EXPECT_NEAR(sequence.worst, worst, 1e-6 * worst);
+  }
 }
 
 // A wrong assumed density costs accuracy, and the recursion shows it. A right one gives the believed error.

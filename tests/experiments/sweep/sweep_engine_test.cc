@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -90,6 +91,27 @@ class OneElsewhere final : public Elsewhere {
   Driver driver_;
   std::vector<results::Row> done_;
 };
+
+// Only drives whose vehicle commands drive have measures of the loop.
+TEST_F(SweepEngine, AClosedLoopHasItsMeasures) {
+  SweepFile open = small_sweep(1);
+  open.measures = {"collision", "gap_error_rms", "stopping_distance"};
+  for (const double value : SweepDrives(open).run({0, 0, 0}).values) EXPECT_TRUE(std::isnan(value));
+  const SweepFile closed = parse_sweep(
+      "kind: sweep\nname: loop\nquestion: Does it stop?\nscenario: ../scenarios/acc_braking_lead.yaml\nseed: 1\n"
+      "replications: 1\nparadigms:\n  tt: {strategy: tt, set: {duration: 8 s}}\n"
+      "measures: [stopping_distance, smallest_gap, gap_error_rms, largest_deceleration, collision, collision_speed]\n",
+      TTF_SOURCE_DIR "/experiments/loop.yaml");
+  const results::Row row = SweepDrives(closed).run({0, 0, 0});
+  ASSERT_EQ(row.status, results::kDone);
+  EXPECT_TRUE(std::isnan(row.values[0])) << "it still drives";
+  EXPECT_GT(row.values[1], 10.0);
+  EXPECT_LT(row.values[1], 40.0);
+  EXPECT_GT(row.values[2], 0.1);
+  EXPECT_GT(row.values[3], 1.0);
+  EXPECT_EQ(row.values[4], 0.0);
+  EXPECT_TRUE(std::isnan(row.values[5]));
+}
 
 TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
   const SweepFile sweep = small_sweep(20);

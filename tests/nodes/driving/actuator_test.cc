@@ -1,4 +1,4 @@
-// The actuator accepts and refuses commands by hand; emergency braking sees a car by hand.
+// The actuator accepts and refuses commands by hand; emergency braking and adaptive cruise control see a car by hand.
 #include "nodes/driving/actuator.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/emergency_braking.h"
+#include "nodes/host/signals.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::nodes::driving {
@@ -34,6 +36,7 @@ struct ByHand final : Sink {
   std::vector<host::Input> inputs;
   bool global_time = true;
   std::optional<CommandTaken> taken;
+  std::vector<std::uint8_t> verdicts;  // in the last reading
   std::optional<host::Actuation> actuation;
 
   ByHand() {
@@ -44,7 +47,10 @@ struct ByHand final : Sink {
     }
   }
   using Sink::on;
-  void on(const CommandTaken& r) override { taken = r; }
+  void on(const CommandTaken& r) override {
+    taken = r;
+    verdicts.push_back(r.verdict);
+  }
 
   void receive(std::size_t port, const Command& command, GlobalTime issued) {
     const auto signals = bind_command(cluster(), lists[port].layout());
@@ -62,6 +68,7 @@ struct ByHand final : Sink {
     context.global_time = global_time;
     context.inputs = inputs;
     context.sink = this;
+    verdicts.clear();
     step.run(context);
     actuation = context.actuation;
     for (host::Input& input : inputs) input.fresh = false;
@@ -126,22 +133,61 @@ TEST(Actuator, TheStrongerDecelerationCounts) {
   EXPECT_NEAR(loop.actuation->acceleration, -8.0, 1e-9) << "also without the other one";
 }
 
-// Emergency braking with images and odometry by hand.
-struct Braking final : Sink {
-  EmergencyBraking step{cluster(), task_of("feature", "emergency_braking"), {}};
+// A list of either service is lost: its last command counts on until it is too old, and no longer than its service says.
+TEST(Actuator, AnAcceptedCommandOutlivesTheLossOfTheNextList) {
+  ByHand loop;
+  loop.receive(0, {true, -1.0, 0.02}, at_ms(40));
+  loop.receive(1, {true, -8.0, 0.0}, at_ms(40));
+  loop.run(at_ms(45));
+  loop.receive(0, {true, -3.5, 0.01}, at_ms(80));
+  loop.run(at_ms(85));
+  EXPECT_NEAR(loop.actuation->acceleration, -8.0, 1e-9);
+  EXPECT_NEAR(loop.actuation->steering, 0.01, 1e-9);
+  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kWeakerCommand, kApplied}));
+  loop.receive(0, {true, -3.5, 0.0}, at_ms(140));
+  loop.run(at_ms(145));
+  EXPECT_NEAR(loop.actuation->acceleration, -3.5, 1e-9) << "105 ms are too old";
+  loop.receive(1, {true, -8.0, 0.0}, at_ms(160));
+  loop.run(at_ms(165));
+  loop.receive(1, {false, 0.0, 0.0}, at_ms(180));
+  loop.run(at_ms(185));
+  EXPECT_NEAR(loop.actuation->acceleration, -3.5, 1e-9) << "emergency braking ends while the other list is lost";
+  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kNoNewCommand, kNothingAsked, kApplied}));
+}
+
+TEST(Actuator, TheFateOfEachListOfEmergencyBrakingIsOnRecord) {
+  ByHand loop;
+  loop.receive(0, {true, -1.0, 0.0}, at_ms(200));
+  loop.receive(1, {true, -8.0, 0.0}, at_ms(40));
+  loop.run(at_ms(205));
+  EXPECT_NEAR(loop.actuation->acceleration, -1.0, 1e-9);
+  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kApplied, kLateCommand}));
+  loop.receive(0, {true, -1.0, 0.0}, at_ms(240));
+  loop.receive(1, {false, 0.0, 0.0}, at_ms(240));
+  loop.run(at_ms(245));
+  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kApplied, kNothingAsked}));
+}
+
+// A service with images and odometry by hand.
+template <class Service> struct ByEye : Sink {
+  const char* name;
+  Service step;
   std::vector<Warning> warnings;
   std::optional<CommandIssued> issued;
+  std::int64_t executions = 0;
 
+  explicit ByEye(const char* service) : name(service), step(cluster(), task_of("feature", service), {}) {}
   using Sink::on;
   void on(const Warning& r) override { warnings.push_back(r); }
   void on(const CommandIssued& r) override { issued = r; }
 
   // One car ahead: its middle, and its speed. The own speed was measured that long ago.
+  // Executions are 40 ms apart.
   void look(double x, double speed, double own_speed, Duration measured = {}) {
     constexpr GlobalTime kNow = at_ms(1'000);
-    const schedules::model::Task& task = task_of("feature", "emergency_braking");
+    const schedules::model::Task& task = task_of("feature", name);
     const PduId image_pdu = *cluster().find_pdu("image"), odometry_pdu = *cluster().find_pdu("odometry_list"),
-                command_pdu = *cluster().find_pdu("emergency_command");
+                command_pdu = host::binding_of(task.writes, "command").pdu;
     host::Output image("image", image_pdu, cluster().pdu(image_pdu));
     ttf::fusion::tracks::TrackView car;
     car.state(0) = x;
@@ -165,11 +211,21 @@ struct Braking final : Sink {
     outputs.emplace_back("command", command_pdu, cluster().pdu(command_pdu));
     host::StepContext context;
     context.stamp.global = kNow;
+    context.stamp.local = LocalTime{} + executions * Duration::milliseconds(40);
+    context.activation = static_cast<std::uint32_t>(executions++);
     context.inputs = inputs;
     context.outputs = outputs;
     context.sink = this;
     step.run(context);
   }
+};
+
+struct Braking : ByEye<EmergencyBraking> {
+  Braking() : ByEye("emergency_braking") {}
+};
+struct Cruising : ByEye<AdaptiveCruiseControl> {
+  Cruising() : ByEye("adaptive_cruise_control") {}
+  void look_away() { look(60.0, 10.0, 20.0, Duration::milliseconds(250)); }
 };
 
 TEST(EmergencyBraking, WarnsThenBrakesAndEndsWhenNothingIsApproached) {
@@ -206,6 +262,47 @@ TEST(EmergencyBraking, DoesNotTrustTheSpeedOfOdometryThatHasStopped) {
   braking.look(20.0, 0.0, 20.0, Duration::milliseconds(250));
   EXPECT_FALSE(braking.issued->valid);
   EXPECT_EQ(braking.warnings.size(), 2u) << "the warnings stay";
+}
+
+// The law's command, 2.5 m/s^3 away at most: 0.1 m/s^2 an execution.
+TEST(AdaptiveCruiseControl, FollowsTheLawWithinItsLimits) {
+  Cruising cruising;
+  cruising.look(200.0, 20.0, 20.0);
+  EXPECT_TRUE(cruising.issued->valid);
+  EXPECT_EQ(cruising.issued->reason, kForSetSpeed);
+  EXPECT_NEAR(cruising.issued->acceleration, 0.0, 1e-9) << "nothing goes before the first execution";
+  cruising.look(200.0, 20.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, 0.1, 2e-3);
+  for (int i = 0; i < 60; ++i) cruising.look(200.0, 20.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, 2.0, 2e-3) << "0.4 * (30 - 20) is beyond the limit";
+  for (int i = 0; i < 60; ++i) cruising.look(45.0, 18.0, 20.0);
+  EXPECT_EQ(cruising.issued->reason, kForGap);
+  const double law = 0.23 * (cruising.issued->gap - 2.0 - 1.5 * 20.0) + 0.74 * (18.0 - 20.0);
+  ASSERT_GT(law, -3.5);
+  EXPECT_NEAR(cruising.issued->acceleration, law, 0.02);
+  for (int i = 0; i < 60; ++i) cruising.look(15.0, 0.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, -3.5, 2e-3);
+}
+
+TEST(AdaptiveCruiseControl, RemembersItsCommandInAGapAsShortAsTheCommandsLife) {
+  Cruising cruising;
+  for (int i = 0; i < 60; ++i) cruising.look(15.0, 0.0, 20.0);
+  cruising.look_away();
+  EXPECT_FALSE(cruising.issued->valid);
+  cruising.look(15.0, 0.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, -3.5, 2e-3);
+  for (int i = 0; i < 3; ++i) cruising.look_away();
+  cruising.look(15.0, 0.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, -0.1, 2e-3) << "after 160 ms it begins anew";
+}
+
+// A vehicle that stands holds its brakes until the law asks for 0.3 m/s^2.
+TEST(AdaptiveCruiseControl, WaitsAtAStandstill) {
+  Cruising cruising;
+  for (int i = 0; i < 60; ++i) cruising.look(8.0, 0.0, 0.0);
+  EXPECT_NEAR(cruising.issued->acceleration, -1.0, 2e-3);
+  for (int i = 0; i < 60; ++i) cruising.look(14.0, 0.0, 0.0);
+  EXPECT_GT(cruising.issued->acceleration, 0.3);
 }
 
 }  // namespace

@@ -198,6 +198,9 @@ TEST(DetectionHistory, ExpectsTheMeanOfTheLastTen) {
   EXPECT_EQ(history.primaries(), us(36'500 + 46'300 + 50'000));
   EXPECT_EQ(history.secondary(0.6), us(26'560));
   EXPECT_EQ(history.secondary(0.0), Duration{});
+  DetectionHistory two(1, ms(50), 2);
+  for (const int time : {900, 30, 40}) two.add(0, ms(time));
+  EXPECT_EQ(two.primary(0), ms(35));
 }
 
 TEST(DetectionHistory, DetectionsOccupyWholeSteps) {

@@ -29,6 +29,30 @@ std::string unmet(const ExpectationAnswer& answer) {
   return text;
 }
 
+// A drive that does not stop has no distance; a collision is a share of drives.
+TEST_F(SweepAnswers, AbsentValuesAreCountedAndEventsAreShares) {
+  std::string text = sweep_text(4);
+  text.replace(text.find("position_rmse_truth, age_fused"), 30, "stopping_distance, collision");
+  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  const auto row = [](std::uint32_t point, std::uint32_t r, std::uint32_t paradigm, double distance, double collision) {
+    return results::Row{{point, r, paradigm}, results::kDone, {distance, collision}};
+  };
+  for (std::uint32_t r = 0; r < 4; ++r)
+    made.add({row(0, r, 0, 70.0 + r, 0.0), row(0, r, 1, r == 0 ? std::nan("") : 71.0 + r, r == 0 ? 1.0 : 0.0)});
+  const SweepAnswer answer = answer_of(sweep, made);
+  EXPECT_EQ(answer.points[0].means[1][0].count, 3u);
+  EXPECT_EQ(answer.points[0].differences[1][0].count, 3u);
+  EXPECT_NEAR(answer.points[0].differences[1][0].mean, 1.0, 1e-12);
+  EXPECT_NEAR(answer.points[0].means[1][1].mean, 0.25, 1e-12);
+  EXPECT_NEAR(answer.points[0].means[1][1].low(), 0.0456, 1e-4);
+  EXPECT_NEAR(answer.points[0].means[1][1].high(), 0.6994, 1e-4);
+  EXPECT_GT(answer.points[0].differences[1][1].half_width, 0.1);
+  EXPECT_THAT(answer_text(sweep, answer), testing::HasSubstr(" of 3"));
+  EXPECT_EQ(interval_text(answer.points[0].means[1][1], false), "0.25 (0.05 to 0.70)");
+}
+
 TEST_F(SweepAnswers, DifferencesArePaired) {
   const SweepFile sweep =
       small_sweep(4,

@@ -24,7 +24,7 @@ EgoConfig at_speed(double speed) {
   return config;
 }
 
-TEST(Driven, KeepsItsSpeedUntilTheFirstCommand) {
+TEST(Driven, KeepsItsSpeedUntilTheFirstCommandIfItHolds) {
   Driven driven(at_speed(20.0), nullptr, kLong);
   EXPECT_NEAR(driven.at(at_ms(5000)).x, 100.0, 1e-6);
   EXPECT_NEAR(driven.at(at_ms(5000)).vx, 20.0, 1e-9);
@@ -44,6 +44,17 @@ TEST(Driven, FollowsACommandWithItsLag) {
     EXPECT_NEAR(motion.vx, 20.0 + asked * (t - lag * left), 1e-9) << after;
     EXPECT_NEAR(motion.acceleration, asked * left, 1e-9) << after;
   }
+}
+
+TEST(Driven, ReactsWithoutAFirstCommandToo) {
+  EgoConfig config = at_speed(20.0);
+  config.actuator->lag = {};
+  config.actuator->without = WithoutCommand::kBrake;
+  Driven driven(config, nullptr, kLong);
+  EXPECT_NEAR(driven.at(at_ms(200)).vx, 20.0, 1e-9);
+  EXPECT_NEAR(driven.at(at_ms(1200)).vx, 16.0, 1e-9);
+  driven.actuate({at_ms(1300), 0.0, 0.0});
+  EXPECT_NEAR(driven.at(at_ms(1400)).vx, 20.0 - 1.1 * 4.0, 1e-9);
 }
 
 TEST(Driven, ItsWayDependsOnTheCommandsAlone) {
@@ -76,9 +87,9 @@ TEST(Driven, WithoutCommandsItHoldsDecaysOrBrakes) {
     config.actuator->decay = Duration::milliseconds(500);
     config.actuator->deceleration = 5.0;
     Driven driven(config, nullptr, kLong);
-    driven.actuate({at_ms(1000), 2.0, 0.0});
-    EXPECT_NEAR(driven.at(at_ms(1200)).vx, 20.4, 1e-9);
-    return driven.at(at_ms(2200)).vx;
+    driven.actuate({at_ms(100), 2.0, 0.0});
+    EXPECT_NEAR(driven.at(at_ms(300)).vx, 20.4, 1e-9);
+    return driven.at(at_ms(1300)).vx;
   };
   EXPECT_NEAR(speed_after(WithoutCommand::kHold), 22.4, 1e-9);
   EXPECT_NEAR(speed_after(WithoutCommand::kDecay), 20.4 + 2.0 * 0.5 * (1.0 - std::exp(-2.0)), 3e-3);
@@ -90,9 +101,9 @@ TEST(Driven, ACommandEndsTheReaction) {
   config.actuator->lag = {};
   config.actuator->without = WithoutCommand::kBrake;
   Driven driven(config, nullptr, kLong);
-  driven.actuate({at_ms(1000), 0.0, 0.0});
-  driven.actuate({at_ms(2000), 0.0, 0.0});
-  EXPECT_NEAR(driven.at(at_ms(2100)).vx, 20.0 - 0.8 * 4.0, 1e-9);
+  driven.actuate({at_ms(100), 0.0, 0.0});
+  driven.actuate({at_ms(1100), 0.0, 0.0});
+  EXPECT_NEAR(driven.at(at_ms(1200)).vx, 20.0 - 0.8 * 4.0, 1e-9);
 }
 
 TEST(Driven, StandsAfterBrakingAndStartsAgain) {

@@ -1,0 +1,125 @@
+#include "drives/detectors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/counted.h"
+#include "core/nearest.h"
+#include "schedules/model/ports.h"
+
+namespace ttf::drives {
+namespace {
+
+using schedules::model::Cluster;
+using schedules::model::PortBinding;
+using schedules::model::Task;
+
+constexpr std::string_view kRegions = "regions";
+
+bool has_port(const std::vector<PortBinding>& bindings, std::string_view port) {
+  return std::ranges::any_of(bindings, [&](const PortBinding& one) { return one.port == port; });
+}
+
+void check_ports(const Cluster& cluster, const Task& task, const std::string& path, Findings& findings) {
+  std::size_t cameras = 0;
+  for (const PortBinding& read : task.reads) {
+    if (read.port == kRegions) continue;
+    ++cameras;
+    const auto fail = [&](std::string expected) {
+      findings.add(
+          {cluster.file, read.line, path + ".reads." + read.port, cluster.pdu(read.pdu).name, std::move(expected)});
+    };
+    if (cluster.sensor(cluster.pdu(read.pdu).sensor).kind != schedules::model::SensorKind::kMonoCamera)
+      fail("must be a list of a mono_camera: the detector looks at pictures");
+    const std::string written = schedules::model::written_port(read.port);
+    if (!has_port(task.writes, written))
+      fail(fmt::format("needs a port {} among writes: the objects of these pictures leave there", written));
+  }
+  for (const PortBinding& written : task.writes)
+    if (std::ranges::none_of(task.reads, [&](const PortBinding& read) {
+          return schedules::model::written_port(read.port) == written.port;
+        }))
+      findings.add({cluster.file, written.line, path + ".writes." + written.port, cluster.pdu(written.pdu).name,
+                    "must be absent: no pictures of this camera are read"});
+  if (cameras == 0)
+    findings.add({cluster.file, task.line, path + ".reads", "",
+                  "must have a list of a camera: an adaptive camera without one sees nothing"});
+  if (cameras > schedules::sequence::kMostSensors)
+    findings.add({cluster.file, task.line, path + ".reads", std::to_string(cameras),
+                  fmt::format("must be at most {} cameras", schedules::sequence::kMostSensors)});
+}
+
+void check_times(const Cluster& cluster, const Task& task, const std::string& path, Findings& findings) {
+  if (task.activation.kind != schedules::model::ActivationKind::kTime) {
+    findings.add({cluster.file, task.line, path + ".activation", "",
+                  "must be of kind time: a detection takes whole steps, and an execution is one"});
+    return;
+  }
+  const Duration step = cluster.cycle() * task.activation.at.repetition;
+  if (task.holds < step * 2)
+    findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+                  fmt::format("must be at least {:g} ms: a detection takes at least two executions", in_ms(step * 2))});
+}
+
+}  // namespace
+
+bool is_detector(const Task& task) { return task.step == "adaptive_camera"; }
+
+std::vector<SensorId> cameras_of(const Cluster& cluster, const Task& task) {
+  std::vector<SensorId> cameras;
+  for (const PortBinding& read : task.reads)
+    if (read.port != kRegions) cameras.push_back(cluster.pdu(read.pdu).sensor);
+  return cameras;
+}
+
+void check_detectors(const Cluster& cluster, Findings& findings) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const Task& task : node.tasks) {
+      const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
+      if (is_detector(task)) {
+        check_ports(cluster, task, path, findings);
+        check_times(cluster, task, path, findings);
+      } else if (task.holds > Duration{}) {
+        findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+                      fmt::format("must be absent: step {} writes at the end of the execution that reads", task.step)});
+      }
+    }
+}
+
+void check_regions(const Scenario& scenario, const Cluster& cluster) {
+  Findings findings;
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const Task& task : node.tasks) {
+      if (!is_detector(task)) continue;
+      std::vector<std::string> names;
+      for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
+      for (const nodes::vision::FixedRegion& fixed : scenario.adaptive_camera.regions) {
+        if (std::ranges::find(names, fixed.camera) == names.end())
+          findings.add({scenario.file, fixed.line, "adaptive_camera.regions.camera", fixed.camera,
+                        fmt::format("must be a camera of the node {} of {}: {}{}", node.name, cluster.file,
+                                    joined(names, " or "), did_you_mean(fixed.camera, names))});
+        if (has_port(task.reads, kRegions))
+          findings.add(
+              {scenario.file, fixed.line, "adaptive_camera.regions", "",
+               fmt::format("must be absent: in {} the detector reads its regions from the bus", cluster.file)});
+      }
+    }
+  findings.throw_if_any();
+}
+
+std::vector<nodes::vision::SharedCamera> pictures_of(const Scenario& scenario, const Cluster& cluster,
+                                                     const Task& task) {
+  std::vector<nodes::vision::SharedCamera> pictures;
+  for (const SensorId camera : cameras_of(cluster, task)) {
+    const std::string& name = cluster.sensor(camera).name;
+    const sim::world::MonoCameraConfig& model = scenario.sensors.mono_cameras.of(name).model;
+    pictures.push_back({model.focal_px * std::tan(model.half_field_rad), model.half_height_px,
+                        scenario.sensors.mono_cameras.preprocessing_of(name)});
+  }
+  return pictures;
+}
+
+}  // namespace ttf::drives

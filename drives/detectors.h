@@ -1,0 +1,25 @@
+// Checks of adaptive cameras (nodes/vision/adaptive_camera.h).
+#pragma once
+
+#include "core/errors.h"
+#include "drives/scenario.h"
+#include "nodes/vision/adaptive_camera.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::drives {
+
+// Returns whether the task is an adaptive camera.
+bool is_detector(const schedules::model::Task& task);
+// Returns the cameras that share the detector, in the order of the ports read.
+std::vector<SensorId> cameras_of(const schedules::model::Cluster& cluster, const schedules::model::Task& task);
+
+// Checks the cluster's adaptive cameras; their ports are bound.
+void check_detectors(const schedules::model::Cluster& cluster, Findings& findings);
+// Checks the scenario's regions of interest. Throws InputError with every finding.
+void check_regions(const Scenario& scenario, const schedules::model::Cluster& cluster);
+
+// Returns the pictures of the detector's cameras, as the scenario describes them.
+std::vector<nodes::vision::SharedCamera> pictures_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                                                     const schedules::model::Task& task);
+
+}  // namespace ttf::drives

@@ -1,0 +1,61 @@
+// Plans the speed behind the most important object (nodes/control/gap_planner.h), and tells a camera where to look for it.
+//
+// Objects are judged in the axes of the own lane, which is straight. The place on it is that of odometry (own_place.h). The gap
+// lies between the own front and the object's outline.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "nodes/control/gap_planner.h"
+#include "nodes/driving/ahead.h"
+#include "nodes/driving/interest.h"
+#include "nodes/driving/own_place.h"
+#include "nodes/driving/plan.h"
+#include "nodes/host/step.h"
+
+namespace ttf::nodes::driving {
+
+struct PlannerConfig {
+  control::GapPlannerConfig law;
+  double lane_width_m = 4.0;
+  double width_m = 1.8;  // the own vehicle's; half of it is added on either side of the lane
+  PathConfig path;
+  InterestConfig interest;
+};
+// Reads all but the vehicle's front and width.
+PlannerConfig load_planner(YamlMap& yaml);
+
+// Ports `image` and `odometry` -> `plan`, and `regions` if it is bound (nodes/vision/regions.h). Each execution issues a plan and a
+// list of regions. Without a view of the way ahead the plan is invalid, except for a stop, and nothing is of interest.
+class MotionPlanner final : public host::Step {
+ public:
+  // `pictures` are those of the cluster's cameras; the first one that sees the object gets the region.
+  MotionPlanner(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                const PlannerConfig& config, std::vector<Picture> pictures);
+  void run(host::StepContext& context) override;
+
+ private:
+  struct Chosen {
+    std::size_t index = 0;  // among the image's objects
+    control::MostImportant object;
+  };
+  std::optional<Chosen> most_important(const Place& own);
+  void tell_region(host::StepContext& context, const std::optional<Chosen>& chosen,
+                   recording::records::PlanMade& record);
+
+  PlannerConfig config_;
+  std::vector<Picture> pictures_;
+  WayAhead way_;
+  OwnPlace place_;
+  PlanOutput plan_;
+  std::optional<vision::RegionOutput> regions_;
+  std::vector<recording::records::ImageObject> objects_;
+  std::vector<control::Candidate> candidates_;
+  control::PlannerMemory memory_;
+  std::optional<LocalTime> start_;  // the first execution
+};
+
+}  // namespace ttf::nodes::driving
