@@ -306,7 +306,11 @@ void PerfettoExport::on(const records::FeatureUsed& r) {
 
 void PerfettoExport::on(const records::StateChanged& r) {
   std::vector<TraceNote> notes{{"from", std::string(r.from_name)}, {"why", std::string(r.why)}};
-  if (!r.consequence.empty()) notes.push_back({"consequence", std::string(r.consequence)});
+  if (!r.consequence.empty()) {
+    TraceNote& note = notes.emplace_back();
+    note.name = "consequence";
+    note.value.emplace<std::string>(r.consequence);
+  }
   node_instant(r.stamp.node, "controller", r.stamp.true_time, std::string(r.to_name), std::move(notes));
 }
 

@@ -14,13 +14,13 @@ namespace {
 using schedules::model::Channel;
 
 // A single node 3. Sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
-struct Listener {
+struct SyncListener {
   schedules::model::Cluster cluster = small_cluster(4);
   NoPort port;
   Heard heard;
   FlexRayController controller;
 
-  explicit Listener(schedules::model::Cluster made = small_cluster(4))
+  explicit SyncListener(schedules::model::Cluster made = small_cluster(4))
       : cluster(std::move(made)), controller(cluster, NodeId{3}, port, heard) {
     controller.start_integrated({{0}, 0});
   }
@@ -47,7 +47,7 @@ struct Listener {
 
 // The own frame's 0, and those late by 10, 20 and 300: one dropped at each end, (10 + 20) / 2.
 TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
-  Listener node;
+  SyncListener node;
   node.next_cycle();
   node.both(1, 10);
   node.both(2, 300);
@@ -64,7 +64,7 @@ TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
 }
 
 TEST(Deviations, TheSmallerChannelCounts) {
-  Listener node;
+  SyncListener node;
   node.next_cycle();
   node.sync_frame(1, 30, Channel::kA);
   node.sync_frame(1, 22, Channel::kB);
@@ -73,7 +73,7 @@ TEST(Deviations, TheSmallerChannelCounts) {
 }
 
 TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
-  Listener node;
+  SyncListener node;
   node.both(1, 50);
   node.end_static_segment();
   EXPECT_TRUE(node.heard.corrected.empty());
@@ -87,7 +87,7 @@ TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
   schedules::model::Cluster cluster = small_cluster(4);
   cluster.nodes[3].flexray->pDelayCompensationA = 10;
   cluster.nodes[3].flexray->pDelayCompensationB = 4;
-  Listener node(cluster);
+  SyncListener node(cluster);
   node.next_cycle();
   node.sync_frame(1, 30, Channel::kA);  // 20
   node.sync_frame(2, 30, Channel::kB);  // 26
@@ -108,7 +108,7 @@ TEST(Deviations, FramesWithoutSyncIndicatorAreNotMeasured) {
 }
 
 TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
-  Listener node;
+  SyncListener node;
   node.both(1, 5);
   node.both(2, 5);
   node.both(3, 5);
@@ -131,7 +131,7 @@ TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
 }
 
 TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
-  Listener node;
+  SyncListener node;
   node.both(1, 5);
   for (int cycle = 0; cycle < 3; ++cycle) node.next_cycle();
   node.both(1, 45);  // odd cycle 3; even cycle 2 had no arrivals

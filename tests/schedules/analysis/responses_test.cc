@@ -7,12 +7,10 @@
 
 #include "core/random.h"
 #include "schedules/analysis/slot_groups.h"
+#include "tests/schedules/durations.h"
 
 namespace ttf::schedules::analysis {
 namespace {
-
-constexpr Duration ms(int n) { return Duration::milliseconds(n); }
-constexpr Duration us(int n) { return Duration::microseconds(n); }
 
 model::Task task(std::string name, model::ActivationKind kind, Duration execution) {
   model::Task one;

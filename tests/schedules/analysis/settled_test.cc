@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kStamp = 1'000 + 500;                               // a macrotick old, rounded to 1 us
 constexpr std::int64_t kToSlot = 1'000'000 + kRounding + kApart + kStamp;  // from the stamp, at the latest
 constexpr std::int64_t kRound = 320'000'000;
-constexpr std::int64_t ms(std::int64_t n) { return n * 1'000'000; }
+constexpr std::int64_t ms_in_ns(std::int64_t n) { return n * 1'000'000; }
 
 // The first instant from which on a list of this stamp is no longer awaited.
 GlobalTime waited_until(const SettledRound& round, GlobalTime stamp) {
@@ -31,10 +31,10 @@ TEST(Settled, OneStepPerFusionInstant) {
   EXPECT_EQ(round->round.ns, kRound);
   ASSERT_EQ(round->instants.size(), 32u);
   for (const Settled& settled : round->instants) {
-    EXPECT_EQ(settled.at.ns % ms(10), ms(6));
+    EXPECT_EQ(settled.at.ns % ms_in_ns(10), ms_in_ns(6));
     EXPECT_EQ((settled.at - settled.measured).ns, 832'000 + kToSlot);
   }
-  for (std::size_t i = 1; i < 32; ++i) EXPECT_EQ((round->instants[i].at - round->instants[i - 1].at).ns, ms(10));
+  for (std::size_t i = 1; i < 32; ++i) EXPECT_EQ((round->instants[i].at - round->instants[i - 1].at).ns, ms_in_ns(10));
 }
 
 // For any stamp, by enumeration. The list takes the first slot that begins once it is there. The first fusion
@@ -47,9 +47,9 @@ TEST(Settled, IsTheFirstFusionInstantAfterTheLatestWay) {
     ASSERT_TRUE(round.has_value());
     const auto latest = [&](std::int64_t stamp) {
       std::int64_t slot = 168'000;
-      while (slot < stamp + kToSlot) slot += ms(5);
-      std::int64_t fusion = ms(5) + offset_us * 1'000;
-      while (fusion < slot + 84'000 + kApart) fusion += ms(10);
+      while (slot < stamp + kToSlot) slot += ms_in_ns(5);
+      std::int64_t fusion = ms_in_ns(5) + offset_us * 1'000;
+      while (fusion < slot + 84'000 + kApart) fusion += ms_in_ns(10);
       return fusion;
     };
     for (std::int64_t stamp = 0; stamp < kRound; stamp += 77'777)
@@ -57,7 +57,7 @@ TEST(Settled, IsTheFirstFusionInstantAfterTheLatestWay) {
     // To the nanosecond at every slot.
     for (int cycle = 1; cycle < 64; ++cycle)
       for (const std::int64_t off : {-1, 0, 1}) {
-        const std::int64_t stamp = cycle * ms(5) + 168'000 - kToSlot + off;
+        const std::int64_t stamp = cycle * ms_in_ns(5) + 168'000 - kToSlot + off;
         ASSERT_EQ(waited_until(*round, GlobalTime{stamp}).ns, latest(stamp)) << "stamp " << stamp;
       }
   }
@@ -72,7 +72,7 @@ TEST(Settled, SlotsOfFewCycles) {
   ASSERT_TRUE(round.has_value());
   ASSERT_EQ(round->instants.size(), 8u);
   for (const Settled& settled : round->instants) {
-    EXPECT_EQ(settled.at.ns % ms(40), ms(16));
+    EXPECT_EQ(settled.at.ns % ms_in_ns(40), ms_in_ns(16));
     EXPECT_EQ((settled.at - settled.measured).ns, 6'000'000 - 168'000 + kToSlot);
   }
 }
@@ -88,8 +88,8 @@ TEST(Settled, SlotsOfTwoGroupsOfCycles) {
   ASSERT_TRUE(round.has_value());
   ASSERT_EQ(round->instants.size(), 16u);
   for (const Settled& settled : round->instants) {
-    const bool first = settled.at.ns % ms(40) == ms(6);
-    EXPECT_TRUE(first || settled.at.ns % ms(40) == ms(26)) << settled.at.ns;
+    const bool first = settled.at.ns % ms_in_ns(40) == ms_in_ns(6);
+    EXPECT_TRUE(first || settled.at.ns % ms_in_ns(40) == ms_in_ns(26)) << settled.at.ns;
     EXPECT_EQ((settled.at - settled.measured).ns, (first ? 832'000 : 5'832'000) + kToSlot);
   }
 }
@@ -111,7 +111,7 @@ TEST(Settled, WithoutSlots) {
   ASSERT_TRUE(round.has_value());
   ASSERT_EQ(round->instants.size(), 32u);
   for (const Settled& settled : round->instants) {
-    EXPECT_EQ(settled.at.ns % ms(10), ms(6));
+    EXPECT_EQ(settled.at.ns % ms_in_ns(10), ms_in_ns(6));
     EXPECT_EQ(settled.at - settled.measured, path.stages[0].worst + path.stages[1].worst + Duration{kApart + kStamp});
   }
 }
@@ -134,8 +134,8 @@ TEST(SettledShipped, ScheduledListsAreDueInTheCycleOfTheirSlots) {
   const auto camera = settled_round(cluster, *cluster.find_sensor("camera"));
   ASSERT_TRUE(laser.has_value() && camera.has_value());
   for (std::int64_t n = 0; n < 8; ++n) {
-    EXPECT_EQ(waited_until(*laser, GlobalTime{ms(80 * n) + 27'700'000}).ns, ms(80 * n) + 81'800'000);
-    EXPECT_EQ(waited_until(*camera, GlobalTime{ms(40 * n) + 5'900'000}).ns, ms(40 * n) + 41'800'000);
+    EXPECT_EQ(waited_until(*laser, GlobalTime{ms_in_ns(80 * n) + 27'700'000}).ns, ms_in_ns(80 * n) + 81'800'000);
+    EXPECT_EQ(waited_until(*camera, GlobalTime{ms_in_ns(40 * n) + 5'900'000}).ns, ms_in_ns(40 * n) + 41'800'000);
   }
 }
 

@@ -9,12 +9,11 @@
 #include "schedules/exchange/text.h"
 #include "tests/schedules/check/mutation.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/schedules/durations.h"
 #include "tests/schedules/small_cluster.h"
 
 namespace ttf::schedules::check {
 namespace {
-
-constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
 // 40 slots of 84 us, the first 34 in use, 7 us to the action point: 7 x 84 - 7 = 581 us of room. A cycle of 5
 // ms.

@@ -12,14 +12,12 @@
 #include "schedules/analysis/chain/rest.h"
 #include "schedules/sequence/generator.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/schedules/durations.h"
 
 namespace ttf::schedules::modes {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
-constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
 // The camera's preprocessing stands for a detector of three cameras. Frames are those of table 4.
 class DetectionModes : public ::testing::Test {

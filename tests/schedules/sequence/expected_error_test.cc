@@ -6,11 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/schedules/durations.h"
+
 namespace ttf::schedules::sequence {
 namespace {
-
-constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
-constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
 // The steady alpha-beta filter (Bar-Shalom et al., 2001, 6.5.3): beta^2 / (1 - alpha) = q T^3 / R and
 // alpha = sqrt(2 beta + beta^2 / 12) - beta / 2. Returns the covariance behind an update.

@@ -9,12 +9,10 @@
 #include "schedules/sequence/generator.h"
 #include "schedules/sequence/history.h"
 #include "schedules/sequence/intervals.h"
+#include "tests/schedules/durations.h"
 
 namespace ttf::schedules::sequence {
 namespace {
-
-constexpr Duration ms(std::int64_t n) { return Duration::milliseconds(n); }
-constexpr Duration us(std::int64_t n) { return Duration::microseconds(n); }
 
 // Asks for that many slots: the free time is m seconds and a half, a secondary detection takes one.
 FrameRequest with_slots(int sensors, std::span<const int> interest, int slots, SlotOrder order = SlotOrder::kText) {
