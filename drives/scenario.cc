@@ -82,7 +82,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     emergency->finish();
   }
   if (auto lane = root.map_if("lane_keeping")) {
-    scenario.lane_keeping = nodes::driving::load_lane_keeping(*lane);
+    scenario.lane_keeping = nodes::driving::steering::load_lane_keeping(*lane);
     lane->finish();
   }
   if (auto blind_spot = root.map_if("blind_spot_warning")) {

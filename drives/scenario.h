@@ -19,8 +19,8 @@
 #include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
-#include "nodes/driving/lane_keeping.h"
 #include "nodes/driving/motion_planner.h"
+#include "nodes/driving/steering/lane_keeping.h"
 #include "nodes/driving/vehicle_control.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
@@ -57,7 +57,7 @@ struct Scenario {
   nodes::vision::AdaptiveCameraConfig adaptive_camera;
   nodes::driving::CruiseConfig cruise;
   nodes::driving::EmergencyConfig emergency;
-  nodes::driving::LaneKeepingConfig lane_keeping;
+  nodes::driving::steering::LaneKeepingConfig lane_keeping;
   nodes::driving::BlindSpotConfig blind_spot;
   nodes::driving::PlannerConfig planner;
   nodes::driving::ControlConfig control;

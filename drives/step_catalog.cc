@@ -15,8 +15,8 @@
 #include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
-#include "nodes/driving/lane_keeping.h"
 #include "nodes/driving/motion_planner.h"
+#include "nodes/driving/steering/lane_keeping.h"
 #include "nodes/driving/vehicle_control.h"
 #include "nodes/foreign/foreign_step.h"
 #include "nodes/fusion/fusion_host.h"
@@ -58,9 +58,10 @@ std::string_view name_read(const schedules::model::Cluster& cluster, const sched
   return name_of(cluster, cluster.pdu(nodes::host::binding_of(task.reads, "raw").pdu).sensor);
 }
 // Returns the service's parameters, with the vehicle's and the camera's.
-nodes::driving::LaneKeepingConfig lane_keeping_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                                                  const schedules::model::Task& task) {
-  nodes::driving::LaneKeepingConfig config = scenario.lane_keeping;
+nodes::driving::steering::LaneKeepingConfig lane_keeping_of(const Scenario& scenario,
+                                                            const schedules::model::Cluster& cluster,
+                                                            const schedules::model::Task& task) {
+  nodes::driving::steering::LaneKeepingConfig config = scenario.lane_keeping;
   const sim::world::vehicle::EgoConfig& ego = ego_of(scenario);
   const sim::world::vehicle::Parameters& vehicle = ego.vehicle;
   config.wheelbase_m = vehicle.wheelbase();
@@ -225,8 +226,8 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       emergency.path.front_m = ego_of(scenario).front;
       steps.push_back(std::make_shared<nodes::driving::EmergencyBraking>(cluster, task, emergency));
     } else if (task.step == "lane_keeping") {
-      steps.push_back(
-          std::make_shared<nodes::driving::LaneKeeping>(cluster, task, lane_keeping_of(scenario, cluster, task)));
+      steps.push_back(std::make_shared<nodes::driving::steering::LaneKeeping>(
+          cluster, task, lane_keeping_of(scenario, cluster, task)));
     } else if (task.step == "blind_spot_warning") {
       nodes::driving::BlindSpotConfig blind_spot = scenario.blind_spot;
       blind_spot.width_m = ego_of(scenario).width;

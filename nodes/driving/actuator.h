@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "nodes/driving/command.h"
-#include "nodes/driving/lateral.h"
+#include "nodes/driving/steering/commands.h"
 #include "nodes/host/step.h"
 #include "sim/world/vehicle/actuator.h"
 
@@ -16,7 +16,7 @@ namespace ttf::nodes::driving {
 // away, or if it is invalid. An accepted command lives until its service's next list, or until it is older than `oldest`. So a lost list
 // ends no command. The strongest deceleration among the living ones counts, with the wheels of `command`. It is handed over
 // when a list is new. A list that lost a fragment, or whose frame was not intact, never gets here
-// (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (lateral.h).
+// (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (steering/commands.h).
 class Actuator final : public host::Step {
  public:
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -43,7 +43,7 @@ class Actuator final : public host::Step {
   Duration round_;
   Port command_;
   std::optional<Port> emergency_;
-  std::optional<LateralCommands> lateral_;
+  std::optional<steering::LateralCommands> lateral_;
   double steering_ = 0.0;  // [rad], of the last accepted command
 };
 

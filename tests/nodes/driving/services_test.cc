@@ -10,7 +10,7 @@
 #include "nodes/driving/actuator.h"
 #include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/blind_spot_warning.h"
-#include "nodes/driving/lane_keeping.h"
+#include "nodes/driving/steering/lane_keeping.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::nodes::driving {
@@ -18,6 +18,8 @@ namespace {
 
 using namespace recording::records;
 using sim::world::vehicle::WithoutCommand;
+using steering::LaneKeeping;
+using steering::LaneKeepingConfig;
 
 constexpr std::int64_t kStep_ms = 40;
 

@@ -1,8 +1,8 @@
-#include "nodes/driving/lateral.h"
+#include "nodes/driving/steering/commands.h"
 
 #include <algorithm>
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 
 using recording::records::CommandTaken;
 
@@ -54,4 +54,4 @@ void LateralCommands::combine(host::StepContext& context) {
   context.sink->on(taken);
 }
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

@@ -13,7 +13,7 @@
 #include "nodes/host/step.h"
 #include "schedules/model/cluster.h"
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 
 struct LaneLine {
   double offset = 0.0;     // [m], to the left
@@ -64,4 +64,4 @@ class OwnLane {
   double width_;
 };
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

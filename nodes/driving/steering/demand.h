@@ -7,7 +7,7 @@
 #include "core/time.h"
 #include "sim/world/vehicle/actuator.h"
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 
 class Demand {
  public:
@@ -25,4 +25,4 @@ class Demand {
   std::optional<Newest> newest_;
 };
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

@@ -7,10 +7,10 @@
 #include "core/strict_yaml.h"
 #include "nodes/control/stanley.h"
 #include "nodes/driving/command.h"
-#include "nodes/driving/lane.h"
+#include "nodes/driving/steering/lane.h"
 #include "nodes/host/step.h"
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 
 struct LaneKeepingConfig {
   control::StanleyGains gains{.offset = 1.0, .yaw_rate_s = 0.15, .steering = 0.0};
@@ -42,4 +42,4 @@ class LaneKeeping final : public host::Step {
   bool departs_ = false;
 };
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

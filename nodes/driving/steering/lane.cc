@@ -1,11 +1,11 @@
-#include "nodes/driving/lane.h"
+#include "nodes/driving/steering/lane.h"
 
 #include <cmath>
 
 #include "nodes/driving/ahead.h"
 #include "nodes/host/signals.h"
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 namespace {
 
 // Marks further than this from their expected place belong to another lane, or to none.
@@ -104,4 +104,4 @@ std::optional<LaneLine> OwnLane::met(const host::Input& marks, const std::option
                   taken_up(expected->curvature, seen.curvature)};
 }
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

@@ -8,11 +8,11 @@
 #include <cstddef>
 
 #include "nodes/driving/command.h"
-#include "nodes/driving/demand.h"
+#include "nodes/driving/steering/demand.h"
 #include "nodes/host/step.h"
 #include "sim/world/vehicle/actuator.h"
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 
 class LateralCommands {
  public:
@@ -32,4 +32,4 @@ class LateralCommands {
   Demand pull_, wheels_;
 };
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

@@ -1,10 +1,10 @@
-#include "nodes/driving/lane_keeping.h"
+#include "nodes/driving/steering/lane_keeping.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 namespace {
 
 constexpr double kNoObject = std::numeric_limits<double>::infinity();
@@ -65,4 +65,4 @@ void LaneKeeping::run(host::StepContext& context) {
   out_.issue(context, {true, 0.0, steering_for(*lane)}, record);
 }
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering

@@ -1,8 +1,8 @@
-#include "nodes/driving/demand.h"
+#include "nodes/driving/steering/demand.h"
 
 #include <cmath>
 
-namespace ttf::nodes::driving {
+namespace ttf::nodes::driving::steering {
 
 bool Demand::alone(const sim::world::vehicle::ActuatorConfig& config, LocalTime now) const {
   return newest_ && now - newest_->at >= config.after;
@@ -15,4 +15,4 @@ double Demand::value(const sim::world::vehicle::ActuatorConfig& config, LocalTim
   return newest_->value * std::exp(-since.seconds() / config.decay.seconds());
 }
 
-}  // namespace ttf::nodes::driving
+}  // namespace ttf::nodes::driving::steering
