@@ -232,7 +232,7 @@ TEST(ActuatorWithLateral, EachAxisFollowsItsOwnCommands) {
   ASSERT_TRUE(brakes);
   EXPECT_NEAR(brakes->acceleration, -8.0, 1e-9);
   EXPECT_NEAR(brakes->steering, 0.02, 1e-9) << "the wheels stay";
-  EXPECT_EQ(wheels.taken[1].verdict, kNoNewCommand);
+  EXPECT_EQ(wheels.taken.back().verdict, kNoNewCommand);
   wheels.command("lateral", 0.0, 0.03);
   const auto steers = wheels.run(wheels.step);
   ASSERT_TRUE(steers);
