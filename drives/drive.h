@@ -61,6 +61,8 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
 // Checks that commands drive the scenario's vehicle where the cluster has an actuator, and only there: one actuator, which is
 // done with a command before the vehicle answers, and sensors that see no future. Throws InputError; run_drive() calls it too.
 void check_loop(const Scenario& scenario, const schedules::model::Cluster& cluster);
+// Returns a warning if commands drive the vehicle, and an object follows; else "". Objects' ways are drawn beforehand.
+std::string following_warning(const Scenario& scenario);
 // Checks that a drive in real time has no vehicle that commands drive. Throws InputError.
 void check_open_loop(const Scenario& scenario);
 // Checks that the cluster describes tasks: a bus description passes the schedule's checks, but no node could run it. Throws

@@ -93,6 +93,11 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
     throw InputError({scenario.file, line, key + ".oldest", fmt::format("{:g} ms", in_ms(oldest)),
                       fmt::format("must be below {:g} ms: stamps are told apart within a round of {}",
                                   in_ms(oldest_told(cluster)), cluster.file)});
+  for (const Node& node : cluster.nodes)
+    for (const Task& service : node.tasks)
+      if (service.step == "lane_keeping" && !scenario.world.road)
+        throw InputError({cluster.file, service.line, "nodes." + node.name + ".tasks." + service.name + ".step",
+                          "lane_keeping", fmt::format("needs a lane: {} has no world.road", scenario.file)});
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
     const sim::world::DriveError time = device_of(scenario.sensors, sensor).time;
     if (time.fixed != 0.0 || time.sigma != 0.0)
@@ -102,6 +107,19 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                        "are still to come will drive the vehicle",
                        sensor.name)});
   }
+}
+
+std::string following_warning(const Scenario& scenario) {
+  if (!scenario.world.ego || !scenario.world.ego->actuator || scenario.truth) return "";
+  const auto follows = [](const sim::world::ObjectConfig& object) { return object.on && object.on->follow; };
+  const auto first = std::ranges::find_if(scenario.world.objects, follows);
+  if (first == scenario.world.objects.end()) return "";
+  return Finding{
+      scenario.file, scenario.world.ego->actuator_line, "world.ego.actuator", "",
+      fmt::format("drives a vehicle that objects which follow do not see, such as {}: they may drive through "
+                  "it",
+                  first->name)}
+      .sentence();
 }
 
 void check_open_loop(const Scenario& scenario) {

@@ -81,6 +81,14 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.emergency = nodes::driving::load_emergency(*emergency);
     emergency->finish();
   }
+  if (auto lane = root.map_if("lane_keeping")) {
+    scenario.lane_keeping = nodes::driving::steering::load_lane_keeping(*lane);
+    lane->finish();
+  }
+  if (auto blind_spot = root.map_if("blind_spot_warning")) {
+    scenario.blind_spot = nodes::driving::load_blind_spot(*blind_spot);
+    blind_spot->finish();
+  }
   if (auto planner = root.map_if("motion_planner")) {
     scenario.planner = nodes::driving::load_planner(*planner);
     planner->finish();

@@ -17,8 +17,10 @@
 #include "fusion/metrics/cut_off.h"
 #include "fusion/strategies/strategy.h"
 #include "nodes/driving/adaptive_cruise_control.h"
+#include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
 #include "nodes/driving/motion_planner.h"
+#include "nodes/driving/steering/lane_keeping.h"
 #include "nodes/driving/vehicle_control.h"
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
@@ -55,6 +57,8 @@ struct Scenario {
   nodes::vision::AdaptiveCameraConfig adaptive_camera;
   nodes::driving::CruiseConfig cruise;
   nodes::driving::EmergencyConfig emergency;
+  nodes::driving::steering::LaneKeepingConfig lane_keeping;
+  nodes::driving::BlindSpotConfig blind_spot;
   nodes::driving::PlannerConfig planner;
   nodes::driving::ControlConfig control;
   double reaction_speed_mps = 27.0;  // the reaction time is judged at it (evaluation/driving/driving_account.h)

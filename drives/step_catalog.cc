@@ -13,8 +13,10 @@
 #include "drives/played_recording.h"
 #include "nodes/driving/actuator.h"
 #include "nodes/driving/adaptive_cruise_control.h"
+#include "nodes/driving/blind_spot_warning.h"
 #include "nodes/driving/emergency_braking.h"
 #include "nodes/driving/motion_planner.h"
+#include "nodes/driving/steering/lane_keeping.h"
 #include "nodes/driving/vehicle_control.h"
 #include "nodes/foreign/foreign_step.h"
 #include "nodes/fusion/fusion_host.h"
@@ -55,6 +57,27 @@ std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const
 std::string_view name_read(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
   return name_of(cluster, cluster.pdu(nodes::host::binding_of(task.reads, "raw").pdu).sensor);
 }
+// Returns the service's parameters, with the vehicle's and the camera's.
+nodes::driving::steering::LaneKeepingConfig lane_keeping_of(const Scenario& scenario,
+                                                            const schedules::model::Cluster& cluster,
+                                                            const schedules::model::Task& task) {
+  nodes::driving::steering::LaneKeepingConfig config = scenario.lane_keeping;
+  const sim::world::vehicle::EgoConfig& ego = ego_of(scenario);
+  const sim::world::vehicle::Parameters& vehicle = ego.vehicle;
+  config.wheelbase_m = vehicle.wheelbase();
+  config.width_m = ego.width;
+  // At rest the front axle has its share of the weight.
+  constexpr double kGravity = 9.81;
+  config.load = {
+      vehicle.mass, vehicle.front_axle, vehicle.rear_axle,
+      vehicle.friction * vehicle.front_stiffness * kGravity * vehicle.mass * vehicle.rear_axle / vehicle.wheelbase()};
+  const PduId marks = nodes::host::binding_of(task.reads, "marks").pdu;
+  for (const schedules::model::Sensor& sensor : cluster.sensors)
+    for (const schedules::model::Task& source : cluster.node(sensor.host).tasks)
+      for (const schedules::model::PortBinding& list : source.writes)
+        if (list.pdu == marks) config.lane.ahead_m = scenario.sensors.mono_cameras.of(sensor.name).model.marks.ahead_m;
+  return config;
+}
 
 }  // namespace
 
@@ -81,9 +104,11 @@ std::span<const schedules::model::StepPorts> step_ports() {
       {"feature_service", {"image"}, {}, false, {"odometry"}},
       {"adaptive_cruise_control", {"image", "odometry"}, {"command"}, false},
       {"emergency_braking", {"image", "odometry"}, {"command"}, false},
+      {"lane_keeping", {"marks", "odometry"}, {"command"}, false},
+      {"blind_spot_warning", {"image"}, {}, false},
       {"motion_planner", {"image", "odometry"}, {"plan"}, false, {}, false, {"regions"}},
       {"vehicle_control", {"plan", "odometry"}, {"command"}, false},
-      {"actuator", {"command"}, {}, false, {"emergency"}},
+      {"actuator", {"command"}, {}, false, {"emergency", "lateral"}},
   };
   return kPorts;
 }
@@ -200,6 +225,13 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
       nodes::driving::EmergencyConfig emergency = scenario.emergency;
       emergency.path.front_m = ego_of(scenario).front;
       steps.push_back(std::make_shared<nodes::driving::EmergencyBraking>(cluster, task, emergency));
+    } else if (task.step == "lane_keeping") {
+      steps.push_back(std::make_shared<nodes::driving::steering::LaneKeeping>(
+          cluster, task, lane_keeping_of(scenario, cluster, task)));
+    } else if (task.step == "blind_spot_warning") {
+      nodes::driving::BlindSpotConfig blind_spot = scenario.blind_spot;
+      blind_spot.width_m = ego_of(scenario).width;
+      steps.push_back(std::make_shared<nodes::driving::BlindSpotWarning>(cluster, task, blind_spot));
     } else if (task.step == "motion_planner") {
       nodes::driving::PlannerConfig planner = scenario.planner;
       planner.path.front_m = ego_of(scenario).front;

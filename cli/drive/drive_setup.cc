@@ -161,8 +161,11 @@ DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model:
       stages_(schedules::analysis::measurement_ages(cluster), strategy == fusion::strategies::StrategyKind::kBuff,
               drives::evaluation_start(scenario)),
       startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {
-  if (scenario.world.ego && scenario.world.ego->actuator)
-    driving_.emplace(experiments::sweep::driving_config(scenario), drives::evaluation_start(scenario));
+  if (scenario.world.ego && scenario.world.ego->actuator) {
+    evaluation::driving::DrivingConfig config = experiments::sweep::driving_config(scenario);
+    add_services(config, scenario, cluster);
+    driving_.emplace(config, drives::evaluation_start(scenario));
+  }
 }
 
 std::vector<recording::records::Sink*> DriveJudge::sinks() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "report/drawing/tables.h"
 
@@ -26,6 +27,12 @@ std::string lateness_of_warnings(const WarningFindings& w) {
   return fmt::format("{} / {}", cell(in_ms(w.lateness_sum) / static_cast<double>(w.late), 0), cell(in_ms(w.latest), 0));
 }
 
+std::string degrees_cell(double rad) { return cell(rad * 180.0 / std::numbers::pi, 2); }
+WarningFindings beside(const DrivingFindings& f) {
+  return evaluation::driving::together(f.warnings[recording::records::kBlindSpotLeft],
+                                       f.warnings[recording::records::kBlindSpotRight]);
+}
+
 std::string spread_cell(const evaluation::driving::Spread& spread) {
   return fmt::format("{} / {}", cell(1e3 * spread.mean(), 0), cell(1e3 * spread.deviation(), 0));
 }
@@ -36,6 +43,8 @@ struct DrivingRow {
   // Only some drives have the row.
   bool (*has)(const DrivingFindings&) = [](const DrivingFindings&) { return true; };
 };
+bool keeps_lane(const DrivingFindings& f) { return f.lane.has_value(); }
+bool watches(const DrivingFindings& f) { return f.watches_blind_spot; }
 bool has_detections(const DrivingFindings& f) { return f.detections.has_value(); }
 const DrivingRow kDrivingRows[] = {
     {"smallest gap [m]", [](const DrivingFindings& f) { return finite_cell(f.smallest_gap_m, 2); }},
@@ -78,6 +87,26 @@ const DrivingRow kDrivingRows[] = {
      [](const DrivingFindings& f) { return warnings_cell(f.warnings[kEmergencyBraking]); }},
     {"  late by, mean / most [ms]",
      [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kEmergencyBraking]); }},
+    {"offset from the lane's middle, RMS / largest [m]",
+     [](const DrivingFindings& f) {
+       return fmt::format("{} / {}", cell(f.lane->offset_rms_m, 3), cell(f.lane->largest_offset_m, 3));
+     },
+     keeps_lane},
+    {"heading from the lane's, RMS / largest [deg]",
+     [](const DrivingFindings& f) {
+       return fmt::format("{} / {}", degrees_cell(f.lane->heading_rms_rad), degrees_cell(f.lane->largest_heading_rad));
+     },
+     keeps_lane},
+    {"beyond a mark [% of time]", [](const DrivingFindings& f) { return cell(100 * f.lane->outside, 1); }, keeps_lane},
+    {"lane departure warnings right / wrong / missed / late",
+     [](const DrivingFindings& f) { return warnings_cell(f.warnings[recording::records::kLaneDeparture]); },
+     keeps_lane},
+    {"  late by, mean / most [ms]",
+     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[recording::records::kLaneDeparture]); },
+     keeps_lane},
+    {"blind spot warnings right / wrong / missed / late",
+     [](const DrivingFindings& f) { return warnings_cell(beside(f)); }, watches},
+    {"  late by, mean / most [ms]", [](const DrivingFindings& f) { return lateness_of_warnings(beside(f)); }, watches},
     {"readings of commands: applied / none / refused",
      [](const DrivingFindings& f) { return fmt::format("{} / {} / {}", f.applied, f.none_new, f.invalid + f.late); }},
 };
@@ -94,22 +123,51 @@ nlohmann::ordered_json warnings_json(const WarningFindings& w) {
   return json;
 }
 
+bool has_step(const schedules::model::Cluster& cluster, std::string_view step) {
+  return std::ranges::any_of(cluster.nodes, [&](const schedules::model::Node& node) {
+    return std::ranges::any_of(node.tasks, [&](const schedules::model::Task& task) { return task.step == step; });
+  });
+}
+
+// Returns the lane on which the vehicle starts, if a service keeps it.
+std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario& scenario,
+                                                         const schedules::model::Cluster& cluster) {
+  const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
+  if (!ego.on || !scenario.world.road || !has_step(cluster, "lane_keeping")) return std::nullopt;
+  return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
+}
+
 }  // namespace
 
-report::plots::DrivingOptions driving_options(const drives::Scenario& scenario, const std::string& title) {
-  return {title, drives::evaluation_start(scenario), drives::drive_end(scenario), scenario.world.ego->front,
-          scenario.world.ego->width};
+void add_services(evaluation::driving::DrivingConfig& config, const drives::Scenario& scenario,
+                  const schedules::model::Cluster& cluster) {
+  config.lane = lane_kept(scenario, cluster);
+  if (has_step(cluster, "blind_spot_warning")) {
+    const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
+    config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
+  }
+}
+
+report::plots::DrivingOptions driving_options(const drives::Scenario& scenario,
+                                              const schedules::model::Cluster& cluster, const std::string& title) {
+  report::plots::DrivingOptions options{title, drives::evaluation_start(scenario), drives::drive_end(scenario),
+                                        scenario.world.ego->front, scenario.world.ego->width};
+  if (const auto lane = lane_kept(scenario, cluster))
+    options.lane = [lane = evaluation::driving::TrueLane(*lane)](const recording::records::EgoTruth& ego) {
+      const evaluation::driving::InLane place = lane.place_of(ego);
+      return report::plots::PlaceInLane{place.offset, place.heading};
+    };
+  return options;
 }
 
 std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results) {
   std::vector<std::vector<std::string>> rows;
   if (std::ranges::none_of(results, [](const StrategyResult* one) { return one->driving.has_value(); })) return rows;
   for (const DrivingRow& row : kDrivingRows) {
-    if (std::ranges::none_of(results,
-                             [&](const StrategyResult* one) { return one->driving && row.has(*one->driving); }))
-      continue;
+    const auto has = [&](const StrategyResult* one) { return one->driving && row.has(*one->driving); };
+    if (std::ranges::none_of(results, has)) continue;
     rows.push_back({row.name});
-    for (const StrategyResult* one : results) rows.back().push_back(one->driving ? row.value(*one->driving) : "-");
+    for (const StrategyResult* one : results) rows.back().push_back(has(one) ? row.value(*one->driving) : "-");
   }
   return rows;
 }
@@ -140,6 +198,15 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
     json["collision"] = {{"at_s", 1e-9 * static_cast<double>(f.collision->at.ns)},
                          {"closing_mps", f.collision->closing_mps}};
   if (f.stopping_distance_m) json["stopping_distance_m"] = *f.stopping_distance_m;
+  if (f.lane) {
+    json["lane"] = {{"offset_rms_m", f.lane->offset_rms_m},
+                    {"largest_offset_m", f.lane->largest_offset_m},
+                    {"heading_rms_rad", f.lane->heading_rms_rad},
+                    {"largest_heading_rad", f.lane->largest_heading_rad},
+                    {"beyond_a_mark", f.lane->outside}};
+    json["lane_departure_warnings"] = warnings_json(f.warnings[recording::records::kLaneDeparture]);
+  }
+  if (f.watches_blind_spot) json["blind_spot_warnings"] = warnings_json(beside(f));
   if (f.reaction) json["reaction_s"] = f.reaction->seconds();
   if (f.detections)
     json["detections"] = {{"primary", f.detections->primary},

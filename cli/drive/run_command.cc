@@ -110,7 +110,8 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
     nodes::foreign::check_steps(cluster, steps);
     if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
   }
-  if (!warning.empty()) print_warnings(warning);
+  for (const std::string& one : {warning, drives::following_warning(plan.scenario)})
+    if (!one.empty()) print_warnings(one);
   return plan;
 }
 

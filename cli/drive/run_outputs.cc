@@ -428,7 +428,7 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
     DriveProgress progress(drives::drive_end(scenario), "read for pictures");
     std::vector<recording::records::Sink*> readers{&timing, plots.back().get(), &extent, &progress};
     std::optional<report::plots::DrivingPicture> driving;
-    if (result.driving) readers.push_back(&driving.emplace(driving_options(scenario, names.drive)));
+    if (result.driving) readers.push_back(&driving.emplace(driving_options(scenario, result.cluster, names.drive)));
     recording::records::Tee tee(readers);
     recording::log::read_log(result.log_path, tee);
     if (const auto window = extent.window(result.cluster.cycle())) {

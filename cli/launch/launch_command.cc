@@ -108,8 +108,9 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
   if (plan.set.scenario.truth) fmt::print(stderr, "{}\n", drives::truth_text(plan.set.scenario));
-  if (const std::string warning = drives::motion_warning(plan.set.scenario, plan.set.cluster); !warning.empty())
-    print_warnings(warning);
+  for (const std::string& warning :
+       {drives::motion_warning(plan.set.scenario, plan.set.cluster), drives::following_warning(plan.set.scenario)})
+    if (!warning.empty()) print_warnings(warning);
   const auto earlier = supervision::earlier_launch(plan.set.folder);
   supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
   remove_earlier(earlier, plan, folder);

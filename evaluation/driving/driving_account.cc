@@ -16,6 +16,11 @@ constexpr Duration kJerkOver = Duration::milliseconds(40);
 
 }  // namespace
 
+DrivingAccount::DrivingAccount(const DrivingConfig& config, TrueTime from)
+    : config_(config), from_(from), detections_(from), warnings_(from) {
+  if (config.lane) lane_.emplace(*config.lane);
+}
+
 void DrivingAccount::on(const recording::records::EgoTruth& ego) {
   if (ego_ && ego_->at == ego.at) return;  // another node tells the same
   judge();
@@ -24,7 +29,9 @@ void DrivingAccount::on(const recording::records::EgoTruth& ego) {
 
 void DrivingAccount::on(const recording::records::TruthState& object) {
   if (!ego_ || object.at != ego_->at) return;
-  const std::optional<double> gap = recording::scene::gap_ahead(object, config_.front_m, config_.width_m);
+  if (config_.blind_spot) note_beside(object);
+  const std::optional<double> gap =
+      recording::scene::gap_ahead(object, config_.front_m, config_.width_m, recording::scene::way_curvature(*ego_));
   if (!gap || (ahead_ && ahead_->gap <= *gap)) return;
   const double along = std::cos(object.heading);
   ahead_ = Ahead{*gap, object.speed * along, object.acceleration * along};
@@ -55,6 +62,7 @@ void DrivingAccount::judge() {
   before_ = ego_;
   ego_.reset();
   ahead_.reset();
+  beside_ = {};
 }
 
 void DrivingAccount::note_braking(double acceleration) {
@@ -85,7 +93,8 @@ void DrivingAccount::on(const recording::records::ImageWritten& image) {
     believed.heading = object.heading;
     believed.length = object.length;
     believed.width = object.width;
-    const std::optional<double> gap = recording::scene::gap_ahead(believed, config_.front_m, config_.width_m);
+    const std::optional<double> gap = recording::scene::gap_ahead(
+        believed, config_.front_m, config_.width_m, before_ ? recording::scene::way_curvature(*before_) : 0.0);
     if (!gap || (nearest && *nearest <= *gap)) continue;
     nearest = gap;
     speed = object.speed * std::cos(object.heading);
@@ -107,29 +116,32 @@ void DrivingAccount::note_jerk() {
 }
 
 void DrivingAccount::note_hazards(double time_to_collision) {
-  for (std::size_t service = 0; service < hazards_.size(); ++service) {
-    const bool now = time_to_collision < config_.hazard_time_s[service];
-    if (now && !hazard_[service]) hazards_[service].push_back({ego_->at, ego_->at});
-    if (now) hazards_[service].back().to = ego_->at;
-    hazard_[service] = now;
-  }
+  for (std::size_t service = 0; service < config_.hazard_time_s.size(); ++service)
+    warnings_.judge(service, ego_->at, time_to_collision < config_.hazard_time_s[service]);
+  if (lane_) warnings_.judge(recording::records::kLaneDeparture, ego_->at, lane_->judge(*ego_));
+  warnings_.judge(recording::records::kBlindSpotLeft, ego_->at, beside_[0]);
+  warnings_.judge(recording::records::kBlindSpotRight, ego_->at, beside_[1]);
+}
+
+void DrivingAccount::note_beside(const recording::records::TruthState& object) {
+  const auto outline = recording::scene::rectangle({object.x, object.y, object.heading}, object.length, object.width);
+  const BlindSpotZone& zone = *config_.blind_spot;
+  const double length = zone.ahead_m + zone.behind_m, width = zone.furthest_m - zone.nearest_m;
+  const double middle = 0.5 * (config_.width_m + zone.nearest_m + zone.furthest_m);
+  for (const std::size_t right : {0, 1})
+    beside_[right] =
+        beside_[right] ||
+        recording::scene::overlap(
+            outline, recording::scene::rectangle(
+                         {0.5 * (zone.ahead_m - zone.behind_m), right == 0 ? middle : -middle, 0.0}, length, width));
 }
 
 void DrivingAccount::on(const recording::records::CommandIssued& command) {
-  const TrueTime at = command.stamp.true_time;
-  if (at >= from_) ++findings_.issued;
-  for (std::size_t service = 0; service < warns_.size(); ++service) {
-    if (!warns_[service] || command.stamp.node != warner_[service]) continue;
-    note_silence(service, at);
-    heard_[service] = at;
-  }
+  if (command.stamp.true_time >= from_) ++findings_.issued;
+  warnings_.hear(command.stamp.node, command.stamp.true_time);
 }
 
-void DrivingAccount::note_silence(std::size_t service, TrueTime until) {
-  if (!warns_[service] || until - heard_[service] <= kSilent) return;
-  warned_[service].back().to = heard_[service];
-  warns_[service] = false;
-}
+void DrivingAccount::on(const recording::records::TaskRun& run) { warnings_.hear(run.start.node, run.start.true_time); }
 
 void DrivingAccount::on(const recording::records::CommandTaken& taken) {
   if (taken.stamp.true_time < from_) return;
@@ -144,50 +156,7 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
 }
 
 void DrivingAccount::on(const recording::records::Warning& warning) {
-  const TrueTime at = warning.stamp.true_time;
-  if (warning.service >= warned_.size() || findings_.collision) return;
-  note_silence(warning.service, at);
-  warner_[warning.service] = warning.stamp.node;
-  heard_[warning.service] = at;
-  std::vector<Span>& all = warned_[warning.service];
-  if (warning.on && !warns_[warning.service]) all.push_back({at, kNever<TrueTime>});
-  if (!warning.on && warns_[warning.service]) all.back().to = at;
-  warns_[warning.service] = warning.on;
-}
-
-WarningFindings DrivingAccount::judged(std::size_t service) const {
-  // A time to collision that leaves the hazard for a moment does not end it.
-  std::vector<Span> hazards;
-  for (const Span& one : hazards_[service])
-    if (!hazards.empty() && one.from - hazards.back().to < kTolerance)
-      hazards.back().to = one.to;
-    else
-      hazards.push_back(one);
-  WarningFindings found;
-  const auto meet = [](const Span& warning, const Span& hazard) {
-    return warning.from <= hazard.to + kTolerance && warning.to >= hazard.from - kTolerance;
-  };
-  for (const Span& warning : warned_[service]) {
-    if (warning.to < from_) continue;
-    ++found.given;
-    const bool right =
-        std::any_of(hazards.begin(), hazards.end(), [&](const Span& hazard) { return meet(warning, hazard); });
-    ++(right ? found.right : found.wrong);
-  }
-  for (const Span& hazard : hazards) {
-    if (hazard.to - hazard.from < kNoticed) continue;
-    ++found.hazards;
-    const auto first = std::find_if(warned_[service].begin(), warned_[service].end(),
-                                    [&](const Span& warning) { return meet(warning, hazard); });
-    if (first == warned_[service].end()) {
-      ++found.missed;
-    } else if (first->from > hazard.from) {
-      ++found.late;
-      found.lateness_sum += first->from - hazard.from;
-      found.latest = std::max(found.latest, first->from - hazard.from);
-    }
-  }
-  return found;
+  if (!findings_.collision) warnings_.warn(warning);
 }
 
 DrivingFindings DrivingAccount::finish() {
@@ -197,10 +166,10 @@ DrivingFindings DrivingAccount::finish() {
     findings_.below_minimum = static_cast<double>(below_) / static_cast<double>(behind_);
   }
   if (jerks_ > 0) findings_.jerk_rms = std::sqrt(jerk_squares_ / static_cast<double>(jerks_));
-  for (std::size_t service = 0; service < hazards_.size(); ++service) {
-    if (before_) note_silence(service, before_->at);
-    findings_.warnings[service] = judged(service);
-  }
+  for (std::size_t service = 0; service < findings_.warnings.size(); ++service)
+    findings_.warnings[service] = warnings_.finish(service, before_ ? before_->at : TrueTime{});
+  if (lane_) findings_.lane = lane_->findings();
+  findings_.watches_blind_spot = config_.blind_spot.has_value();
   findings_.detections = detections_.finish();
   return findings_;
 }

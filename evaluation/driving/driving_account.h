@@ -1,38 +1,41 @@
 // The worth of a drive in which commands drive the vehicle: gap and time to collision, braking and jerk, commands, and the warnings
-// of its services against the truth. It knows the records alone.
+// of its services against the truth. It knows the records alone, and the road.
+//
+// Forward collision warning and emergency braking have a hazard when the true time to collision is below the service's time. Lane
+// departure has one when a side of the vehicle is beyond its mark. Blind spot warning has one when an object's outline is in the
+// zone of that side.
 //
 // The truth is judged at the instants at which it is recorded, some hundred a second. The object ahead is the nearest one whose
-// outline overlaps the vehicle's way straight ahead. A drive is judged up to its first collision.
+// outline overlaps the vehicle's way, a circle of its speed and yaw rate. A drive is judged up to its first collision.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <vector>
 
 #include "core/time.h"
 #include "evaluation/driving/detection_account.h"
+#include "evaluation/driving/lane_account.h"
+#include "evaluation/driving/warning_account.h"
 #include "recording/records/records.h"
 
 namespace ttf::evaluation::driving {
+
+// Beside the vehicle: from behind its rear axle to ahead of it, and off its side [m]. Both sides have the same.
+struct BlindSpotZone {
+  double ahead_m = 1.4, behind_m = 4.1, nearest_m = 0.5, furthest_m = 3.0;
+};
 
 struct DrivingConfig {
   double front_m = 3.4, width_m = 1.8;            // the vehicle's front, ahead of its rear axle
   double time_gap_s = 1.5, standstill_m = 2.0;    // the gap that it is to keep
   double reaction_speed_mps = 27.0;               // the object ahead falls below it, in truth and in the image
   std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
+  std::optional<LaneConfig> lane;                 // if a service keeps one
+  std::optional<BlindSpotZone> blind_spot;        // if a service watches it
   // The smallest admissible gap [m] at a speed; null: none.
   double (*minimum_gap)(double speed) = nullptr;
-};
-
-// A hazard of a service: the true time to collision is below its time. Hazards shorter than kNoticed need no warning.
-struct WarningFindings {
-  std::uint64_t hazards = 0, given = 0;
-  std::uint64_t right = 0, wrong = 0;  // warnings within kTolerance of a hazard, and all others
-  std::uint64_t missed = 0;            // hazards without a warning
-  std::uint64_t late = 0;              // hazards whose warning began after them
-  Duration lateness_sum{}, latest{};   // of those
 };
 
 struct DrivingFindings {
@@ -55,17 +58,15 @@ struct DrivingFindings {
   std::optional<DetectionFindings> detections;  // if cameras share a detector
   // Commands; readings of the actuator, by verdict.
   std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0, nothing_asked = 0, weaker = 0;
-  std::array<WarningFindings, 2> warnings;  // by service
+  std::array<WarningFindings, recording::records::kWarningKinds> warnings;  // by service
+  std::optional<LaneFindings> lane;
+  bool watches_blind_spot = false;
 };
 
 class DrivingAccount final : public recording::records::Sink {
  public:
-  static constexpr Duration kTolerance = Duration::milliseconds(300), kNoticed = Duration::milliseconds(100);
-  // A warning ends, too, when its node has issued no command for this long: it may be dead.
-  static constexpr Duration kSilent = Duration::milliseconds(500);
-
   // Ignores all before `from`.
-  DrivingAccount(const DrivingConfig& config, TrueTime from) : config_(config), from_(from), detections_(from) {}
+  DrivingAccount(const DrivingConfig& config, TrueTime from);
   // Call it once, at the end.
   DrivingFindings finish();
 
@@ -73,6 +74,7 @@ class DrivingAccount final : public recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::EgoTruth&) override;
   void on(const recording::records::TruthState&) override;
+  void on(const recording::records::TaskRun&) override;
   void on(const recording::records::ImageWritten&) override;
   void on(const recording::records::DetectionMade& r) override { detections_.on(r); }
   void on(const recording::records::SequencePlanned& r) override { detections_.on(r); }
@@ -81,9 +83,6 @@ class DrivingAccount final : public recording::records::Sink {
   void on(const recording::records::Warning&) override;
 
  private:
-  struct Span {
-    TrueTime from{}, to{};
-  };
   struct Ahead {
     double gap = 0.0, speed = 0.0, acceleration = 0.0;
   };
@@ -92,8 +91,7 @@ class DrivingAccount final : public recording::records::Sink {
   void note_slowing(double speed_ahead);
   void note_hazards(double time_to_collision);
   void note_jerk();
-  void note_silence(std::size_t service, TrueTime until);
-  WarningFindings judged(std::size_t service) const;
+  void note_beside(const recording::records::TruthState& object);
 
   DrivingConfig config_;
   TrueTime from_;
@@ -107,10 +105,9 @@ class DrivingAccount final : public recording::records::Sink {
   std::optional<TrueTime> slow_at_;    // it fell below the reaction speed
   std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
-  std::array<std::vector<Span>, 2> hazards_, warned_;  // by service; the last one may go on
-  std::array<bool, 2> hazard_{}, warns_{};
-  std::array<NodeId, 2> warner_{};   // by service
-  std::array<TrueTime, 2> heard_{};  // when it last said something
+  WarningAccount warnings_;
+  std::optional<LaneAccount> lane_;
+  std::array<bool, 2> beside_{};  // an object in the blind spot: left, right
 };
 
 }  // namespace ttf::evaluation::driving

@@ -8,6 +8,7 @@ Actuator::Actuator(const schedules::model::Cluster& cluster, const schedules::mo
                    const sim::world::vehicle::ActuatorConfig& config)
     : config_(config), round_(cluster.round()) {
   for (std::size_t i = 0; i < task.reads.size(); ++i) {
+    if (task.reads[i].port == "lateral") lateral_.emplace(cluster, task, i, config);
     const Port port{i, bind_command(cluster, cluster.pdu(task.reads[i].pdu)), {}};
     if (task.reads[i].port == "command") command_ = port;
     if (task.reads[i].port == "emergency") emergency_ = port;
@@ -49,6 +50,11 @@ CommandTaken Actuator::read(host::StepContext& context, Port& port) {
 }
 
 void Actuator::run(host::StepContext& context) {
+  run_longitudinal(context);
+  if (lateral_) lateral_->combine(context);
+}
+
+void Actuator::run_longitudinal(host::StepContext& context) {
   CommandTaken taken = read(context, command_);
   if (taken.verdict == recording::records::kApplied) steering_ = taken.steering;
   std::optional<CommandTaken> emergency;

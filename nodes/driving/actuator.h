@@ -6,16 +6,17 @@
 #include <optional>
 
 #include "nodes/driving/command.h"
+#include "nodes/driving/steering/commands.h"
 #include "nodes/host/step.h"
 #include "sim/world/vehicle/actuator.h"
 
 namespace ttf::nodes::driving {
 
-// Ports `command` and, if it is bound, `emergency`. A list is taken once. It is refused if its instant is too far away, or if it
-// is invalid. An accepted command lives until its service's next list, or until it is older than `oldest`. So a lost list
+// Ports `command` and, if they are bound, `emergency` and `lateral`. A list is taken once. It is refused if its instant is too far
+// away, or if it is invalid. An accepted command lives until its service's next list, or until it is older than `oldest`. So a lost list
 // ends no command. The strongest deceleration among the living ones counts, with the wheels of `command`. It is handed over
 // when a list is new. A list that lost a fragment, or whose frame was not intact, never gets here
-// (bus/cni/list_buffer.h).
+// (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (steering/commands.h).
 class Actuator final : public host::Step {
  public:
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -35,12 +36,14 @@ class Actuator final : public host::Step {
   // Returns the verdict on a port's list, and keeps an accepted command.
   recording::records::CommandTaken read(host::StepContext& context, Port& port);
   bool is_old(const host::StepContext& context, GlobalTime issued) const;
+  void run_longitudinal(host::StepContext& context);
   void hand_over(host::StepContext& context, recording::records::CommandTaken& taken) const;
 
   sim::world::vehicle::ActuatorConfig config_;
   Duration round_;
   Port command_;
   std::optional<Port> emergency_;
+  std::optional<steering::LateralCommands> lateral_;
   double steering_ = 0.0;  // [rad], of the last accepted command
 };
 

@@ -20,9 +20,7 @@ CruiseConfig load_cruise(YamlMap& yaml) {
   c.law.gap_gain = yaml.number_or("gap_gain", c.law.gap_gain, {0.0, 10.0}, "1/s^2");
   c.law.speed_gain = yaml.number_or("speed_gain", c.law.speed_gain, {0.0, 10.0}, "1/s");
   c.law.set_gain = yaml.number_or("set_gain", c.law.set_gain, {0.01, 10.0}, "1/s");
-  c.path.half_width_m = yaml.number_or("corridor_half_width", c.path.half_width_m, {0.1, 20.0}, "m");
-  c.path.max_image_age = yaml.duration_or("max_image_age", c.path.max_image_age,
-                                          {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+  load_path(yaml, c.path);
   return c;
 }
 

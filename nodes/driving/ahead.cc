@@ -8,6 +8,8 @@ namespace ttf::nodes::driving {
 namespace {
 
 constexpr std::uint8_t kConfirmed = 1;
+// A slower vehicle says too little about its way.
+constexpr double kSlowestOnCircle_mps = 3.0;
 
 }  // namespace
 
@@ -17,11 +19,18 @@ std::size_t place_of(const schedules::model::Task& task, std::string_view port) 
   return 0;  // ports are known to be bound (schedules/model/ports.h)
 }
 
+void load_path(YamlMap& yaml, PathConfig& path) {
+  path.curved = yaml.choice_or("corridor", path.curved, Choices<bool>{{"straight", false}, {"curved", true}});
+  path.half_width_m = yaml.number_or("corridor_half_width", path.half_width_m, {0.1, 20.0}, "m");
+  path.max_image_age = yaml.duration_or("max_image_age", path.max_image_age,
+                                        {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+}
+
 WayAhead::WayAhead(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const PathConfig& config)
     : config_(config), round_(cluster.round()), image_(place_of(task, "image")), odometry_(place_of(task, "odometry")),
-      speed_(host::bind_element<4>(cluster, cluster.pdu(task.reads[odometry_].pdu),
-                                   {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})[0]),
+      motion_(host::bind_element<4>(cluster, cluster.pdu(task.reads[odometry_].pdu),
+                                    {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})),
       signals_(fusion::bind_image(cluster, cluster.pdu(task.reads[image_].pdu))) {
   most_objects_ = static_cast<std::size_t>(cluster.pdu(task.reads[image_].pdu).max_elements);
 }
@@ -29,7 +38,12 @@ WayAhead::WayAhead(const schedules::model::Cluster& cluster, const schedules::mo
 std::optional<View> WayAhead::look(const host::StepContext& context) {
   const std::optional<double> speed = own_speed(context);
   if (!speed) return std::nullopt;
-  return View{*speed, nearest(context.inputs[image_])};
+  double curvature = 0.0;
+  if (config_.curved && *speed > kSlowestOnCircle_mps) {
+    const host::Input& odometry = context.inputs[odometry_];
+    curvature = host::element_value(*odometry.layout, *odometry.list, 0, motion_[1]) / *speed;
+  }
+  return View{*speed, nearest(context.inputs[image_], curvature)};
 }
 
 void WayAhead::list(const host::StepContext& context, std::vector<recording::records::ImageObject>& objects) const {
@@ -53,16 +67,18 @@ std::optional<double> WayAhead::own_speed(const host::StepContext& context) {
   };
   if (!is_near(valid_at_, config_.max_image_age) || !is_near(measured_at_, config_.max_odometry_age))
     return std::nullopt;
-  return host::element_value(*odometry.layout, *odometry.list, 0, speed_);
+  return host::element_value(*odometry.layout, *odometry.list, 0, motion_[0]);
 }
 
-std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image) const {
+std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image, double curvature) const {
   std::optional<ObjectAhead> nearest;
   const int count = host::element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i) {
     const recording::records::ImageObject object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
-    if ((object.status & kConfirmed) == 0 || object.x <= 0.0 || std::abs(object.y) > config_.half_width_m) continue;
-    const double c = std::cos(object.heading), s = std::sin(object.heading);
+    if ((object.status & kConfirmed) == 0 || object.x <= 0.0) continue;
+    if (std::abs(object.y - 0.5 * curvature * object.x * object.x) > config_.half_width_m) continue;
+    const double heading = object.heading - curvature * object.x;  // from the line of travel
+    const double c = std::cos(heading), s = std::sin(heading);
     const double reach = 0.5 * (object.length * std::abs(c) + object.width * std::abs(s));
     const double clearance = object.x - reach - config_.front_m;
     if (nearest && nearest->clearance <= clearance) continue;

@@ -1,12 +1,14 @@
 // A service's view of the way ahead: the nearest object of the image in its path, and the own speed by odometry.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "core/ids.h"
+#include "core/strict_yaml.h"
 #include "core/time.h"
 #include "nodes/fusion/image_codec.h"
 #include "nodes/host/step.h"
@@ -15,6 +17,8 @@
 namespace ttf::nodes::driving {
 
 struct PathConfig {
+  // If true, the line of travel is the circle of speed and yaw rate, and else straight.
+  bool curved = false;
   double half_width_m =
       1.8;  // objects whose centre is further off the line of travel are not in the path: half a 3.6 m lane
   double front_m = 3.4;  // the vehicle's front, ahead of its rear axle
@@ -23,6 +27,9 @@ struct PathConfig {
   // Beyond this age of its newest list the odometry has stopped, as for the fusion (fusion/ego/odometry.h).
   Duration max_odometry_age = Duration::milliseconds(200);
 };
+
+// Reads the keys that services with a view of the way ahead share.
+void load_path(YamlMap& yaml, PathConfig& path);
 
 struct ObjectAhead {
   TrackId track{};
@@ -53,13 +60,14 @@ class WayAhead {
   std::size_t most_objects() const { return most_objects_; }
 
  private:
-  std::optional<ObjectAhead> nearest(const host::Input& image) const;
+  // `curvature` [1/m] is that of the line of travel.
+  std::optional<ObjectAhead> nearest(const host::Input& image, double curvature) const;
 
   PathConfig config_;
   Duration round_;
   std::size_t image_ = 0, odometry_ = 0;  // the ports' places among the inputs
   std::size_t most_objects_ = 0;
-  std::size_t speed_ = 0;  // the signal
+  std::array<std::size_t, 4> motion_;  // the signals of odometry
   fusion::ImageSignals signals_;
   GlobalTime valid_at_{};     // the newest image's
   GlobalTime measured_at_{};  // the newest list's of odometry

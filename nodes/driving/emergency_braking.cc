@@ -25,9 +25,7 @@ EmergencyConfig load_emergency(YamlMap& yaml) {
   c.braking_time_s = yaml.number_or("braking_time", c.braking_time_s, {0.05, 10.0}, "s");
   if (c.braking_time_s > c.warning_time_s) yaml.fail("braking_time", "must be at most `warning_time`");
   c.deceleration = yaml.number_or("deceleration", c.deceleration, {0.5, 15.0}, "m/s^2");
-  c.path.half_width_m = yaml.number_or("corridor_half_width", c.path.half_width_m, {0.1, 20.0}, "m");
-  c.path.max_image_age = yaml.duration_or("max_image_age", c.path.max_image_age,
-                                          {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+  load_path(yaml, c.path);
   return c;
 }
 

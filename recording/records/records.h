@@ -355,9 +355,11 @@ struct FeatureUsed {
   bool stale = false;  // too old to be used: nothing was judged, and `objects` is empty
 };
 
-// A service's warning of an object begins or ends. The time to collision is infinite without an approach; the track is
-// kNoTrack without an object ahead.
-inline constexpr std::uint8_t kForwardCollision = 0, kEmergencyBraking = 1;
+// A service's warning begins or ends. The time to collision is infinite without an approach; the track is kNoTrack without an
+// object. Each side of the vehicle has a blind spot of its own.
+inline constexpr std::uint8_t kForwardCollision = 0, kEmergencyBraking = 1, kLaneDeparture = 2, kBlindSpotLeft = 3,
+                              kBlindSpotRight = 4;
+inline constexpr std::size_t kWarningKinds = 5;
 struct Warning {
   Stamp stamp;
   std::uint8_t service = kForwardCollision;
@@ -368,7 +370,8 @@ struct Warning {
 
 // A command of a service to the actuator: acceleration [m/s^2] and angle of the front wheels [rad]. An invalid one asks for
 // nothing. The gap [m] and the object's speed [m/s] are those that it rests on; the gap is infinite without an object ahead.
-inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3, kForPlan = 4;
+inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3, kForPlan = 4,
+                              kForLane = 5;
 struct CommandIssued {
   Stamp stamp;
   PduId pdu{};

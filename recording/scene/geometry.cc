@@ -59,12 +59,33 @@ Place moved_on(const Place& place, double speed, const OwnMotion& own, double se
   return {c * x + s * y, c * y - s * x, place.heading - turn};
 }
 
-std::optional<double> gap_ahead(const records::TruthState& object, double front_m, double width_m) {
+// Two convex outlines are apart if an edge of one has all corners of the other outside.
+bool overlap(const std::array<Point, 4>& a, const std::array<Point, 4>& b) {
+  const auto parts = [](const std::array<Point, 4>& of, const std::array<Point, 4>& other) {
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Point &from = of[i], &to = of[(i + 1) % of.size()];
+      bool outside = true;
+      for (const Point& p : other)
+        outside = outside && (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x) < 0.0;
+      if (outside) return true;
+    }
+    return false;
+  };
+  return !parts(a, b) && !parts(b, a);
+}
+
+double way_curvature(const records::EgoTruth& ego) {
+  constexpr double kSlowest_mps = 3.0;
+  return ego.vx > kSlowest_mps ? ego.yaw_rate / ego.vx : 0.0;
+}
+
+std::optional<double> gap_ahead(const records::TruthState& object, double front_m, double width_m, double curvature) {
   if (object.x <= 0.0) return std::nullopt;
-  const double c = std::abs(std::cos(object.heading)), s = std::abs(std::sin(object.heading));
+  const double heading = object.heading - curvature * object.x;  // from the way
+  const double c = std::abs(std::cos(heading)), s = std::abs(std::sin(heading));
   const double along = 0.5 * (object.length * c + object.width * s),
                across = 0.5 * (object.length * s + object.width * c);
-  if (std::abs(object.y) > across + 0.5 * width_m) return std::nullopt;
+  if (std::abs(object.y - 0.5 * curvature * object.x * object.x) > across + 0.5 * width_m) return std::nullopt;
   return object.x - along - front_m;
 }
 

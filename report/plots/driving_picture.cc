@@ -1,7 +1,9 @@
 #include "report/plots/driving_picture.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <span>
+#include <numbers>
 
 #include "recording/scene/geometry.h"
 #include "report/drawing/axes.h"
@@ -18,6 +20,17 @@ struct Series {
   std::string_view colour;
   bool marks;
 };
+// How a warning's begin is drawn, by service.
+struct WarningStyle {
+  std::string_view words, colour, dash;
+};
+constexpr std::array<WarningStyle, recording::records::kWarningKinds> kWarningStyles{
+    {{"collision warning begins", drawing::kPurple, "6 3"},
+     {"emergency braking begins", drawing::kBlue, "2 2"},
+     {"lane departure warning begins", drawing::kVermilion, "8 2 2 2"},
+     {"blind spot warning begins, left", drawing::kGreen, "6 3"},
+     {"blind spot warning begins, right", drawing::kOrange, "6 3"}}};
+
 struct Panel {
   std::string_view label;
   std::vector<Series> series;
@@ -50,6 +63,11 @@ void DrivingPicture::end_moment() {
   const double at = seconds(ego_->at);
   speed_.push_back({at, ego_->vx});
   acceleration_.push_back({at, ego_->acceleration});
+  if (options_.lane) {
+    const PlaceInLane place = options_.lane(*ego_);
+    offset_.push_back({at, place.offset});
+    heading_.push_back({at, place.heading * 180.0 / std::numbers::pi});
+  }
   if (ahead_) {
     gap_.push_back({at, ahead_->x});
     speed_ahead_.push_back({at, ahead_->y});
@@ -66,14 +84,17 @@ void DrivingPicture::on(const recording::records::EgoTruth& ego) {
 
 void DrivingPicture::on(const recording::records::TruthState& object) {
   if (!ego_ || object.at != ego_->at) return;
-  const std::optional<double> gap = recording::scene::gap_ahead(object, options_.front_m, options_.width_m);
+  const std::optional<double> gap =
+      recording::scene::gap_ahead(object, options_.front_m, options_.width_m, recording::scene::way_curvature(*ego_));
   if (gap && (!ahead_ || *gap < ahead_->x)) ahead_ = drawing::Point{*gap, object.speed * std::cos(object.heading)};
 }
 
 void DrivingPicture::on(const recording::records::CommandIssued& command) {
   const TrueTime at = command.stamp.true_time;
-  // Emergency braking sees the same as cruise control.
-  if (!shown(at) || !command.valid || command.reason == recording::records::kForEmergency) return;
+  // Emergency braking sees the same as cruise control, and lane keeping sees no gap.
+  if (!shown(at) || !command.valid || command.reason == recording::records::kForEmergency ||
+      command.reason == recording::records::kForLane)
+    return;
   seen_speed_.push_back({seconds(at), command.own_speed});
   if (!std::isfinite(command.gap)) return;
   seen_gap_.push_back({seconds(at), command.gap});
@@ -100,7 +121,7 @@ void DrivingPicture::on(const recording::records::SequencePlanned& planned) {
 }
 
 void DrivingPicture::on(const recording::records::Warning& warning) {
-  if (warning.on && shown(warning.stamp.true_time))
+  if (warning.on && warning.service < kWarningStyles.size() && shown(warning.stamp.true_time))
     warnings_.emplace_back(seconds(warning.stamp.true_time), warning.service);
 }
 
@@ -115,6 +136,10 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
         {&speed_, drawing::kBlack, false}},
        true},
       {"acceleration [m/s^2]", {{&asked_, drawing::kGreen, true}, {&acceleration_, drawing::kBlack, false}}}};
+  if (!offset_.empty()) {
+    panels.push_back({"offset in lane [m]", {{&offset_, drawing::kBlack, false}}});
+    panels.push_back({"heading in lane [deg]", {{&heading_, drawing::kBlack, false}}});
+  }
   if (!sequence_.empty())
     panels.push_back({"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false}}, true});
   using Kind = drawing::LegendEntry::Kind;
@@ -123,9 +148,15 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
       {Kind::kLine, "the object ahead, true", std::string(drawing::kVermilion)},
       {Kind::kMarker, "gap and own speed, as seen", std::string(drawing::kSkyBlue), drawing::Marker::kCircle, true},
       {Kind::kMarker, "object's speed, as seen", std::string(drawing::kOrange), drawing::Marker::kCircle, true},
-      {Kind::kMarker, "acceleration asked for", std::string(drawing::kGreen), drawing::Marker::kCircle, true},
-      {Kind::kLine, "collision warning begins", std::string(drawing::kPurple), {}, false, "6 3"},
-      {Kind::kLine, "emergency braking begins", std::string(drawing::kBlue), {}, false, "2 2"}};
+      {Kind::kMarker, "acceleration asked for", std::string(drawing::kGreen), drawing::Marker::kCircle, true}};
+  for (std::size_t service = 0; service < kWarningStyles.size(); ++service) {
+    const bool braking = service <= recording::records::kEmergencyBraking;
+    if (!braking && std::ranges::find(warnings_, service, &std::pair<double, std::uint8_t>::second) == warnings_.end())
+      continue;
+    const WarningStyle& style = kWarningStyles[service];
+    legend.push_back(
+        {Kind::kLine, std::string(style.words), std::string(style.colour), {}, false, std::string(style.dash)});
+  }
   if (!sequence_.empty()) {
     legend.push_back({Kind::kMarker, "length of a sequence of detections", std::string(drawing::kPurple),
                       drawing::Marker::kCircle, true});
@@ -146,9 +177,8 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
     svg.open_group("driving", area);
     for (const auto& [at, service] : warnings_) {
       const double x = frame.at(at, frame.y_extent().low).x;
-      const bool braking = service == recording::records::kEmergencyBraking;
-      svg.line({x, area.y}, {x, area.y + area.height},
-               {.stroke = braking ? drawing::kBlue : drawing::kPurple, .dash = braking ? "2 2" : "6 3"}, "warning");
+      const WarningStyle& style = kWarningStyles[service];
+      svg.line({x, area.y}, {x, area.y + area.height}, {.stroke = style.colour, .dash = style.dash}, "warning");
     }
     for (const Series& series : panels[i].series) draw(svg, frame, series);
     svg.close_group();

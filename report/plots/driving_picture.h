@@ -1,8 +1,9 @@
 // A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the vehicle's
-// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator. If cameras share a
-// detector, the lengths of its sequences are shown, too.
+// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator. The place in the lane is
+// shown if a service keeps it, and the lengths of sequences if cameras share a detector.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +14,16 @@
 
 namespace ttf::report::plots {
 
+struct PlaceInLane {
+  double offset = 0.0, heading = 0.0;  // [m], [rad]
+};
+
 struct DrivingOptions {
   std::string title{};
   TrueTime from{}, to{};
   double front_m = 3.4, width_m = 1.8;  // the vehicle's front, ahead of its rear axle
+  // Returns the vehicle's true place in the lane that it keeps; empty if it keeps none.
+  std::function<PlaceInLane(const recording::records::EgoTruth&)> lane{};
 };
 
 class DrivingPicture final : public recording::records::Sink {
@@ -42,6 +49,7 @@ class DrivingPicture final : public recording::records::Sink {
 
   DrivingOptions options_;
   Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
+  Points offset_, heading_;                                // likewise; degrees
   Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
   Points sequence_, bound_;                                // lengths of sequences of detections, and their bounds
   std::optional<TrueTime> planned_at_;                     // the newest sequence

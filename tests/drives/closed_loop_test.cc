@@ -2,12 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/file_bytes.h"
 #include "evaluation/driving/driving_account.h"
+#include "schedules/check/checker.h"
 #include "tests/drives/drive_fixture.h"
+#include "tests/schedules/cluster_file.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::drives {
@@ -115,6 +119,25 @@ TEST(ClosedLoop, WithoutCommandsTheVehicleDoesWhatItsFileSays) {
   EXPECT_NEAR(braked, 22.0 - 4.0 * 1.05, 1.0);
 }
 
+// Through the first bend, from its clothoid on.
+TEST(ClosedLoop, KeepsItsLaneInABend) {
+  Drive drive("scenarios/lane_keeping.yaml", StrategyKind::kTt);
+  Scenario& scenario = drive.scenario;
+  scenario.duration = Duration::milliseconds(5'000);
+  scenario.world.duration = scenario.duration;
+  scenario.world.ego->on->station += 80.0;
+  scenario.world.objects.resize(1);
+  scenario.world.objects.front().on->start.station += 80.0;
+  evaluation::driving::DrivingAccount account(
+      {.lane = evaluation::driving::LaneConfig{*scenario.world.road, scenario.world.ego->on->lane}},
+      evaluation_start(scenario));
+  drive.run(account);
+  const evaluation::driving::DrivingFindings found = account.finish();
+  EXPECT_LT(found.lane->largest_offset_m, 0.4);
+  EXPECT_EQ(found.lane->outside, 0.0);
+  EXPECT_GT(found.applied, 150u) << "readings of both axes, each 40 ms";
+}
+
 std::string refusal(const Drive& drive) {
   try {
     check_loop(drive.scenario, drive.cluster);
@@ -156,6 +179,64 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   drive.scenario.sensors.odometries.usual.model.device.time.sigma = 0.01;
   EXPECT_THAT(refusal(drive), HasSubstr("the stamps of odometry err"));
   EXPECT_THROW(check_open_loop(sound.scenario), InputError);
+}
+
+// The first sentence about the shipped cluster after a change, as the program's checks come.
+std::string refusal_after(const std::string& change, const std::string& to) {
+  std::string text = schedules::shipped_text("closed_loop_synchronised");
+  const std::size_t at = text.find(change);
+  if (at == std::string::npos) throw std::runtime_error(change);
+  text.replace(at, change.size(), to);
+  try {
+    const schedules::model::Cluster cluster = schedules::file::parse_cluster(std::move(text), "loop.yaml");
+    if (auto findings = schedules::check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+    check_steps(cluster);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ClosedLoop, AServiceThatIsNotFedOrReadIsRefused) {
+  const std::string both = "reads: {image: image on flexray, odometry: odometry_list on flexray}\n        writes: ";
+  EXPECT_THAT(refusal_after(both, "reads: {odometry: odometry_list on flexray}\n        writes: "),
+              HasSubstr("nodes.feature.tasks.cruise.reads: must bind the port image"));
+  EXPECT_THAT(refusal_after(", emergency: emergency_command on flexray", ""),
+              HasSubstr("nodes.feature.tasks.brake.writes.command = emergency_command on flexray: is written, but no "
+                        "task reads it"));
+  EXPECT_THAT(refusal_after("        writes: {command: cruise_command on flexray}\n", ""),
+              HasSubstr("nodes.actuator.tasks.act.reads.command = cruise_command on flexray: is read, but no task "
+                        "writes it"));
+}
+
+TEST(ClosedLoop, GainsAreNumbers) {
+  for (const char* const gain : {".nan", ".inf", "strong"}) {
+    const std::string file = shipped(kBraking);
+    std::string text = read_file(file);
+    text.replace(text.find("time_gap: 1.8"), 13, std::string("gap_gain: ") + gain);
+    try {
+      (void)parse_scenario(std::move(text), file);
+      ADD_FAILURE() << gain;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("adaptive_cruise_control.gap_gain = " + std::string(gain) +
+                                          ": must be a number 0..10 1/s^2"));
+    }
+  }
+}
+
+TEST(ClosedLoop, LaneKeepingNeedsALane) {
+  Drive drive("scenarios/lane_keeping.yaml", StrategyKind::kTt);
+  EXPECT_EQ(refusal(drive), "");
+  drive.scenario.world.road.reset();
+  EXPECT_THAT(refusal(drive), HasSubstr("nodes.feature.tasks.keep_lane.step = lane_keeping: needs a lane"));
+}
+
+TEST(ClosedLoop, ObjectsThatFollowAreToldNotToSeeTheVehicle) {
+  Drive drive = braking(StrategyKind::kTt);
+  EXPECT_EQ(following_warning(drive.scenario), "");
+  drive.scenario.world.objects.front().on->follow.emplace();
+  EXPECT_THAT(following_warning(drive.scenario), HasSubstr("world.ego.actuator: drives a vehicle that objects which "
+                                                           "follow do not see, such as leader"));
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ void live_seeds(const fs::path& folder) {
 // act, and an empty one.
 void turn_seeds(const fs::path& folder) {
   const schedules::model::Cluster cluster =
-      schedules::file::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+      schedules::file::parse_cluster(fuzz::shipped("schedules/closed_loop_synchronised.yaml"), "closed_loop");
   std::array<std::byte, bus::wire::kMaxFrameBytes> room{};
   bus::wire::FrameHeader header;
   header.frame_id = 3;
@@ -221,6 +221,7 @@ void turn_seeds(const fs::path& folder) {
   add("host", cluster.sensor(sensor).host, {signal, symbol, sim::processes::TriggerAct{sensor}});
   add("device", cluster.sensor(sensor).device,
       {sim::processes::StrobeAct{sensor, 7}, sim::processes::CanAct{0, {0x20, false, frame.first(8)}}});
+  add("actuator", cluster.find_node("actuator").value(), {nodes::host::Actuation{TrueTime{7'000'000}, -3.25, 0.125}});
 }
 
 void capture_seeds(const fs::path& folder) {

@@ -15,7 +15,7 @@ using namespace ttf;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const schedules::model::Cluster cluster =
-      schedules::file::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+      schedules::file::parse_cluster(fuzz::shipped("schedules/closed_loop_synchronised.yaml"), "closed_loop");
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
   std::vector<sim::processes::Act> acts;
   try {

@@ -34,6 +34,8 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "moving_synchronised",
                                                "closed_loop_unsynchronised",
                                                "closed_loop_synchronised",
+                                               "driven_surround_unsynchronised",
+                                               "driven_surround_synchronised",
                                                "closed_loop_free_running",
                                                "adaptive_unsynchronised",
                                                "adaptive_synchronised",

@@ -226,5 +226,85 @@ TEST(DrivingAccount, ADeadServiceWarnsNoLonger) {
   }
 }
 
+// On a bend the object ahead is off the x axis, and the one straight ahead is in another lane.
+TEST(DrivingAccount, TheWayBends) {
+  DrivingAccount account({}, TrueTime{});
+  EgoTruth ego;
+  ego.vx = 20.0;
+  ego.yaw_rate = 0.05;  // a circle of 400 m
+  account.on(ego);
+  TruthState object;
+  object.length = 4.0;
+  object.width = 1.8;
+  object.x = 40.0;
+  object.y = 2.0;
+  object.heading = 0.1;
+  account.on(object);
+  object.x = 30.0;
+  object.y = -1.8;
+  account.on(object);
+  EXPECT_NEAR(account.finish().smallest_gap_m, 40.0 - 2.0 - 3.4, 1e-9);
+}
+
+TEST(DrivingAccount, ThePlaceInTheLaneIsThatOfTheFrontAxle) {
+  const LaneConfig lane{{.pieces = {{.length = 500.0}}, .left = 0, .right = 2}, -2, 2.5, 1.8};
+  DrivingAccount account({.lane = lane}, TrueTime{});
+  std::int64_t ms = 0;
+  for (const double y : {-5.25, -4.75, -3.85}) {  // the second lane's middle, and further left
+    EgoTruth ego;
+    ego.at = at_ms(ms += 100);
+    ego.x = 50.0;
+    ego.y = y - 2.5 * std::sin(0.02);
+    ego.heading = 0.02;
+    account.on(ego);
+  }
+  const DrivingFindings found = account.finish();
+  ASSERT_TRUE(found.lane);
+  EXPECT_NEAR(found.lane->largest_offset_m, 1.4, 1e-9);
+  EXPECT_NEAR(found.lane->offset_rms_m, std::sqrt((0.25 + 1.96) / 3.0), 1e-9);
+  EXPECT_NEAR(found.lane->heading_rms_rad, 0.02, 1e-9);
+  EXPECT_NEAR(found.lane->outside, 1.0 / 3.0, 1e-9) << "from 0.85 m on a side is beyond its mark";
+}
+
+TEST(DrivingAccount, AnObjectBesideTheVehicleIsAHazardOfThatSide) {
+  DrivingAccount account({.blind_spot = BlindSpotZone{}}, TrueTime{});
+  const auto car_at = [&](std::int64_t ms, double x, double y) {
+    EgoTruth ego;
+    ego.at = at_ms(ms);
+    account.on(ego);
+    TruthState object;
+    object.at = at_ms(ms);
+    object.length = 4.4;
+    object.width = 1.8;
+    object.x = x;
+    object.y = y;
+    account.on(object);
+  };
+  for (std::int64_t ms = 0; ms < 1000; ms += 20) car_at(ms, -8.0, 3.5);     // too far behind
+  for (std::int64_t ms = 1000; ms < 2000; ms += 20) car_at(ms, -2.0, 3.5);  // beside
+  for (std::int64_t ms = 2000; ms < 3000; ms += 20) car_at(ms, -2.0, 7.0);  // two lanes away
+  for (std::int64_t ms = 3000; ms < 4000; ms += 20) car_at(ms, 0.0, -3.5);
+  Warning warning;
+  warning.stamp.true_time = at_ms(1200);
+  warning.service = kBlindSpotLeft;
+  warning.on = true;
+  account.on(warning);
+  TaskRun run;  // the service's node lives
+  for (std::int64_t ms = 1200; ms < 2000; ms += 40) {
+    run.start.true_time = at_ms(ms);
+    account.on(run);
+  }
+  warning.stamp.true_time = at_ms(2000);
+  warning.on = false;
+  account.on(warning);
+  const DrivingFindings found = account.finish();
+  EXPECT_TRUE(found.watches_blind_spot);
+  EXPECT_EQ(found.warnings[kBlindSpotLeft].hazards, 1u);
+  EXPECT_EQ(found.warnings[kBlindSpotLeft].right, 1u);
+  EXPECT_EQ(found.warnings[kBlindSpotLeft].latest, Duration::milliseconds(200));
+  EXPECT_EQ(found.warnings[kBlindSpotRight].missed, 1u);
+  EXPECT_EQ(together(found.warnings[kBlindSpotLeft], found.warnings[kBlindSpotRight]).hazards, 2u);
+}
+
 }  // namespace
 }  // namespace ttf::evaluation::driving

@@ -15,15 +15,15 @@ namespace {
 
 using namespace recording::records;
 
-constexpr GlobalTime global_ms(std::int64_t ms) { return GlobalTime{} + Duration::milliseconds(ms); }
+constexpr GlobalTime planned_ms(std::int64_t ms) { return GlobalTime{} + Duration::milliseconds(ms); }
 
-const schedules::model::Cluster& adaptive_loop() {
+const schedules::model::Cluster& planned_cluster() {
   static const schedules::model::Cluster kCluster =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/adaptive_loop_synchronised.yaml");
   return kCluster;
 }
-const schedules::model::Task& adaptive_task(const char* node, const char* step) {
-  for (const schedules::model::Task& task : adaptive_loop().node(*adaptive_loop().find_node(node)).tasks)
+const schedules::model::Task& planned_task(const char* node, const char* step) {
+  for (const schedules::model::Task& task : planned_cluster().node(*planned_cluster().find_node(node)).tasks)
     if (task.step == step) return task;
   throw std::runtime_error(step);
 }
@@ -38,15 +38,15 @@ struct Bench : Sink {
 
   explicit Bench(const schedules::model::Task& of) : task(of) {
     for (const auto& port : task.reads) {
-      read.emplace_back(port.port, port.pdu, adaptive_loop().pdu(port.pdu));
-      inputs.push_back({port.port, port.pdu, &adaptive_loop().pdu(port.pdu), std::nullopt, false});
+      read.emplace_back(port.port, port.pdu, planned_cluster().pdu(port.pdu));
+      inputs.push_back({port.port, port.pdu, &planned_cluster().pdu(port.pdu), std::nullopt, false});
     }
-    for (const auto& port : task.writes) written.emplace_back(port.port, port.pdu, adaptive_loop().pdu(port.pdu));
+    for (const auto& port : task.writes) written.emplace_back(port.port, port.pdu, planned_cluster().pdu(port.pdu));
   }
   host::Output& list(std::string_view port, int count, std::int64_t at) {
     for (std::size_t i = 0; i < read.size(); ++i) {
       if (read[i].port() != port) continue;
-      read[i].begin(7, count, global_ms(at));
+      read[i].begin(7, count, planned_ms(at));
       inputs[i].list = read[i].view();
       inputs[i].fresh = true;
       return read[i];
@@ -61,7 +61,7 @@ struct Bench : Sink {
   }
   void run(host::Step& step) {
     host::StepContext context;
-    context.stamp.global = global_ms(now_ms);
+    context.stamp.global = planned_ms(now_ms);
     context.stamp.local = LocalTime{} + Duration::milliseconds(now_ms);
     context.activation = activation++;
     context.inputs = inputs;
@@ -78,7 +78,7 @@ struct Planning final : Bench {
   std::optional<PlanMade> plan;
 
   explicit Planning(std::vector<Picture> pictures = {})
-      : Bench(adaptive_task("planner", "motion_planner")), step(adaptive_loop(), task, {}, std::move(pictures)) {}
+      : Bench(planned_task("planner", "motion_planner")), step(planned_cluster(), task, {}, std::move(pictures)) {}
   using Sink::on;
   void on(const PlanMade& made) override { plan = made; }
 
@@ -91,7 +91,7 @@ struct Planning final : Bench {
     now_ms += 10;
     odometry(29.0, yaw_rate);
     host::Output& image = list("image", static_cast<int>(cars.size()), now_ms);
-    const fusion::ImageSignals signals = fusion::bind_image(adaptive_loop(), image.layout());
+    const fusion::ImageSignals signals = fusion::bind_image(planned_cluster(), image.layout());
     for (std::size_t i = 0; i < cars.size(); ++i) {
       ttf::fusion::tracks::TrackView view;
       view.id = static_cast<TrackId>(i);
@@ -196,10 +196,10 @@ TEST(MotionPlanner, TellsARegionOfTheCameraThatSeesTheObject) {
 }
 
 struct Controlling final : Bench {
-  VehicleControl step{adaptive_loop(), task, {}};
+  VehicleControl step{planned_cluster(), task, {}};
   std::optional<CommandIssued> command;
 
-  Controlling() : Bench(adaptive_task("control", "vehicle_control")) {}
+  Controlling() : Bench(planned_task("control", "vehicle_control")) {}
   using Sink::on;
   void on(const CommandIssued& issued) override { command = issued; }
 
@@ -207,7 +207,7 @@ struct Controlling final : Bench {
     now_ms += 10;
     odometry(speed, yaw_rate);
     host::Output& plan = list("plan", 1, now_ms);
-    const PlanSignals signals = bind_plan(adaptive_loop(), plan.layout());
+    const PlanSignals signals = bind_plan(planned_cluster(), plan.layout());
     plan.set(0, signals[0], valid ? 1.0 : 0.0);
     plan.set(0, signals[1], planned);
     run(step);

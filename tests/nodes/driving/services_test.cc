@@ -1,0 +1,287 @@
+// Lane keeping, blind spot warning and an actuator with lateral commands, each with lists by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nodes/driving/actuator.h"
+#include "nodes/driving/adaptive_cruise_control.h"
+#include "nodes/driving/blind_spot_warning.h"
+#include "nodes/driving/steering/lane_keeping.h"
+#include "schedules/file/loader.h"
+
+namespace ttf::nodes::driving {
+namespace {
+
+using namespace recording::records;
+using sim::world::vehicle::WithoutCommand;
+using steering::LaneKeeping;
+using steering::LaneKeepingConfig;
+
+constexpr std::int64_t kStep_ms = 40;
+
+const schedules::model::Cluster& surround() {
+  static const schedules::model::Cluster kCluster =
+      schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/driven_surround_synchronised.yaml");
+  return kCluster;
+}
+const schedules::model::Task& task_there(const char* node, const char* step) {
+  for (const schedules::model::Task& task : surround().node(*surround().find_node(node)).tasks)
+    if (task.step == step) return task;
+  throw std::runtime_error(step);
+}
+
+// A task by hand: lists at its ports, an execution every 40 ms.
+class ServiceByHand : public Sink {
+ public:
+  explicit ServiceByHand(const schedules::model::Task& task) {
+    for (const auto& port : task.reads) {
+      lists_.emplace_back(port.port, port.pdu, surround().pdu(port.pdu));
+      inputs_.push_back({port.port, port.pdu, &surround().pdu(port.pdu), std::nullopt, false});
+    }
+    for (const auto& port : task.writes) outputs_.emplace_back(port.port, port.pdu, surround().pdu(port.pdu));
+  }
+  using Sink::on;
+  void on(const Warning& r) override { warnings.push_back(r); }
+  void on(const CommandIssued& r) override { issued = r; }
+  void on(const CommandTaken& r) override { taken.push_back(r); }
+
+  using Element = std::map<std::string, double>;
+  void receive(const std::string& port, const std::vector<Element>& elements) {
+    for (std::size_t i = 0; i < lists_.size(); ++i) {
+      if (lists_[i].port() != port) continue;
+      lists_[i].begin(++sequence_, static_cast<int>(elements.size()), now());
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        for (const auto& [name, value] : elements[e])
+          lists_[i].set(static_cast<int>(e), *schedules::model::find_signal(lists_[i].layout().element, name), value);
+      inputs_[i].list = lists_[i].view();
+      inputs_[i].fresh = true;
+    }
+  }
+  std::optional<host::Actuation> run(host::Step& step) {
+    host::StepContext context;
+    context.stamp.global = now();
+    context.stamp.local = LocalTime{now().ns};
+    context.inputs = inputs_;
+    context.outputs = outputs_;
+    context.sink = this;
+    taken.clear();
+    step.run(context);
+    for (host::Input& input : inputs_) input.fresh = false;
+    ms_ += kStep_ms;
+    return context.actuation;
+  }
+
+  std::vector<Warning> warnings;
+  std::vector<CommandTaken> taken;
+  std::optional<CommandIssued> issued;
+
+ private:
+  GlobalTime now() const { return GlobalTime{} + Duration::milliseconds(ms_); }
+  std::int64_t ms_ = 1'000;
+  std::uint32_t sequence_ = 0;
+  std::vector<host::Output> lists_, outputs_;
+  std::vector<host::Input> inputs_;
+};
+
+struct Lanes final : ServiceByHand {
+  explicit Lanes(const LaneKeepingConfig& config = {})
+      : ServiceByHand(task_there("feature", "lane_keeping")),
+        step(surround(), task_there("feature", "lane_keeping"), config) {}
+
+  // Two marks of a lane of 3.5 m around a line 10 m ahead; each side may be missing, or be of a low validity.
+  void see(double offset, double heading = 0.0, double curvature = 0.0, double left = 1.0, double right = 1.0) {
+    std::vector<Element> marks;
+    const auto add = [&](double aside, double validity) {
+      marks.push_back(
+          {{"offset", offset + aside}, {"heading", heading}, {"curvature", curvature}, {"validity", validity}});
+    };
+    if (right > 0.0) add(-1.75, right);
+    if (left > 0.0) add(1.75, left);
+    receive("marks", marks);
+    drive();
+  }
+  void drive() {
+    receive("odometry", {{{"speed", 20.0}, {"yaw_rate", 0.0}}});
+    run(step);
+  }
+  LaneKeeping step;
+};
+
+TEST(LaneKeeping, SteersTowardsTheMiddle) {
+  Lanes lanes;
+  lanes.see(0.0);
+  ASSERT_TRUE(lanes.issued && lanes.issued->valid);
+  EXPECT_EQ(lanes.issued->reason, kForLane);
+  EXPECT_NEAR(lanes.issued->steering, 0.0, 1e-3);
+  for (const double side : {1.0, -1.0}) {
+    Lanes aside;
+    aside.see(side * 0.4);
+    EXPECT_NEAR(aside.issued->steering, side * std::atan(0.4 / 21.0), 1e-3);
+  }
+  Lanes bend;
+  bend.see(0.125, 0.025, 0.0025);  // an arc of 400 m, on its middle
+  EXPECT_GT(bend.issued->steering, 2.58 / 400.0) << "tyres slip, and the wheels lag";
+  EXPECT_LT(bend.issued->steering, 0.04);
+}
+
+TEST(LaneKeeping, OneMarkIsEnoughAndAFalseOneIsNone) {
+  Lanes lanes;
+  for (int list = 0; list < 5; ++list) lanes.see(0.2);
+  const double both = lanes.issued->steering;
+  for (int list = 0; list < 5; ++list) lanes.see(0.2, 0.0, 0.0, 1.0, 0.0);
+  EXPECT_NEAR(lanes.issued->steering, both, 1e-3);
+  Lanes deceived;
+  deceived.see(0.2, 0.0, 0.0, 0.2, 0.2);
+  EXPECT_FALSE(deceived.issued->valid);
+}
+
+TEST(LaneKeeping, GoesOnWithoutMarksForAWhile) {
+  Lanes lanes;
+  lanes.see(0.0);
+  for (int execution = 1; execution <= 5; ++execution) {
+    lanes.drive();
+    EXPECT_TRUE(lanes.issued->valid) << execution;
+  }
+  lanes.drive();
+  EXPECT_FALSE(lanes.issued->valid);
+  lanes.see(0.0);
+  EXPECT_TRUE(lanes.issued->valid);
+}
+
+TEST(LaneKeeping, WarnsOfALaneThatIsLeft) {
+  Lanes lanes;
+  lanes.see(0.8);
+  EXPECT_TRUE(lanes.warnings.empty());
+  for (int list = 0; list < 12; ++list) lanes.see(1.0);
+  ASSERT_EQ(lanes.warnings.size(), 1u);
+  EXPECT_EQ(lanes.warnings[0].service, kLaneDeparture);
+  for (int list = 0; list < 12; ++list) lanes.see(0.8);
+  ASSERT_EQ(lanes.warnings.size(), 2u);
+  EXPECT_FALSE(lanes.warnings[1].on);
+}
+
+struct Sides final : ServiceByHand {
+  Sides() : ServiceByHand(task_there("feature", "blind_spot_warning")) {}
+  // A car of 4.4 m by 1.8 m.
+  void see(double x, double y, double status = 1.0) {
+    receive("image", {{{"id", 7}, {"x", x}, {"y", y}, {"length", 4.4}, {"width", 1.8}, {"status", status}}});
+    run(step);
+  }
+  BlindSpotWarning step{surround(), task_there("feature", "blind_spot_warning"), {}};
+};
+
+TEST(BlindSpotWarning, WarnsOfACarInTheNextLaneAlone) {
+  Sides sides;
+  sides.see(-7.0, 3.5);  // its front is 0.7 m behind the zone
+  sides.see(0.0, 7.0);   // two lanes further
+  sides.see(0.0, 0.0);   // no place beside the vehicle
+  sides.see(0.0, 3.5, 0.0);
+  EXPECT_TRUE(sides.warnings.empty());
+  sides.see(-6.0, 3.5);
+  ASSERT_EQ(sides.warnings.size(), 1u);
+  EXPECT_EQ(sides.warnings[0].service, kBlindSpotLeft);
+  EXPECT_EQ(sides.warnings[0].track, TrackId{7});
+  sides.see(3.7, 3.5);  // its rear is 0.1 m ahead of the eyes: within the margin
+  EXPECT_EQ(sides.warnings.size(), 1u);
+  sides.see(4.0, 3.5);
+  ASSERT_EQ(sides.warnings.size(), 2u);
+  EXPECT_FALSE(sides.warnings[1].on);
+  sides.see(0.0, -3.5);
+  ASSERT_EQ(sides.warnings.size(), 3u);
+  EXPECT_EQ(sides.warnings[2].service, kBlindSpotRight);
+}
+
+TEST(BlindSpotWarning, KeepsItsWarningsWithoutAnImage) {
+  Sides sides;
+  sides.see(0.0, 3.5);
+  for (int execution = 0; execution < 5; ++execution) sides.run(sides.step);
+  EXPECT_EQ(sides.warnings.size(), 1u);
+}
+
+struct Wheels final : ServiceByHand {
+  explicit Wheels(WithoutCommand without)
+      : ServiceByHand(task_there("actuator", "actuator")),
+        step(surround(), task_there("actuator", "actuator"), of(without)) {}
+  static sim::world::vehicle::ActuatorConfig of(WithoutCommand without) {
+    sim::world::vehicle::ActuatorConfig config;
+    config.without = without;
+    return config;
+  }
+  void command(const std::string& port, double acceleration, double steering) {
+    receive(port, {{{"valid", 1.0}, {"acceleration", acceleration}, {"steering", steering}}});
+  }
+  Actuator step;
+};
+
+TEST(ActuatorWithLateral, EachAxisFollowsItsOwnCommands) {
+  Wheels wheels(WithoutCommand::kHold);
+  wheels.command("command", -1.0, 0.3);
+  wheels.command("lateral", -5.0, 0.02);
+  const auto both = wheels.run(wheels.step);
+  ASSERT_TRUE(both);
+  EXPECT_NEAR(both->acceleration, -1.0, 1e-9);
+  EXPECT_NEAR(both->steering, 0.02, 1e-9);
+  ASSERT_EQ(wheels.taken.size(), 2u);
+  EXPECT_EQ(wheels.taken[1].verdict, kApplied);
+  wheels.command("emergency", -8.0, 0.3);
+  const auto brakes = wheels.run(wheels.step);
+  ASSERT_TRUE(brakes);
+  EXPECT_NEAR(brakes->acceleration, -8.0, 1e-9);
+  EXPECT_NEAR(brakes->steering, 0.02, 1e-9) << "the wheels stay";
+  EXPECT_EQ(wheels.taken.back().verdict, kNoNewCommand);
+  wheels.command("lateral", 0.0, 0.03);
+  const auto steers = wheels.run(wheels.step);
+  ASSERT_TRUE(steers);
+  EXPECT_NEAR(steers->acceleration, -8.0, 1e-9) << "engine and brakes go on";
+  EXPECT_NEAR(steers->steering, 0.03, 1e-9);
+  EXPECT_FALSE(wheels.run(wheels.step));
+}
+
+TEST(ActuatorWithLateral, AnAxisWithoutCommandsDoesWhatTheFileSays) {
+  const auto last = [](WithoutCommand without, const char* dies) {
+    Wheels wheels(without);
+    std::optional<host::Actuation> actuation;
+    for (int execution = 0; execution < 11; ++execution) {
+      for (const char* const port : {"command", "lateral"})
+        if (execution == 0 || std::string_view(port) != dies) wheels.command(port, -1.0, 0.02);
+      actuation = wheels.run(wheels.step);
+    }
+    return *actuation;  // 400 ms after the last command of the dead one, of which the first 200 ms are none
+  };
+  const double faded = std::exp(-0.4);
+  EXPECT_NEAR(last(WithoutCommand::kHold, "lateral").steering, 0.02, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kDecay, "lateral").steering, 0.02 * faded, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kDecay, "lateral").acceleration, -1.0, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kBrake, "lateral").steering, 0.02, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kBrake, "lateral").acceleration, -4.0, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kHold, "command").acceleration, -1.0, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kDecay, "command").acceleration, -faded, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kBrake, "command").acceleration, -4.0, 1e-9);
+  EXPECT_NEAR(last(WithoutCommand::kBrake, "command").steering, 0.02, 1e-9);
+}
+
+// A car on the own lane of a bend of 400 m, 2 m to the left of the x axis.
+TEST(AdaptiveCruiseControl, ItsCorridorBendsIfItIsCurved) {
+  for (const bool curved : {false, true}) {
+    const schedules::model::Task& task = task_there("feature", "adaptive_cruise_control");
+    CruiseConfig config;
+    config.path.curved = curved;
+    AdaptiveCruiseControl step(surround(), task, config);
+    ServiceByHand service(task);
+    service.receive("image",
+                    {{{"id", 7}, {"x", 40}, {"y", 2}, {"heading", 0.1}, {"speed", 20}, {"length", 4}, {"status", 1}}});
+    service.receive("odometry", {{{"speed", 20}, {"yaw_rate", 0.05}}});
+    service.run(step);
+    ASSERT_TRUE(service.issued && service.issued->valid);
+    EXPECT_EQ(service.issued->track, curved ? TrackId{7} : kNoTrack);
+    if (curved) EXPECT_NEAR(service.issued->gap, 40.0 - 2.0 - 3.4, 0.01);
+    if (curved) EXPECT_NEAR(service.issued->speed_ahead, 20.0, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace ttf::nodes::driving
