@@ -20,7 +20,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr Duration kFloorPeriod = Duration::milliseconds(5);
 constexpr Duration kFloorPhase = Duration::microseconds(3500);  // off whole milliseconds, where cycles begin
 constexpr std::size_t kMostWatched =
-    1 + 2 + schedules::model::kMostCans + 1;  // the timer, all lines, a stop descriptor
+    1 + 2 + schedules::model::kMostCans + 2;  // the timer, all lines, a stop descriptor, the vehicle's line
 
 }  // namespace
 

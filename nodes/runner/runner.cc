@@ -120,6 +120,10 @@ void Runner::strobe(SensorId sensor, std::uint32_t sequence) {
     (void)medium_.send_can(*can, {schedules::model::strobe_identifier(sensor), false, data});
 }
 
+void Runner::actuate(const host::Actuation& actuation) {
+  if (config_.vehicle != nullptr) config_.vehicle->tell(actuation);
+}
+
 // ---- arrivals
 
 void Runner::arrived(Microticks behind) { account_.arrivals.add(in_real(behind)); }
@@ -133,6 +137,7 @@ void Runner::lost(std::int64_t cycle, int slot, schedules::model::Channel channe
 }
 
 void Runner::take_in() {
+  if (config_.vehicle != nullptr) config_.vehicle->take_in();
   while (const auto arrival = medium_.receive()) {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
     if (arrival->at < powered_on_) continue;  // without power the node hears nothing
@@ -247,6 +252,7 @@ void Runner::watch_lines() {
   listens_ = listens;
   machine_clock_.clear();
   machine_clock_.watch(config_.stop_descriptor);
+  if (config_.vehicle != nullptr) machine_clock_.watch(config_.vehicle->descriptor());
   for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     medium_.watch(bus::ports::line_of(channel), listens);
     if (listens) machine_clock_.watch(medium_.descriptor(bus::ports::line_of(channel)));
@@ -299,6 +305,7 @@ Health Runner::health() const {
   if (const auto* controller = executive_->controller()) health.state = bus::poc::to_text(controller->state().kind);
   health.can_errors = can_errors_;
   if (can_reported_) health.can_state = *std::max_element(can_states_.begin(), can_states_.end());
+  if (config_.vehicle != nullptr) health.vehicle = config_.vehicle->counts();
   return health;
 }
 

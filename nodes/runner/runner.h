@@ -34,6 +34,7 @@
 #include "nodes/runner/machine_clock.h"
 #include "nodes/runner/paced_can.h"
 #include "nodes/runner/timing_account.h"
+#include "nodes/runner/vehicle/line.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 #include "timebase/oscillator.h"
@@ -51,6 +52,8 @@ struct RunnerConfig {
   host::NodeStart cold{};
   TrueTime end{};            // events due later are not done
   int stop_descriptor = -1;  // stops as soon as it is readable
+  // To the other processes that need the vehicle's state; null where no commands drive it, or the node needs none.
+  vehicle::Line* vehicle = nullptr;
 };
 
 // How a run goes, for people: in real time since its begin.
@@ -65,6 +68,7 @@ struct Health {
   // on). The worst present state is unknown before the first report.
   std::uint64_t can_errors = 0;
   std::optional<std::uint8_t> can_state;
+  std::optional<vehicle::Counts> vehicle;  // its line's
 
   // Counts each frame once that this process or its medium knows to be lost. timing.frames_lost counts gaps:
   // some of those may be the same frames, others were withheld by their senders.
@@ -98,6 +102,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   TrueTime now() const override { return config_.clock.drive_time(machine_clock_.now()); }
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
+  void actuate(const host::Actuation& actuation) override;
   void arrived(Microticks behind) override;
   void missed_window(std::int64_t cycle, int slot, schedules::model::Channel channel, Microticks behind) override;
   void lost(std::int64_t cycle, int slot, schedules::model::Channel channel, std::uint32_t count) override;

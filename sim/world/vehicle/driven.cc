@@ -66,6 +66,17 @@ void Driven::actuate(const Actuation& actuation) {
   actuations_.push_back(actuation);
 }
 
+Inserted Driven::insert(const Actuation& actuation) {
+  const std::int64_t from = actuation.from.ns;
+  if (from <= 0 || actuations_.size() == actuations_.capacity()) return Inserted::kRefused;
+  const auto place = std::ranges::lower_bound(actuations_, actuation.from, {}, &Actuation::from);
+  if (place != actuations_.end() && place->from == actuation.from) return Inserted::kKnown;
+  actuations_.insert(place, actuation);
+  // States up to its instant do not know it yet, so they stay.
+  while (grid_.back().at > from) grid_.pop_back();
+  return from > looked_at_ ? Inserted::kNew : Inserted::kLate;
+}
+
 // Returns the instant from which on the vehicle is without a command, if no other one comes.
 std::int64_t Driven::alone_from(const State& state) const {
   return (state.commands == 0 ? 0 : actuations_[state.commands - 1].from.ns) + actuator_.after.ns;

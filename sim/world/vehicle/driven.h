@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/time.h"
@@ -34,8 +35,16 @@ struct Actuation {
   double steering = 0.0;      // [rad]
 };
 
+enum class Inserted {
+  kNew,
+  kLate,     // new, but there was a look at its instant, or a later one, without it
+  kKnown,    // one from that instant is there already
+  kRefused,  // before the drive, or beyond the room
+};
+
 //   D1  after construction nothing allocates, as long as at most one actuation a millisecond comes
 //   D2  a state at `t` is that of the actuations from instants up to `t`, however many looks there were before
+//   D3  after insert() it is so for every later look: an actuation that became known late changes no earlier look
 class Driven {
  public:
   // `config` has an actuator. `road` may be null where the vehicle does not start on a lane.
@@ -43,6 +52,9 @@ class Driven {
 
   // Adds an actuation. It is from an instant after the last one's, and after each look so far.
   void actuate(const Actuation& actuation);
+  // Adds an actuation that became known in any order: early, late, or again. Its instant identifies it.
+  Inserted insert(const Actuation& actuation);
+  std::span<const Actuation> actuations() const { return actuations_; }  // in the order of their instants
   // Earlier states are those at the start; after the drive's end the motion goes on.
   RearAxleMotion at(TrueTime since_start);
 

@@ -141,6 +141,24 @@ TEST(Driven, AllocatesNothingOnItsWay) {
   EXPECT_EQ(support::allocations(), before);
 }
 
+// Looks at 1200 ms, then an actuation of 1000 ms comes, then an earlier one, then both again.
+TEST(Driven, AnActuationMayBecomeKnownLateOrTwice) {
+  Driven late(at_speed(20.0), nullptr, kLong), in_time(at_speed(20.0), nullptr, kLong);
+  for (const Actuation& one : {Actuation{at_ms(903), 1.0, 0.01}, Actuation{at_ms(1000), -3.0, 0.0}})
+    in_time.actuate(one);
+  EXPECT_NE(late.at(at_ms(1200)).x, in_time.at(at_ms(1200)).x);
+  EXPECT_EQ(late.insert({at_ms(1000), -3.0, 0.0}), Inserted::kLate);
+  EXPECT_EQ(late.insert({at_ms(903), 1.0, 0.01}), Inserted::kLate);
+  EXPECT_EQ(late.insert({at_ms(903), 7.0, 0.0}), Inserted::kKnown);
+  EXPECT_EQ(late.insert({at_ms(1300), 2.0, 0.0}), Inserted::kNew);
+  EXPECT_EQ(late.insert({at_ms(0), 2.0, 0.0}), Inserted::kRefused);
+  in_time.actuate({at_ms(1300), 2.0, 0.0});
+  for (std::int64_t at = 1; at < 3000; at += 97) {
+    EXPECT_EQ(late.at(at_ms(at)).x, in_time.at(at_ms(at)).x) << at;
+    EXPECT_EQ(late.at(at_ms(at)).yaw_rate, in_time.at(at_ms(at)).yaw_rate) << at;
+  }
+}
+
 TEST(Driven, AProfileBesideAnActuatorIsRefused) {
   try {
     world_from("ego: {actuator: {}, profile: [{duration: 1 s}]}\nobjects: []");
