@@ -5,8 +5,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/ids.h"
 #include "drives/scenario.h"
 #include "fusion/strategies/strategy.h"
 #include "nodes/foreign/libraries.h"
@@ -63,8 +65,8 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
 void check_loop(const Scenario& scenario, const schedules::model::Cluster& cluster);
 // Returns a warning if commands drive the vehicle, and an object follows; else "". Objects' ways are drawn beforehand.
 std::string following_warning(const Scenario& scenario);
-// Checks that a drive in real time has no vehicle that commands drive. Throws InputError.
-void check_open_loop(const Scenario& scenario);
+// Returns the node with the actuator, if there is one.
+std::optional<NodeId> actuator_node(const schedules::model::Cluster& cluster);
 // Checks that the cluster describes tasks: a bus description passes the schedule's checks, but no node could run it. Throws
 // InputError; run_drive() calls it too.
 void check_described(const schedules::model::Cluster& cluster);

@@ -122,11 +122,9 @@ std::string following_warning(const Scenario& scenario) {
       .sentence();
 }
 
-void check_open_loop(const Scenario& scenario) {
-  if (scenario.world.ego && scenario.world.ego->actuator)
-    throw InputError({scenario.file, scenario.world.ego->actuator_line, "world.ego.actuator", "",
-                      "must be absent in real time: there commands drive no vehicle yet; use run, or launch "
-                      "--virtual-time"});
+std::optional<NodeId> actuator_node(const Cluster& cluster) {
+  const std::vector<ActuatorTask> found = actuators(cluster);
+  return found.empty() ? std::nullopt : cluster.find_node(found.front().node->name);
 }
 
 }  // namespace ttf::drives

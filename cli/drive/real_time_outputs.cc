@@ -97,6 +97,7 @@ std::string sums(const StrategyResult& result) {
     add(one_host ? "clocks apart [us]" : fmt::format("clocks on {} apart [us]", host.host), host.apart, 1.0, 1);
   add("sensor to feature, newest measurement [ms]", result.summary.age_used_newest, 1e3, 1);
   add("sensor to feature, oldest measurement [ms]", result.summary.age_used_oldest, 1e3, 1);
+  if (result.driving) add("jitter of the readings of commands [us]", result.driving->reading_jitter, 1.0, 0);
   return table.text();
 }
 
@@ -175,6 +176,7 @@ nlohmann::ordered_json real_time_json(const StrategyResult& result) {
   }
   json["sensor_to_feature_ms"] = {{"newest", scaled_json(result, result.summary.age_used_newest, 1e3)},
                                   {"oldest", scaled_json(result, result.summary.age_used_oldest, 1e3)}};
+  if (result.driving) json["reading_jitter_us"] = scaled_json(result, result.driving->reading_jitter, 1.0);
   return json;
 }
 

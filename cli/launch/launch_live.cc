@@ -10,6 +10,7 @@
 #include "cli/drive/drive_setup.h"
 #include "cli/launch/launch_result.h"
 #include "cli/node_set/node_drive.h"
+#include "cli/node_set/vehicle.h"
 #include "drives/observer.h"
 #include "drives/surroundings.h"
 #include "evaluation/cluster/bus_use.h"
@@ -27,9 +28,25 @@ constexpr std::int64_t kRound_ns = 100'000'000;
 // Nodes that are stopped together end some milliseconds apart: each closes its log first.
 constexpr Duration kTogether = Duration::milliseconds(500);
 
+// Gives the vehicle the commands of the actuator's log.
+class LoggedCommands final : public recording::records::Sink {
+ public:
+  LoggedCommands(sim::world::vehicle::Driven& driven, TrueTime start) : driven_(driven), start_(start) {}
+  bool wants_frames() const override { return false; }
+  using recording::records::Sink::on;
+  void on(const recording::records::CommandTaken& taken) override {
+    if (taken.verdict == recording::records::kApplied)
+      (void)driven_.insert({TrueTime{} + (taken.from - start_), taken.acceleration, taken.steering});
+  }
+
+ private:
+  sim::world::vehicle::Driven& driven_;
+  TrueTime start_;
+};
+
 // Nodes do not know the truth: it is computed at the instants of the nodes' records.
-void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLogs& nodes, const std::string& path) {
-  const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
+void write_truth(const node_set::NodeSet& set, const drives::Surroundings& around,
+                 const recording::merge::MergedLogs& nodes, const std::string& path) {
   const auto log = drive::begin_log(path, nodes.manifest(), set.scenario, set.cluster);
   drives::Observer observer(*around.scene, set.cluster.nodes.size(), *log);
   around.show(observer, set.scenario, set.cluster);
@@ -40,14 +57,20 @@ void write_truth(const node_set::NodeSet& set, const recording::merge::MergedLog
 }  // namespace
 
 LiveLaunch::LiveLaunch(const LaunchPlan& plan)
-    : set_(plan.set), processes_(plan.set.cluster.nodes.size() - plan.set.externals.size()) {
+    : set_(plan.set), around_(drives::surroundings_of(set_.scenario, set_.cluster, set_.seed, 0, nullptr)),
+      vehicle_(node_set::vehicle_line_of_launch(set_, around_)),
+      processes_(plan.set.cluster.nodes.size() - plan.set.externals.size()) {
   if (!plan.set.externals.empty()) hearing_.emplace(plan.set, plan.set.externals);
 }
 
 supervision::Hooks LiveLaunch::hooks() {
   supervision::Hooks hooks;
+  if (hearing_ || vehicle_)
+    hooks.listen = [this] {
+      if (hearing_) hearing_->take_in();
+      if (vehicle_) vehicle_->take_in();
+    };
   if (hearing_) {
-    hooks.listen = [this] { hearing_->take_in(); };
     hooks.external = [this](std::size_t node) {
       return hearing_->health(static_cast<NodeId>(node), bus::ports::host_now());
     };
@@ -62,7 +85,9 @@ supervision::Hooks LiveLaunch::hooks() {
     return nlohmann::json{{"origin_ns", origin_.value_or(bus::ports::host_now()).ns}, {"rejoin", true}};
   };
   hooks.on_health = [this](std::size_t node, const nlohmann::json& facts) {
-    if (!facts.is_object() || !facts.contains("not_granted")) return;
+    if (!facts.is_object()) return;
+    if (facts.contains("vehicle")) vehicle_problems_[node] = node_set::vehicle_problem(facts["vehicle"]);
+    if (!facts.contains("not_granted")) return;
     for (const nlohmann::json& sentence : facts["not_granted"])
       if (sentence.is_string()) not_granted_[sentence.get<std::string>()].insert(node);
   };
@@ -116,6 +141,8 @@ std::vector<std::string> LiveLaunch::warnings() const {
   std::vector<std::string> warnings;
   for (const auto& [sentence, nodes] : not_granted_)
     warnings.push_back(fmt::format("{} of {} nodes: {}", nodes.size(), processes_, sentence));
+  for (const auto& [node, problem] : vehicle_problems_)
+    if (!problem.empty()) warnings.push_back(fmt::format("{} {}", set_.cluster.nodes[node].name, problem));
   if (hearing_)
     for (std::string& sentence : hearing_->warnings()) warnings.push_back(std::move(sentence));
   return warnings;
@@ -125,7 +152,13 @@ std::optional<drive::StrategyResult> LiveLaunch::result(const std::vector<std::s
   std::vector<std::string> all = readable_logs(logs);
   if (all.empty()) return std::nullopt;
   const std::string truth = fmt::format("{}/{}", set_.folder, kTruthLog);
-  write_truth(set_, recording::merge::MergedLogs(all), truth);
+  const recording::merge::MergedLogs nodes(all);
+  // The launch itself has heard each command, even those that a killed process took with it. If not, the logs have them.
+  if (vehicle_ && !vehicle_->counts().whole) {
+    LoggedCommands logged(*around_.world->world().driven(), drives::drive_start(set_.cluster));
+    nodes.read(logged);
+  }
+  write_truth(set_, around_, nodes, truth);
   all.push_back(truth);
   evaluation::cluster::BusUse use(set_.cluster);
   drive::StrategyResult result = merged_result(set_, all, {&use});

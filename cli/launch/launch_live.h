@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,6 +16,8 @@
 #include "cli/launch/launch_plan.h"
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/supervisor.h"
+#include "drives/surroundings.h"
+#include "nodes/runner/vehicle/line.h"
 
 namespace ttf::cli::launch {
 
@@ -35,8 +38,8 @@ class LiveLaunch {
   std::vector<std::string> states_at_end(const supervision::HealthTable& health, const drive::StrategyResult*) const;
   // Returns the accounts of external nodes.
   std::vector<external::Account> accounts() const;
-  // Returns the privileges that the kernel refused, each sentence once with the number of processes, and the losses of the
-  // launch's own listening.
+  // Returns the privileges that the kernel refused, each sentence once with the number of processes, nodes that saw the vehicle
+  // elsewhere, and the losses of the launch's own listening.
   std::vector<std::string> warnings() const;
 
  private:
@@ -44,6 +47,9 @@ class LiveLaunch {
 
   const node_set::NodeSet& set_;
   std::optional<external::Hearing> hearing_;  // if there are external nodes
+  drives::Surroundings around_;
+  std::unique_ptr<nodes::runner::vehicle::Line> vehicle_;  // if commands drive it; it hears of all of them
+  std::map<std::size_t, std::string> vehicle_problems_;    // by node, the last reported
   const std::size_t processes_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence
   std::optional<bus::ports::MachineTime> origin_, last_done_;

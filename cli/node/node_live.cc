@@ -16,6 +16,7 @@
 #include "cli/node/node_ending.h"
 #include "cli/node_set/live_topics.h"
 #include "cli/node_set/node_drive.h"
+#include "cli/node_set/vehicle.h"
 #include "cli/output.h"
 #include "cli/supervision/control.h"
 #include "cli/supervision/folder_lock.h"
@@ -54,6 +55,7 @@ nlohmann::ordered_json health_json(const Health& health) {
     json["can_errors"] = health.can_errors;
     json["can_state"] = bus::can::text(static_cast<bus::can::ErrorState>(*health.can_state));
   }
+  if (health.vehicle) json["vehicle"] = node_set::vehicle_json(*health.vehicle);
   json["late_frames"] = health.timing.late_frames;
   json["early_frames"] = health.timing.early_frames;
   json["frames_lost"] = health.timing.frames_lost;
@@ -166,6 +168,7 @@ int run_node_live(const NodeOptions& options) {
   if (set.topics) check_topics(set);
   create_folder(set.folder);
   const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
+  const auto vehicle = node_set::vehicle_line(set, options.node, around);
   const drives::NodeSetConfig code{
       &set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr, drive::pointer_to(set.steps)};
   auto steps = drives::make_steps(code, options.node);
@@ -178,7 +181,9 @@ int run_node_live(const NodeOptions& options) {
   recording::log::LogWriter log(path, wall_manifest(set), recording::log::LogWriter::Writing::kBehind);
   if (told) tell_wait(*told);
   const Start start = told ? *told : start_of(*supervisor);
-  const nodes::runner::RunnerConfig config = config_of(options, start, signals.fd());
+  if (vehicle && start.rejoins && start.origin < bus::ports::host_now()) node_set::catch_up(*vehicle);
+  nodes::runner::RunnerConfig config = config_of(options, start, signals.fd());
+  config.vehicle = vehicle.get();
   std::unique_ptr<node_set::LiveTopics> topics;
   std::vector<recording::records::Sink*> sinks{&log};
   if (set.topics) {
@@ -205,6 +210,7 @@ int run_node_live(const NodeOptions& options) {
   teller.close();
   log.close();
   if (!supervisor) say_written(path);
+  if (!supervisor && vehicle) node_set::warn_of_vehicle(set, options.node, vehicle->counts());
   const bool failed = end == nodes::runner::RunnerEnd::kFailed;
   tell_ending(
       {node_set::counts_json(node.counts()), health_json(node.health()), failed ? medium->failure() : std::string()},

@@ -119,7 +119,10 @@ std::vector<NodeId> external_nodes(const std::string& text, const NodeSet& set) 
 }
 
 void check_fit_for_real_time(const NodeSet& set) {
-  drives::check_open_loop(set.scenario);
+  if (const auto actuator = drives::actuator_node(set.cluster);
+      actuator && std::ranges::find(set.externals, *actuator) != set.externals.end())
+    throw external_refused(set.cluster.node(*actuator).name,
+                           "must not name the node with the actuator, whose process moves the vehicle");
   if (auto findings = schedules::check::check_real_time(set.cluster, set.time_scale_ppm); !findings.empty())
     throw InputError(std::move(findings));
   if (!set.scenario.faults.empty())

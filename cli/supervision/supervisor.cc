@@ -61,7 +61,7 @@ Outcome Supervisor::run() {
   barrier_at_ = now() + config_.ready_timeout;
   status_every_ = terminal_ ? config_.status_every : config_.words_every;
   if (status_every_ > Duration{}) status_at_ = now() + status_every_;
-  if (any_external()) listen_at_ = now() + config_.listen_every;
+  if (listens()) listen_at_ = now() + config_.listen_every;
   for (const auto& node : nodes_)
     if (node->spec.external)
       health_.set_external(node->index, {});
@@ -81,7 +81,7 @@ Outcome Supervisor::run() {
       }
     keep_time();
   }
-  if (any_external()) listen();
+  if (listens()) listen();
   end_unheard();
   screen_.status("");
   show_health();

@@ -60,7 +60,7 @@ struct SupervisorConfig {
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
-  // How often external nodes are listened to, if there are any.
+  // How often external nodes are listened to, if there are any, or anything else.
   Duration listen_every = Duration::milliseconds(100);
   // How often the nodes' health is shown: in place on a terminal, else in words. 0: never.
   Duration status_every = Duration::milliseconds(1'000);
@@ -83,7 +83,7 @@ struct Hooks {
   std::function<void(std::size_t node, const ttf::cli::supervision::Ending& ending, bool comes_back)> on_gone;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_health;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_done;
-  // Takes in all that external nodes have sent.
+  // Takes in all that external nodes have sent, and all that nodes have told each other beside the bus.
   std::function<void()> listen;
   // Returns how an external node is. Without it: as never heard.
   std::function<ExternalHealth(std::size_t node)> external;
@@ -138,6 +138,7 @@ class Supervisor {
   void pass_barrier();
   void only_optional_left();
   bool any_external() const;
+  bool listens() const { return any_external() || hooks_.listen; }
   void listen();
   std::vector<std::string> unheard() const;
   void watch_unheard();
