@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "recording/scene/geometry.h"
 
@@ -145,6 +146,7 @@ void DrivingAccount::on(const recording::records::TaskRun& run) { warnings_.hear
 
 void DrivingAccount::on(const recording::records::CommandTaken& taken) {
   if (taken.stamp.true_time < from_) return;
+  note_jitter(taken);
   switch (taken.verdict) {
     case recording::records::kApplied: ++findings_.applied; break;
     case recording::records::kNoNewCommand: ++findings_.none_new; break;
@@ -153,6 +155,17 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
     case recording::records::kNothingAsked: ++findings_.nothing_asked; break;
     case recording::records::kWeakerCommand: ++findings_.weaker; break;
   }
+}
+
+// A reading has a record for each port. A refused command may be one that was read without global time.
+void DrivingAccount::note_jitter(const recording::records::CommandTaken& taken) {
+  if (read_ && read_->true_time == taken.stamp.true_time) return;
+  const bool in_global_time = taken.verdict != recording::records::kLateCommand;
+  if (read_ && in_global_time) {
+    const Duration apart = (taken.stamp.true_time - read_->true_time) - (taken.stamp.global - read_->global);
+    findings_.reading_jitter.add(Duration{std::abs(apart.ns)});
+  }
+  read_ = in_global_time ? std::optional(taken.stamp) : std::nullopt;
 }
 
 void DrivingAccount::on(const recording::records::Warning& warning) {

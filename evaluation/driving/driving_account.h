@@ -18,6 +18,7 @@
 #include "evaluation/driving/detection_account.h"
 #include "evaluation/driving/lane_account.h"
 #include "evaluation/driving/warning_account.h"
+#include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
 
 namespace ttf::evaluation::driving {
@@ -61,6 +62,9 @@ struct DrivingFindings {
   std::array<WarningFindings, recording::records::kWarningKinds> warnings;  // by service
   std::optional<LaneFindings> lane;
   bool watches_blind_spot = false;
+  // How much later or earlier a reading of commands came than the one before it, against the cluster's time. In virtual time only
+  // clocks differ.
+  recording::records::BinnedDurations reading_jitter;
 };
 
 class DrivingAccount final : public recording::records::Sink {
@@ -92,6 +96,7 @@ class DrivingAccount final : public recording::records::Sink {
   void note_hazards(double time_to_collision);
   void note_jerk();
   void note_beside(const recording::records::TruthState& object);
+  void note_jitter(const recording::records::CommandTaken& taken);
 
   DrivingConfig config_;
   TrueTime from_;
@@ -108,6 +113,7 @@ class DrivingAccount final : public recording::records::Sink {
   WarningAccount warnings_;
   std::optional<LaneAccount> lane_;
   std::array<bool, 2> beside_{};  // an object in the blind spot: left, right
+  std::optional<recording::records::Stamp> read_;  // when the actuator last read commands, in global time
 };
 
 }  // namespace ttf::evaluation::driving

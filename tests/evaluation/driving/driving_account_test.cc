@@ -306,5 +306,22 @@ TEST(DrivingAccount, AnObjectBesideTheVehicleIsAHazardOfThatSide) {
   EXPECT_EQ(together(found.warnings[kBlindSpotLeft], found.warnings[kBlindSpotRight]).hazards, 2u);
 }
 
+// Readings are 40 ms of global time apart. One is 300 us late, so the next one is early by that; a refused one is no end of an
+// interval.
+TEST(DrivingAccount, TheJitterOfReadingsIsAgainstTheClustersTime) {
+  Drive drive;
+  for (std::int64_t k = 0; k < 10; ++k) {
+    CommandTaken taken;
+    taken.stamp.global = GlobalTime{} + Duration::milliseconds(40 * k);
+    taken.stamp.true_time = at_ms(1000 + 40 * k) + Duration::microseconds(k == 3 ? 300 : k == 7 ? 5000 : 0);
+    taken.verdict = k == 7 ? kLateCommand : kApplied;
+    drive.account.on(taken);
+  }
+  const BinnedDurations jitter = drive.account.finish().reading_jitter;
+  EXPECT_EQ(jitter.count(), 7u);
+  EXPECT_EQ(jitter.longest(), Duration::microseconds(300));
+  EXPECT_EQ(jitter.count_from(lateness_bin(Duration::microseconds(250))), 2u);
+}
+
 }  // namespace
 }  // namespace ttf::evaluation::driving
