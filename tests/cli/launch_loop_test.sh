@@ -45,7 +45,7 @@ done
 wait_begun "$work/killed"
 pids_of "$work/killed"
 sleep 3
-expect 1 "error: this node of the session loop-$$ runs already on this host: give each drive a --session of its own" \
+expect 1 "error: this process of the session loop-$$ runs already on this host: give each drive a --session of its own" \
   node laser "$drive" --no-topics --session "loop-$$" --start-at "$start" --time-scale 4 --rejoin --out "$work/again"
 sleep 3
 kill -9 "${pid[actuator]}"

@@ -26,9 +26,9 @@ Line::Line(const LinePlan& plan, sim::world::vehicle::Driven& driven)
     const int why = errno;
     close(socket_);
     if (why == EADDRINUSE)
-      throw std::runtime_error(
-          fmt::format("this node of the session {} runs already on this host: give each drive a --session of its own",
-                      plan.session));
+      throw std::runtime_error(fmt::format(
+          "this process of the session {} runs already on this host: give each drive a --session of its own",
+          plan.session));
     throw std::system_error(why, std::system_category(), "cannot name a socket for the vehicle");
   }
   for (const std::size_t other : plan.others) others_.push_back(address_of(plan.session, other));
