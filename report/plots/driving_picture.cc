@@ -11,7 +11,7 @@
 namespace ttf::report::plots {
 namespace {
 
-constexpr double kLabelRoom = 76, kPanelWidth = 860, kPanelHeight = 170, kBetween = 18;
+constexpr double kNumbersRoom = 76, kPanelWidth = 860, kPanelHeight = 170, kBetween = 18;
 
 double seconds(TrueTime at) { return 1e-9 * static_cast<double>(at.ns); }
 
@@ -162,16 +162,17 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
                       drawing::Marker::kCircle, true});
     legend.push_back({Kind::kLine, "its bound", std::string(drawing::kBlack)});
   }
-  const double width = sheet.plot_width(kPanelWidth, kLabelRoom + 28), top = 34 + legend_height(legend, width) + 10;
+  const double width = sheet.plot_width(kPanelWidth, kNumbersRoom + 28), top = 34 + legend_height(legend, width) + 10;
   drawing::Extent time;
   time.add(seconds(options_.from));
   time.add(seconds(options_.to));
-  drawing::Svg svg(kLabelRoom + width + 28, top + static_cast<double>(panels.size()) * (kPanelHeight + kBetween) + 40,
+  drawing::Svg svg(kNumbersRoom + width + 28, top + static_cast<double>(panels.size()) * (kPanelHeight + kBetween) + 40,
                    options_.title, sheet);
   svg.text({24, 22}, options_.title, {.size = 14, .bold = true});
   draw_legend(svg, {24, 34}, width, legend);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const drawing::Area area{kLabelRoom, top + static_cast<double>(i) * (kPanelHeight + kBetween), width, kPanelHeight};
+    const drawing::Area area{kNumbersRoom, top + static_cast<double>(i) * (kPanelHeight + kBetween), width,
+                             kPanelHeight};
     const drawing::PlotFrame frame(area, time, extent_of(panels[i]));
     frame.draw(svg, i + 1 == panels.size() ? "true time [s]" : "", panels[i].label);
     svg.open_group("driving", area);
