@@ -89,9 +89,9 @@ void CrowdSecond(benchmark::State& state) {
 }
 BENCHMARK(CrowdSecond)->Unit(benchmark::kMillisecond);
 
-// Six sensors round the car, 25 objects, 20 s.
-void SurroundWithoutLog(benchmark::State& state) {
-  Drive drive("scenarios/surround.yaml", static_cast<fusion::strategies::StrategyKind>(state.range(0)));
+// 20 s of six sensors round the car.
+void twenty_seconds(benchmark::State& state, const char* scenario) {
+  Drive drive(scenario, static_cast<fusion::strategies::StrategyKind>(state.range(0)));
   drive.scenario.duration = Duration::milliseconds(20'000);
   for (auto _ : state) {
     recording::records::Sink nobody;
@@ -100,7 +100,17 @@ void SurroundWithoutLog(benchmark::State& state) {
   state.counters["x real time"] =
       benchmark::Counter(drive.scenario.duration.seconds(), benchmark::Counter::kIsIterationInvariantRate);
 }
+
+// 25 objects.
+void SurroundWithoutLog(benchmark::State& state) { twenty_seconds(state, "scenarios/surround.yaml"); }
 BENCHMARK(SurroundWithoutLog)
+    ->DenseRange(0, fusion::strategies::kStrategyCount - 1)
+    ->ArgName("strategy")
+    ->Unit(benchmark::kMillisecond);
+
+// The same sensors in a closed loop, with four objects.
+void DrivenSurroundWithoutLog(benchmark::State& state) { twenty_seconds(state, "scenarios/blind_spot.yaml"); }
+BENCHMARK(DrivenSurroundWithoutLog)
     ->DenseRange(0, fusion::strategies::kStrategyCount - 1)
     ->ArgName("strategy")
     ->Unit(benchmark::kMillisecond);
