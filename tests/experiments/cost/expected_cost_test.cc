@@ -142,9 +142,9 @@ TEST(ExpectedCost, OfAFollowingVehicleIsThePagesTable) {
   }
 }
 
-// The loop of experiments/closed_loop_age.yaml, without limits, tracker and noise of sensors. A list is 40 ms old and more.
-TEST(ExpectedCost, OfAgeAndJitterIsTheTableOfResults) {
-  const std::string text = read_file(std::string(TTF_SOURCE_DIR) + "/docs/results/closed_loop_age.md");
+// The loop of scenarios/acc_following.yaml, without limits, tracker and noise of sensors. A list is 40 ms old and more.
+TEST(ExpectedCost, OfAgeAndJitterIsThePagesTable) {
+  const std::string text = page();
   const FollowingLoop loop{1.8, 0.2, 10.0, 8};
   for (const int age : {0, 40, 80, 160}) {
     const auto gap = [&](const Delays& delay) { return follow(1 + age / 40, delay, loop).gap_m; };
