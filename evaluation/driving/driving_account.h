@@ -112,7 +112,7 @@ class DrivingAccount final : public recording::records::Sink {
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
   WarningAccount warnings_;
   std::optional<LaneAccount> lane_;
-  std::array<bool, 2> beside_{};  // an object in the blind spot: left, right
+  std::array<bool, 2> beside_{};                   // an object in the blind spot: left, right
   std::optional<recording::records::Stamp> read_;  // when the actuator last read commands, in global time
 };
 
