@@ -193,7 +193,7 @@ constexpr Description kScenario[] = {
     {"lane_keeping.offset_gain", "An offset from the lane's middle turns the wheels by this: k of Stanley's law."},
     {"lane_keeping.softening", "This is added to the speed in the law, so that it is gentle at low speeds."},
     {"lane_keeping.yaw_rate_gain", "A difference of the yaw rate from the lane's turns the wheels by this."},
-    {"lane_keeping.preview", "The law gets the state after this time: until a command has moved the wheels."},
+    {"lane_keeping.preview", "The law gets the state after this time."},
     {"lane_keeping.largest_lateral", "The wheels ask for at most this centripetal acceleration."},
     {"lane_keeping.departure", "A side nearer to its mark than this warns; a negative one lies beyond the mark."},
     {"lane_keeping.lane_width", "A lane is assumed to be this wide until both of its marks were seen."},

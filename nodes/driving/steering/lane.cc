@@ -85,7 +85,8 @@ std::optional<LaneLine> OwnLane::met(const host::Input& marks, const std::option
     if (value(6) < config_.least_validity - 0.01) continue;
     const LaneLine mark{value(0), value(1), value(2)};
     const double aside = mark.offset - middle;
-    if (expected && std::abs(std::abs(aside) - 0.5 * width_) > kMostApart_m) continue;
+    const double apart = std::abs(aside) - 0.5 * width_;
+    if (apart > kMostApart_m || (expected && apart < -kMostApart_m)) continue;
     std::optional<LaneLine>& nearest = aside > 0.0 ? left : right;
     if (!nearest || std::abs(aside) < std::abs(nearest->offset - middle)) nearest = mark;
   }

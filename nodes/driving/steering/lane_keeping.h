@@ -1,7 +1,7 @@
 // Lane keeping: steers the vehicle along the middle of its lane (nodes/control/stanley.h), and warns when it leaves the lane.
 //
-// A command acts a dead time later, and the wheels follow with a lag. So the law gets the state after `preview`. The angle is
-// limited: without slip the centripetal acceleration is at most largest_lateral, 3 m/s^2 as in ISO 11270.
+// A command acts a dead time later. So the law gets the state after `preview`, with the yaw rate of now. A longer preview, over the
+// wheels' lag, takes a swing of the yaw rate for a turn. The angle is limited: without slip the centripetal acceleration is at most largest_lateral, 3 m/s^2 as in ISO 11270.
 #pragma once
 
 #include "core/strict_yaml.h"
@@ -13,8 +13,8 @@
 namespace ttf::nodes::driving::steering {
 
 struct LaneKeepingConfig {
-  control::StanleyGains gains{.offset = 1.0, .yaw_rate_s = 0.15, .steering = 0.0};
-  Duration preview = Duration::milliseconds(250);
+  control::StanleyGains gains{.offset = 0.6, .yaw_rate_s = 0.15, .steering = 0.0};
+  Duration preview = Duration::milliseconds(50);
   double largest_lateral = 3.0;  // [m/s^2]
   double departure_m = 0.0;      // it warns when a side is nearer to its mark than this
   LaneConfig lane;

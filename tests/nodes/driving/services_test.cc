@@ -120,7 +120,7 @@ TEST(LaneKeeping, SteersTowardsTheMiddle) {
   for (const double side : {1.0, -1.0}) {
     Lanes aside;
     aside.see(side * 0.4);
-    EXPECT_NEAR(aside.issued->steering, side * std::atan(0.4 / 21.0), 1e-3);
+    EXPECT_NEAR(aside.issued->steering, side * std::atan(0.6 * 0.4 / 21.0), 1e-3);
   }
   Lanes bend;
   bend.see(0.125, 0.025, 0.0025);  // an arc of 400 m, on its middle
