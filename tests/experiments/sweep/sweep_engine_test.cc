@@ -100,6 +100,7 @@ TEST_F(SweepEngine, AClosedLoopHasItsMeasures) {
   const SweepFile closed = parse_sweep(
       "kind: sweep\nname: loop\nquestion: Does it stop?\nscenario: ../scenarios/acc_braking_lead.yaml\nseed: 1\n"
       "replications: 1\nparadigms:\n  tt: {strategy: tt, set: {duration: 8 s}}\n"
+      "axes:\n  noise: {keys: [world.acceleration_noise], values: [0, 1]}\n"
       "measures: [stopping_distance, smallest_gap, gap_error_rms, largest_deceleration, collision, collision_speed]\n",
       TTF_SOURCE_DIR "/experiments/loop.yaml");
   const results::Row row = SweepDrives(closed).run({0, 0, 0});
