@@ -192,7 +192,9 @@ TEST(AdaptiveCamera, RegionsGrowAndEndAtThePicture) {
   EXPECT_EQ(detector.sequence.find('b'), std::string::npos) << "it lies outside";
   ASSERT_NE(detector.sequence.find('c'), std::string::npos);
   for (const DetectionMade& one : detector.made) {
-    if (one.secondary) EXPECT_NEAR(one.area, 41.0 * 64.0 / (720.0 * 720.0), 1e-12);
+    if (one.secondary) {
+      EXPECT_NEAR(one.area, 41.0 * 64.0 / (720.0 * 720.0), 1e-12);
+    }
   }
 }
 
