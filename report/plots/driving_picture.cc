@@ -35,6 +35,7 @@ struct Panel {
   std::string_view label;
   std::vector<Series> series;
   bool from_zero = false;
+  double least = 1.0;  // the axis shows at least so much
 };
 
 drawing::Extent extent_of(const Panel& panel) {
@@ -42,7 +43,7 @@ drawing::Extent extent_of(const Panel& panel) {
   if (panel.from_zero) extent.add(0.0);
   for (const Series& series : panel.series)
     for (const drawing::Point& p : *series.points) extent.add(p.y);
-  return extent.padded(0.06, 1.0);
+  return extent.padded(0.06, panel.least);
 }
 
 void draw(drawing::Svg& svg, const drawing::PlotFrame& frame, const Series& series) {
@@ -141,7 +142,8 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
     panels.push_back({"heading in lane [deg]", {{&heading_, drawing::kBlack, false}}});
   }
   if (!sequence_.empty())
-    panels.push_back({"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false}}, true});
+    panels.push_back(
+        {"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false}}, true, 0.1});
   using Kind = drawing::LegendEntry::Kind;
   std::vector<drawing::LegendEntry> legend{
       {Kind::kLine, "the vehicle, true", std::string(drawing::kBlack)},
