@@ -6,7 +6,7 @@ program=$1
 source=$2
 source "$(dirname "$0")/expect.sh"
 source "$(dirname "$0")/launching.sh"
-launch_options=(--no-topics)
+launch_options=(--no-topics --duration 3.5)
 drive=$source/tests/test_bed/short_loop.yaml
 nodes="laser camera odometry laser_pre camera_pre odometry_pre gateway fusion feature actuator"
 
@@ -37,7 +37,7 @@ for node in $nodes; do
   [[ $node == camera ]] && late=--rejoin
   (
     [[ -n $late ]] && sleep 10
-    exec "$program" node "$node" "$drive" --no-topics --session "loop-$$" --start-at "$start" --time-scale 4 $late \
+    exec "$program" node "$node" "$drive" --no-topics --session "loop-$$" --start-at "$start" --time-scale 4 --duration 3.5 $late \
       --out "$work/hand" --json >"$work/hand.$node" 2>"$work/hand.$node.err"
   ) &
   by_hand+=($!)
@@ -46,7 +46,7 @@ wait_begun "$work/killed"
 pids_of "$work/killed"
 sleep 3
 expect 1 "error: this process of the session loop-$$ runs already on this host: give each drive a --session of its own" \
-  node laser "$drive" --no-topics --session "loop-$$" --start-at "$start" --time-scale 4 --rejoin --out "$work/again"
+  node laser "$drive" --no-topics --session "loop-$$" --start-at "$start" --time-scale 4 --duration 3.5 --rejoin --out "$work/again"
 sleep 3
 kill -9 "${pid[actuator]}"
 sleep 4
