@@ -33,8 +33,8 @@ struct DrivingConfig {
   double time_gap_s = 1.5, standstill_m = 2.0;    // the gap that it is to keep
   double reaction_speed_mps = 27.0;               // the object ahead falls below it, in truth and in the image
   std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
-  std::optional<LaneConfig> lane;                 // if a service keeps one
-  std::optional<BlindSpotZone> blind_spot;        // if a service watches it
+  std::optional<LaneConfig> lane{};               // if a service keeps one
+  std::optional<BlindSpotZone> blind_spot{};      // if a service watches it
   // The smallest admissible gap [m] at a speed; null: none.
   double (*minimum_gap)(double speed) = nullptr;
 };
