@@ -1,4 +1,5 @@
-// Cameras that share a detector: the same every time, without allocations, within the schedule's ages, and told apart from others.
+// Cameras that share a detector: the same every time, without allocations, within the schedule's ages, and told apart
+// from others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

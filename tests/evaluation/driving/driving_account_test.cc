@@ -306,8 +306,8 @@ TEST(DrivingAccount, AnObjectBesideTheVehicleIsAHazardOfThatSide) {
   EXPECT_EQ(together(found.warnings[kBlindSpotLeft], found.warnings[kBlindSpotRight]).hazards, 2u);
 }
 
-// Readings are 40 ms of global time apart. One is 300 us late, so the next one is early by that; a refused one is no end of an
-// interval.
+// Readings are 40 ms of global time apart. One is 300 us late, so the next one is early by that; a refused one is no
+// end of an interval.
 TEST(DrivingAccount, TheJitterOfReadingsIsAgainstTheClustersTime) {
   Drive drive;
   for (std::int64_t k = 0; k < 10; ++k) {

@@ -32,9 +32,9 @@ ExpectedCost kushner(const Delays& delay);
 enum class BeamRates { kBothSlow, kBothFast, kMultirate };
 ExpectedCost ball_and_beam(BeamRates rates);
 
-// A vehicle with the default gains of nodes/control/time_gap.h. The lead's speed is driven by white noise of density 1 m^2/s^3,
-// and forgets. Lists come every 40 ms, which are so many grains. A command rests on the list of `periods` before. It goes out
-// after a delay in grains.
+// A vehicle with the default gains of nodes/control/time_gap.h. The lead's speed is driven by white noise of density 1
+// m^2/s^3, and forgets. Lists come every 40 ms, which are so many grains. A command rests on the list of `periods`
+// before. It goes out after a delay in grains.
 struct FollowingLoop {
   double time_gap_s = 1.5;
   double lag_s = 0.3;      // the drive train's

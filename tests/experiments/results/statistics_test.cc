@@ -73,7 +73,8 @@ Moments of(int ones, int minus_ones, int zeros) {
   return moments;
 }
 
-// Newcombe: "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17, 1998, table I, method 3.
+// Newcombe: "Two-sided confidence intervals for the single proportion", Statistics in Medicine 17, 1998, table I,
+// method 3.
 TEST(Share, HasWilsonsInterval) {
   const auto expect = [](int ones, int zeros, double low, double high) {
     const Interval interval = share_of(of(ones, 0, zeros), 0.95);

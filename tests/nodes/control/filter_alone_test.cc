@@ -1,5 +1,5 @@
-// The share of a filter in the time until a braking car is seen to brake: a filter by itself, without detector, tracker and bus
-// (docs/adaptive_detection.md has the table).
+// The share of a filter in the time until a braking car is seen to brake: a filter by itself, without detector, tracker
+// and bus (docs/adaptive_detection.md has the table).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ struct Case {
   double density = 0.0;  // [m^2/s^3]; 0: 1 m/s^2 of standard deviation, drawn anew each interval
 };
 
-// Position and velocity of a car that drives with 29 m/s and brakes with 8 m/s^2 from 0 s on. A result is known 50 ms after its
-// measurement. Returns the time from 27 m/s in truth until the velocity says so.
+// Position and velocity of a car that drives with 29 m/s and brakes with 8 m/s^2 from 0 s on. A result is known 50 ms
+// after its measurement. Returns the time from 27 m/s in truth until the velocity says so.
 double reaction(const Case& c, RandomStream& draws) {
   constexpr double kBraking = 8.0, kSpeed = 29.0, kBelow = 27.0, kAge_s = 0.05;
   const double r = c.assumed_sigma_m * c.assumed_sigma_m, dt = c.interval_s;

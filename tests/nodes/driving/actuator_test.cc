@@ -133,7 +133,8 @@ TEST(Actuator, TheStrongerDecelerationCounts) {
   EXPECT_NEAR(loop.actuation->acceleration, -8.0, 1e-9) << "also without the other one";
 }
 
-// A list of either service is lost: its last command counts on until it is too old, and no longer than its service says.
+// A list of either service is lost: its last command counts on until it is too old, and no longer than its service
+// says.
 TEST(Actuator, AnAcceptedCommandOutlivesTheLossOfTheNextList) {
   ByHand loop;
   loop.receive(0, {true, -1.0, 0.02}, at_ms(40));

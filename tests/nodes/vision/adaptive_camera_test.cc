@@ -48,8 +48,8 @@ std::vector<SharedCamera> three() {
   return std::vector<SharedCamera>(3, SharedCamera{360.0, 360.0, calibration});
 }
 
-// Each camera takes a picture 2 ms before each execution, which come every 10 ms. It has two boxes: in the middle, and far to the
-// right.
+// Each camera takes a picture 2 ms before each execution, which come every 10 ms. It has two boxes: in the middle, and
+// far to the right.
 struct ByHand final : Sink {
   AdaptiveCamera step;
   std::vector<host::Output> lists, outputs;

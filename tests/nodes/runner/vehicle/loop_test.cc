@@ -1,4 +1,5 @@
-// The loop closed in real time, by a clock that the test turns: the vehicle that each sensor sees is that of the actuator's log.
+// The loop closed in real time, by a clock that the test turns: the vehicle that each sensor sees is that of the
+// actuator's log.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
-// The record of a driven vehicle among processes: messages that get lost, come late, twice or in another order, and processes that
-// begin later. Messages go by hand here, at instants of the drive.
+// The record of a driven vehicle among processes: messages that get lost, come late, twice or in another order, and
+// processes that begin later. Messages go by hand here, at instants of the drive.
 #include "nodes/runner/vehicle/record.h"
 
 #include <gtest/gtest.h>

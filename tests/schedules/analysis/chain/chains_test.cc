@@ -29,8 +29,8 @@ model::Cluster driving(bool scheduled) {
   return cluster;
 }
 
-// Measured at 0, fused at 6 ms, published at 10 ms, served at 11 ms. The actuator reads at 15.5 ms. The next measurement
-// sees what this one missed.
+// Measured at 0, fused at 6 ms, published at 10 ms, served at 11 ms. The actuator reads at 15.5 ms. The next
+// measurement sees what this one missed.
 TEST(Chains, OfAScheduledSensorAreExact) {
   const auto found = chains(driving(true));
   ASSERT_EQ(found.size(), 1u);
