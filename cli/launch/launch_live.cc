@@ -153,7 +153,7 @@ std::optional<drive::StrategyResult> LiveLaunch::result(const std::vector<std::s
   if (all.empty()) return std::nullopt;
   const std::string truth = fmt::format("{}/{}", set_.folder, kTruthLog);
   const recording::merge::MergedLogs nodes(all);
-  // The launch itself has heard each command, even those that a killed process took with it. If not, the logs have them.
+  // The launch has heard each command itself, even those of a killed process. If not, the logs have them.
   if (vehicle_ && !vehicle_->counts().whole) {
     LoggedCommands logged(*around_.world->world().driven(), drives::drive_start(set_.cluster));
     nodes.read(logged);

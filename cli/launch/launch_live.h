@@ -38,8 +38,8 @@ class LiveLaunch {
   std::vector<std::string> states_at_end(const supervision::HealthTable& health, const drive::StrategyResult*) const;
   // Returns the accounts of external nodes.
   std::vector<external::Account> accounts() const;
-  // Returns the privileges that the kernel refused, each sentence once with the number of processes, nodes that saw the vehicle
-  // elsewhere, and the losses of the launch's own listening.
+  // Returns the privileges that the kernel refused, each sentence once with the number of processes, nodes that saw the
+  // vehicle elsewhere, and the losses of the launch's own listening.
   std::vector<std::string> warnings() const;
 
  private:

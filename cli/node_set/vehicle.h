@@ -1,4 +1,4 @@
-// The vehicle that commands drive, in real time: each process that needs its state hears of the commands beside the bus.
+// The vehicle that commands drive, in real time: processes that need its state hear of the commands beside the bus.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace ttf::cli::node_set {
 
-// Returns the line of a node's process; null if no commands drive the vehicle, or the node needs no state of it. `around` outlives
-// the line.
+// Returns the line of a node's process; null if no commands drive the vehicle, or the node needs no state of it.
+// `around` outlives the line.
 std::unique_ptr<nodes::runner::vehicle::Line> vehicle_line(const NodeSet& set, NodeId node,
                                                            const drives::Surroundings& around);
 // Returns the line of a launch, which hears all nodes; null likewise.
@@ -23,8 +23,8 @@ std::unique_ptr<nodes::runner::vehicle::Line> vehicle_line_of_launch(const NodeS
 void catch_up(nodes::runner::vehicle::Line& line);
 
 nlohmann::ordered_json vehicle_json(const nodes::runner::vehicle::Counts& counts);
-// Returns a sentence, without its subject, if the process saw the vehicle elsewhere than it was; else "". `json` is from
-// vehicle_json(), of any process.
+// Returns a sentence, without its subject, if the process saw the vehicle elsewhere than it was; else "". `json` is
+// from vehicle_json(), of any process.
 std::string vehicle_problem(const nlohmann::json& json);
 // Warns of that, and of a node that heard of no command at all, at the end of a node without a launch.
 void warn_of_vehicle(const NodeSet& set, NodeId node, const nodes::runner::vehicle::Counts& counts);

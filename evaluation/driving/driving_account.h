@@ -1,9 +1,9 @@
 // The worth of a drive in which commands drive the vehicle: gap and time to collision, braking and jerk, commands, and the warnings
 // of its services against the truth. It knows the records alone, and the road.
 //
-// Forward collision warning and emergency braking have a hazard when the true time to collision is below the service's time. Lane
-// departure has one when a side of the vehicle is beyond its mark. Blind spot warning has one when an object's outline is in the
-// zone of that side.
+// Forward collision warning and emergency braking have a hazard when the true time to collision is below the service's
+// time. Lane departure has one when a side of the vehicle is beyond its mark. Blind spot warning has one when an
+// object's outline is in the zone of that side.
 //
 // The truth is judged at the instants at which it is recorded, some hundred a second. The object ahead is the nearest one whose
 // outline overlaps the vehicle's way, a circle of its speed and yaw rate. A drive is judged up to its first collision.
@@ -62,8 +62,8 @@ struct DrivingFindings {
   std::array<WarningFindings, recording::records::kWarningKinds> warnings;  // by service
   std::optional<LaneFindings> lane;
   bool watches_blind_spot = false;
-  // How much later or earlier a reading of commands came than the one before it, against the cluster's time. In virtual time only
-  // clocks differ.
+  // How much later or earlier a reading of commands came than the one before it, against the cluster's time. In virtual
+  // time only clocks differ.
   recording::records::BinnedDurations reading_jitter;
 };
 

@@ -1,4 +1,4 @@
-// Warnings of services against the truth: right, wrong, missed, late by how much. The caller says when the truth is a hazard.
+// Warnings of services against the truth: right, wrong, missed or late. The caller says when the truth is a hazard.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // Limits of acceleration and jerk, and the step of a command within them.
 //
-// An adaptive cruise control's limits depend on the speed: they are constant at 5 m/s and below, and at 20 m/s and above, and
-// linear between. The defaults are ISO 15622's as they are commonly cited. The standard limits averages over 1 to 2 s; here
-// each instant is limited. Accelerations are positive forwards.
+// An adaptive cruise control's limits depend on the speed: they are constant at 5 m/s and below, and at 20 m/s and
+// above, and linear between. The defaults are ISO 15622's as they are commonly cited. The standard limits averages over
+// 1 to 2 s; here each instant is limited. Accelerations are positive forwards.
 #pragma once
 
 namespace ttf::nodes::control {

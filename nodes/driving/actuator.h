@@ -12,11 +12,12 @@
 
 namespace ttf::nodes::driving {
 
-// Ports `command` and, if they are bound, `emergency` and `lateral`. A list is taken once. It is refused if its instant is too far
-// away, or if it is invalid. An accepted command lives until its service's next list, or until it is older than `oldest`. So a lost list
-// ends no command. The strongest deceleration among the living ones counts, with the wheels of `command`. It is handed over
-// when a list is new. A list that lost a fragment, or whose frame was not intact, never gets here
-// (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone (steering/commands.h).
+// Ports `command` and, if they are bound, `emergency` and `lateral`. A list is taken once. It is refused if its instant
+// is too far away, or if it is invalid. An accepted command lives until its service's next list, or until it is older
+// than `oldest`. So a lost list ends no command. The strongest deceleration among the living ones counts, with the
+// wheels of `command`. It is handed over when a list is new. A list that lost a fragment, or whose frame was not
+// intact, never gets here (bus/cni/list_buffer.h). With `lateral` the front wheels follow that list alone
+// (steering/commands.h).
 class Actuator final : public host::Step {
  public:
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

@@ -19,8 +19,8 @@ namespace ttf::nodes::driving {
 struct PathConfig {
   // If true, the line of travel is the circle of speed and yaw rate, and else straight.
   bool curved = false;
-  double half_width_m =
-      1.8;  // objects whose centre is further off the line of travel are not in the path: half a 3.6 m lane
+  // An object whose centre is further off the line of travel is not in the path: half a lane of 3.6 m.
+  double half_width_m = 1.8;
   double front_m = 3.4;  // the vehicle's front, ahead of its rear axle
   // The largest difference between an image's predicted instant and its use.
   Duration max_image_age = Duration::milliseconds(100);

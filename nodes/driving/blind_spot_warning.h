@@ -1,7 +1,8 @@
 // Blind spot warning: an object is beside the vehicle or behind it in a neighbouring lane.
 //
-// The zones are those that are commonly cited from ISO 17387. They reach from the driver's eyes to 3 m behind the rear bumper, and
-// from 0.5 m to 3 m off the vehicle's side. An object is in a zone if its extent overlaps it. Its motion does not matter.
+// The zones are those that are commonly cited from ISO 17387. They reach from the driver's eyes to 3 m behind the rear
+// bumper, and from 0.5 m to 3 m off the vehicle's side. An object is in a zone if its extent overlaps it. Its motion
+// does not matter.
 #pragma once
 
 #include <array>
@@ -23,8 +24,8 @@ struct BlindSpotConfig {
 // Reads all but the vehicle's width.
 BlindSpotConfig load_blind_spot(YamlMap& yaml);
 
-// Port `image`. It warns for each side by itself. Without an image that is fresh enough, or without global time, warnings stay as
-// they are.
+// Port `image`. It warns for each side by itself. Without an image that is fresh enough, or without global time,
+// warnings stay as they are.
 class BlindSpotWarning final : public host::Step {
  public:
   BlindSpotWarning(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

@@ -1,7 +1,7 @@
-// The part of a camera's picture that an object of the image is likely to be in: a region of interest for the next detection.
+// A region of interest: the part of a camera's picture in which the next detection is to look for an object.
 //
-// It is the object's predicted box with a margin. It grows about its middle to a share of the picture's area, and moves into
-// the picture. A pinhole camera sees a point at depth x, y to the left and z over ground, at
+// It is the object's predicted box with a margin. It grows about its middle to a share of the picture's area, and moves
+// into the picture. A pinhole camera sees a point at depth x, y to the left and z over ground, at
 //   column -f y / x,  row f (h - z) / x.
 #pragma once
 

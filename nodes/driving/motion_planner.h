@@ -1,7 +1,7 @@
-// Plans the speed behind the most important object (nodes/control/gap_planner.h), and tells a camera where to look for it.
+// Plans the speed behind the most important object (nodes/control/gap_planner.h), and a region of interest around it.
 //
-// Objects are judged in the axes of the own lane, which is straight. The place on it is that of odometry (own_place.h). The gap
-// lies between the own front and the object's outline.
+// Objects are judged in the axes of the own lane, which is straight. The place on it is that of odometry (own_place.h).
+// The gap lies between the own front and the object's outline.
 #pragma once
 
 #include <array>
@@ -28,8 +28,9 @@ struct PlannerConfig {
 // Reads all but the vehicle's front and width.
 PlannerConfig load_planner(YamlMap& yaml);
 
-// Ports `image` and `odometry` -> `plan`, and `regions` if it is bound (nodes/vision/regions.h). Each execution issues a plan and a
-// list of regions. Without a view of the way ahead the plan is invalid, except for a stop, and nothing is of interest.
+// Ports `image` and `odometry` -> `plan`, and `regions` if it is bound (nodes/vision/regions.h). Each execution issues
+// a plan and a list of regions. Without a view of the way ahead the plan is invalid, except for a stop, and nothing is
+// of interest.
 class MotionPlanner final : public host::Step {
  public:
   // `pictures` are those of the cluster's cameras; the first one that sees the object gets the region.

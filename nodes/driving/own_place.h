@@ -1,8 +1,8 @@
 // The own place along a straight line, by odometry alone: from the first sample on, speed and yaw rate are integrated.
 //
-// The line begins at the vehicle's place then, in its own direction. So a vehicle that starts along the middle of a straight
-// lane knows its place in that lane. Nothing corrects the place later. A constant error b of the yaw rate moves it aside by
-// v b t^2 / 2. For 29 m/s and 0.002 rad/s this is 2.9 m after 10 s.
+// The line begins at the vehicle's place then, in its own direction. So a vehicle that starts along the middle of a
+// straight lane knows its place in that lane. Nothing corrects the place later. A constant error b of the yaw rate
+// moves it aside by v b t^2 / 2. For 29 m/s and 0.002 rad/s this is 2.9 m after 10 s.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct Place {
 class OwnPlace {
  public:
   OwnPlace(const schedules::model::Cluster& cluster, const schedules::model::Task& task);
-  // Takes a new sample in; returns the place at the execution's start, and none without global time or once the odometry has
-  // stopped (fusion/ego/odometry.h). Call it at each execution.
+  // Takes a new sample in; returns the place at the execution's start, and none without global time or once the
+  // odometry has stopped (fusion/ego/odometry.h). Call it at each execution.
   std::optional<Place> look(const host::StepContext& context);
 
  private:

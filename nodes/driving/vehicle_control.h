@@ -1,8 +1,8 @@
 // Low-level control: turns a planned speed into an acceleration, and keeps the vehicle on the line that it started on.
 //
 // Lengthwise it is a proportional and integral controller (nodes/control/proportional_integral.h), sideways Stanley's
-// (nodes/control/stanley.h). The bus has no measured angle of the wheels: the last two commands stand for it. The line is
-// straight, and the place beside it is that of odometry (own_place.h).
+// (nodes/control/stanley.h). The bus has no measured angle of the wheels: the last two commands stand for it. The line
+// is straight, and the place beside it is that of odometry (own_place.h).
 #pragma once
 
 #include <optional>
@@ -18,8 +18,8 @@
 namespace ttf::nodes::driving {
 
 struct ControlConfig {
-  // With a tracking time of kp / ki, the integral goes to the limit at which the command is. So the brakes do not let go as
-  // the vehicle comes to a standstill.
+  // The tracking time is kp / ki: the integral follows the command to its limit. So the brakes do not let go as the
+  // vehicle comes to a standstill.
   control::ProportionalIntegral speed{2.5, 1.0, 2.5, -6.0, 3.0};
   control::StanleyGains steering;
   double wheelbase_m = 2.6;
@@ -28,8 +28,8 @@ struct ControlConfig {
 // Reads all but the wheelbase.
 ControlConfig load_control(YamlMap& yaml);
 
-// Ports `plan` and `odometry` -> `command`. Each execution issues a command. It is invalid without a valid plan that is young enough,
-// and without odometry; the integral begins at zero afterwards.
+// Ports `plan` and `odometry` -> `command`. Each execution issues a command. It is invalid without a valid plan that is
+// young enough, and without odometry; the integral begins at zero afterwards.
 class VehicleControl final : public host::Step {
  public:
   VehicleControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

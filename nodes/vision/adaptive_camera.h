@@ -1,19 +1,19 @@
-// Several cameras that share one detector. It looks at one picture at a time: at the whole of it, or at its region of interest.
-// Wolfe, "Adaptive object detection for autonomous vehicles" (Northern Illinois University, 2020).
+// Several cameras that share one detector. It looks at one picture at a time: at the whole of it, or at its region of
+// interest. Wolfe, "Adaptive object detection for autonomous vehicles" (Northern Illinois University, 2020).
 //
-// The task is executed once a step. An execution without a detection at work begins the frame's next one (frame_plan.h). It takes
-// the camera's newest picture and keeps it. A detection takes
+// The task is executed once a step. An execution without a detection at work begins the frame's next one
+// (frame_plan.h). It takes the camera's newest picture and keeps it. A detection takes
 //   T = factor * picture_time * area * (1 + N(0, deviation^2)).
 // Here `area` is the share of the picture that it looks at. It ends ceil(T / step) steps later, and at least two
-// (schedules/sequence/history.h). The execution that ends it writes its result, and begins the next one. All others write
-// nothing. No clock of the machine is asked.
+// (schedules/sequence/history.h). The execution that ends it writes its result, and begins the next one. All others
+// write nothing. No clock of the machine is asked.
 //
-// A picture is looked at once. It may be kOldestPicture steps old. A camera without one costs its detection and a step. A
-// detection takes at most as long as the task may hold a list (schedules::model::Task::holds). Then the detector gives what it
-// has. If the task missed executions for so long, the detection is dropped.
+// A picture is looked at once. It may be kOldestPicture steps old. A camera without one costs its detection and a step.
+// A detection takes at most as long as the task may hold a list (schedules::model::Task::holds). Then the detector
+// gives what it has. If the task missed executions for so long, the detection is dropped.
 //
-// The camera's model finds the boxes (sim/world/mono_camera.h). A primary detection lists them all. A secondary one lists those
-// whose middle lies in the region. So the region's clutter is as much less as its area.
+// The camera's model finds the boxes (sim/world/mono_camera.h). A primary detection lists them all. A secondary one
+// lists those whose middle lies in the region. So clutter falls with the region's area.
 #pragma once
 
 #include <array>
@@ -39,11 +39,10 @@ struct FixedRegion {
 
 struct AdaptiveCameraConfig {
   FramePlanConfig plan;
-  // The time of a whole picture on the machine on which it was measured, and the time there for one here.
-  Duration picture_time = Duration::microseconds(231'500);
-  double hardware_factor = 0.2;
-  double deviation = 0.1;
-  double smallest_region_px = 64.0;  // a smaller region grows to this width and height
+  Duration picture_time = Duration::microseconds(231'500);  // of a whole picture, on the machine where it was measured
+  double hardware_factor = 0.2;                             // this machine's times over those of that one
+  double deviation = 0.1;                                   // standard deviation of a time, as a share of it
+  double smallest_region_px = 64.0;                         // a smaller region grows to this width and height
   Duration oldest_region = Duration::milliseconds(500);
   std::vector<FixedRegion> regions;
 };
@@ -61,8 +60,8 @@ struct DetectionKey {
   std::uint32_t replication = 0;
 };
 
-// Ports: each camera's boxes, by the sensor's name -> its observations, by that name and `_objects`. Port `regions`, if it is bound: a list of
-// regions (regions.h). The order of the cameras among the ports read is that of their letters.
+// Ports: each camera's boxes, by the sensor's name -> its observations, by that name and `_objects`. Port `regions`, if
+// it is bound: a list of regions (regions.h). The order of the cameras among the ports read is that of their letters.
 class AdaptiveCamera final : public host::Step {
  public:
   static constexpr int kOldestPicture = 3;

@@ -1,5 +1,5 @@
-// The frames of a detector that several cameras share: whose picture comes next, and whether all of it is looked at
-// (schedules/sequence/generator.h). A frame is planned at its beginning. Earlier detections tell the times.
+// The frames of a detector that several cameras share: its next camera, and a whole picture or a region of interest
+// (schedules/sequence/generator.h). A frame is planned at its beginning, by the times of earlier detections.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class FramePlan {
 
   // Plans the next frame. `shares` has each camera's region of interest as a share of its picture, 0 for none.
   void begin(std::span<const double> shares);
-  // Returns whether all detections of the frame were taken; so it is before the first frame.
+  // Returns whether all detections of the frame were taken; true before the first frame.
   bool over() const { return place_ == sequence_.size(); }
   // Returns the next detection; the frame is not over.
   const schedules::sequence::Detection& next() const { return sequence_[place_]; }

@@ -1,9 +1,9 @@
 // Regions of interest: rectangles of cameras' pictures, a list on the bus from a planner to an adaptive camera.
 //
-// An element has `sensor`, the camera's place among the cluster's sensors, from 0. The left edge `x` and the upper edge `y` count
-// from the middle of the picture, rows downwards. They, `width` and `height` are in pixels. An element with `valid` 0 counts for
-// nothing. The list's time stamp is the instant of its issue. A list replaces all before it. An empty one says that nothing is
-// of interest.
+// An element has `sensor`, the camera's place among the cluster's sensors, from 0. The left edge `x` and the upper edge
+// `y` count from the middle of the picture, rows downwards. They, `width` and `height` are in pixels. An element with
+// `valid` 0 counts for nothing. The list's time stamp is the instant of its issue. A list replaces all before it. An
+// empty one says that nothing is of interest.
 #pragma once
 
 #include <array>

@@ -355,8 +355,8 @@ struct FeatureUsed {
   bool stale = false;  // too old to be used: nothing was judged, and `objects` is empty
 };
 
-// A service's warning begins or ends. The time to collision is infinite without an approach; the track is kNoTrack without an
-// object. Each side of the vehicle has a blind spot of its own.
+// A service's warning begins or ends. The time to collision is infinite without an approach; the track is kNoTrack
+// without an object. Each side of the vehicle has a blind spot of its own.
 inline constexpr std::uint8_t kForwardCollision = 0, kEmergencyBraking = 1, kLaneDeparture = 2, kBlindSpotLeft = 3,
                               kBlindSpotRight = 4;
 inline constexpr std::size_t kWarningKinds = 5;
@@ -383,10 +383,11 @@ struct CommandIssued {
   TrackId track{};  // the object ahead, if there is one
 };
 
-// An actuator's reading of a command: it is applied from the instant `from` on, or not. A reading has a record for the list of
-// adaptive cruise control, and one for each new list of another service. An earlier command that counts on has one of its own.
+// An actuator's reading of a command: it is applied from the instant `from` on, or not. A reading has a record for the
+// list of adaptive cruise control, and one for each new list of another service. An earlier command that counts on has
+// one of its own.
 inline constexpr std::uint8_t kApplied = 0, kNoNewCommand = 1, kInvalidCommand = 2, kLateCommand = 3;
-// The service asks for nothing, as it is allowed to; another service asks for more.
+// A service other than cruise control asks for nothing; a service asks for less than another one.
 inline constexpr std::uint8_t kNothingAsked = 4, kWeakerCommand = 5;
 struct CommandTaken {
   Stamp stamp;
@@ -411,8 +412,8 @@ struct DetectionMade {
   std::uint16_t found = 0;
 };
 
-// A frame of detections as its detector planned it, at the execution that begins it. The letters of `text` name cameras in the
-// order of the detector's ports, capital ones primary detections (schedules/sequence/detections.h).
+// A frame of detections as its detector planned it, at the execution that begins it. The letters of `text` name cameras
+// in the order of the detector's ports, capital ones primary detections (schedules/sequence/detections.h).
 struct SequencePlanned {
   Stamp stamp;
   std::uint32_t frame = 0;  // counted from 0
@@ -421,9 +422,9 @@ struct SequencePlanned {
   Duration length{};  // expected, by the times of earlier detections
 };
 
-// A motion plan: the speed [m/s] to drive at, and the planner's state (nodes/control/gap_planner.h). An invalid one asks for
-// nothing. It rests on the most important object. The own place is that on the lane [m, rad]. The region [px] holds the
-// object. Without an object the track is kNoTrack. Without a region the camera is kNoSensor.
+// A motion plan: the speed [m/s] to drive at, and the planner's state (nodes/control/gap_planner.h). An invalid one
+// asks for nothing. It rests on the most important object. The own place is that on the lane [m, rad]. The region [px]
+// holds the object. Without an object the track is kNoTrack. Without a region the camera is kNoSensor.
 struct PlanMade {
   Stamp stamp;
   PduId pdu{};

@@ -37,8 +37,9 @@ bool overlap(const std::array<Point, 4>& a, const std::array<Point, 4>& b);
 
 // Returns the curvature [1/m] of a vehicle's way if it keeps its speed and yaw rate; 0 for a slow one.
 double way_curvature(const records::EgoTruth& ego);
-// Returns the gap [m] between a vehicle's front, `front_m` ahead of its origin, and an object that lies in its way, `width_m`
-// wide; no value for an object that is behind the origin or beside the way. The object is in the vehicle's axes.
+// Returns the gap [m] between a vehicle's front, `front_m` ahead of its origin, and an object that lies in its way,
+// `width_m` wide; no value for an object that is behind the origin or beside the way. The object is in the vehicle's
+// axes.
 std::optional<double> gap_ahead(const records::TruthState& object, double front_m, double width_m, double curvature);
 
 // Returns the points, given in the axes of `mounting`, in the vehicle's.

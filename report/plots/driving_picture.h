@@ -1,6 +1,7 @@
-// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the vehicle's
-// acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the actuator. The place in the lane is
-// shown if a service keeps it, and the lengths of sequences if cameras share a detector.
+// A closed loop over time, from the records of a drive: the gap to the object ahead, the speeds of both, and the
+// vehicle's acceleration. Lines are the truth. Marks are the services' view, and the acceleration asked of the
+// actuator. The place in the lane is shown if a service keeps it, and the lengths of sequences if cameras share a
+// detector.
 #pragma once
 
 #include <functional>

@@ -82,8 +82,8 @@ struct AgePath {
   Duration buffered_newest_worst{};  // at any use, as newest_worst
   std::vector<Waypoint> waypoints;   // in order; the last is the use, or the fusion without one
   bool reaches_use = false;          // otherwise everything about use is zero
-  // A task that holds lists (model::Task::holds) passes some measurements on, and not others. Ages are those of lists that
-  // it passes on. How often it does is not known: the age of the newest at any use supposes that it passes all on.
+  // A task that holds lists (model::Task::holds) passes some measurements on, and not others. Ages are those of lists
+  // that it passes on. How often it does is not known: the age of the newest at any use supposes that it passes all on.
   bool chosen = false;
 };
 

@@ -139,8 +139,8 @@ struct Task {
   Duration worst_case{};
   ExecutionDraw draw = ExecutionDraw::kUniform;
   Duration deadline{};  // after activation
-  // A list that an execution begins to work at is written by a later execution, which starts at most this long after. Zero: by
-  // the same one.
+  // A list that an execution begins to work at is written by a later execution, which starts at most this long after.
+  // Zero: by the same one.
   Duration holds{};
   std::vector<PortBinding> reads;
   std::vector<PortBinding> writes;

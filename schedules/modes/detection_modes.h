@@ -1,17 +1,18 @@
 // Sequences of detections as time-triggered schedules: the modes of a detector's task.
 //
-// In a cluster, one task stands for the detector that several cameras share. A mode is a frame of schedules/sequence with an instant
-// for each detection: they begin on a grid of whole cycles, and each occupies the task for whole steps of the grid, at least two.
-// Its list is written when the detection ends, at the latest its worst-case duration behind its beginning. Modes change at a frame's
-// end only. A frame may begin at any step of the grid, as the modes before it last differently long.
+// In a cluster, one task stands for the detector that several cameras share. A mode is a frame of schedules/sequence
+// with an instant for each detection: they begin on a grid of whole cycles, and each occupies the task for whole steps
+// of the grid, at least two. Its list is written when the detection ends, at the latest its worst-case duration behind
+// its beginning. Modes change at a frame's end only. A frame may begin at any step of the grid, because
+// frames before it have different lengths.
 //
 // A mode is sound if
 //   steps     a step is a whole number of cycles, as the slots of the lists repeat with cycles
 //   ends      each detection ends before its steps do, by any clock
-//   lists     each list is in its slots, or given to its CAN, before the next one is written: none is torn or replaced. This
-//             holds for all modes at once, so that it holds where they change.
-// For a sound mode, the chain from a picture to the actuator is bounded over every cycle in which its detection may begin
-// (schedules/analysis/chain).
+//   lists     each list is in its slots, or given to its CAN, before the next one is written: none is torn or
+//             replaced. This holds for all modes at once, and so where they change.
+// For a sound mode, the chain from a picture to the actuator is bounded over every cycle in which its detection may
+// begin (schedules/analysis/chain).
 #pragma once
 
 #include <string>
@@ -56,23 +57,24 @@ struct Detector {
   const model::Task* task = nullptr;
 };
 
-// Returns what is wrong with the modes in this cluster, each in one sentence about an option's key of `schedule sequence`. The
-// cluster must have passed check().
+// Returns what is wrong with the modes in this cluster, each in one sentence about an option's key of `schedule
+// sequence`. The cluster must have passed check().
 std::vector<Finding> unsound(const model::Cluster& cluster, const Detector& detector, const std::vector<Mode>& modes,
                              const Grid& grid);
 
 // Bounds for one camera of one mode, in a chain behind the detector's task.
 struct CameraBound {
   int sensor = 0;
-  Duration least{},
-      most{};  // from the first picture that shows an event to the reading of the first command resting on it
+  // From the first picture that shows an event to the reading of the first command resting on it.
+  Duration least{}, most{};
   // From the event itself: where the region of interest shows it, and where only whole pictures do.
   Duration reaction_in_region{}, reaction{};
 };
 // Returns the bounds of a sound mode, by camera, for one chain: by its place among rests_behind() of the task.
 std::vector<CameraBound> bounds(const model::Cluster& cluster, const Detector& detector, const Mode& mode,
                                 const Grid& grid, std::size_t chain);
-// Returns them for an event that comes about when `before` ends and `after` begins. The first pictures are those of `after`.
+// Returns them for an event that comes about when `before` ends and `after` begins. The first pictures are those of
+// `after`.
 std::vector<CameraBound> bounds_of_change(const model::Cluster& cluster, const Detector& detector, const Mode& before,
                                           const Mode& after, const Grid& grid, std::size_t chain);
 

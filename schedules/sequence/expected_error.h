@@ -1,12 +1,15 @@
-// The expected error of tracks that a sequence of detections feeds, by a covariance recursion: no sampling, no estimate.
+// The expected error of tracks that a sequence of detections feeds, by a covariance recursion without draws.
 //
-// Each sensor sees an object of its own. Along one axis the object moves at a constant velocity with white acceleration of density
-// q, and a filter with the same model follows it. The position is measured at the beginning of each of the sensor's detections,
-// primary or secondary, with the standard deviation sigma. The result is there at the detection's end. Between results the state is
-// predicted: behind the measurement at m_k, with the covariance P after its update, the position's variance is
-//   P11 + 2 P12 d + P22 d^2 + q d^3 / 3,   d = t - m_k,   for t from the end of detection k to that of the sensor's next one.
-// The frame is repeated for ever, and the recursion runs until a frame no longer changes P. Every detection finds the object.
-// Reference: Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to Tracking and Navigation" (2001), 6.2.2.
+// Each sensor sees an object of its own. Along one axis the object moves at a constant velocity with white acceleration
+// of density q, and a filter with the same model follows it. The position is measured at the beginning of each of the
+// sensor's detections, primary or secondary, with the standard deviation sigma. The result is there at the detection's
+// end. Between results the state is predicted: behind the measurement at m_k, with the covariance P after its update,
+// the position's variance is
+//   P11 + 2 P12 d + P22 d^2 + q d^3 / 3,   d = t - m_k,
+// for t from the end of detection k to that of the sensor's next one.
+// The frame is repeated for ever, and the recursion runs until a frame no longer changes P. Every detection finds the
+// object. Reference: Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to Tracking and Navigation" (2001),
+// 6.2.2.
 #pragma once
 
 #include <vector>
@@ -39,9 +42,9 @@ struct BoundChoice {
   double others = 0.0;    // likewise; 0 without others
   double cost = 0.0;      // share * interest + (1 - share) * others
 };
-// Returns a choice for each number of secondary detections that a bound up to that of `request` gives, all of them at most
-// kMostSecondaries. `share` of 0..1 is that of the objects of interest; without others it counts as 1. The request has a sensor of
-// interest and the time of a secondary detection.
+// Returns a choice for each number of secondary detections that a bound up to that of `request` gives, all of them at
+// most kMostSecondaries. `share` of 0..1 is that of the objects of interest; without others it counts as 1. The request
+// has a sensor of interest and the time of a secondary detection.
 std::vector<BoundChoice> choices(const FrameRequest& request, const DetectionTimes& times, const TrackingModel& model,
                                  double share);
 // Returns the first of the choices with the least cost.

@@ -1,9 +1,9 @@
 // The times of a detector's recent detections, from which the next frame is planned.
 //
-// A primary detection is expected to take the mean of the sensor's last ones: ten, unless another number is stated. Before the first one it is expected to take a first
-// guess. A secondary one is expected to take a share of the mean primary one: the mean area of the regions over that of a picture.
-// A detection occupies the detector for whole steps, at least two. Its picture is taken at the first step's beginning, and its
-// result is there at the end of the last one.
+// A primary detection is expected to take the mean of the sensor's last ones: ten, unless another number is stated.
+// Before the first one it is expected to take a first guess. A secondary one is expected to take a share of the mean
+// primary one: the mean area of the regions over that of a picture. A detection occupies the detector for whole steps,
+// at least two. Its picture is taken at the first step's beginning, and its result is there at the end of the last one.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@
 
 namespace ttf::experiments::sweep::answers {
 
-// Returns "+0.0021 +- 0.0004", with two digits for the interval, or "0.02 (0.005 to 0.07)" if it is uneven; "-" without a mean.
-// `sign` marks a difference.
+// Returns "+0.0021 +- 0.0004", with two digits for the interval, or "0.02 (0.005 to 0.07)" if it is uneven; "-" without
+// a mean. `sign` marks a difference.
 std::string interval_text(const results::Interval& interval, bool sign);
 
 // A ratio as a change in per cent: 0.88 is -12.

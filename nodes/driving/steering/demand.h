@@ -1,5 +1,5 @@
-// The demand on one axis of a vehicle: on engine and brakes, or on the steering. It is the newest command's value. It has an age of
-// its own, since commands may cease for one axis alone (sim/world/vehicle/actuator.h).
+// The demand on one axis of a vehicle: on engine and brakes, or on the steering. It is the newest command's value. It
+// has an age of its own, since commands may cease for one axis alone (sim/world/vehicle/actuator.h).
 #pragma once
 
 #include <optional>

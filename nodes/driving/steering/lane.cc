@@ -71,8 +71,8 @@ std::optional<Lane> OwnLane::look(const host::StepContext& context) {
   return lane;
 }
 
-// Returns the lane's middle where marks are measured. It lies between the nearest marks to either side of the vehicle, or of its
-// expected place. One mark is enough.
+// Returns the lane's middle where marks are measured. It lies between the nearest marks to either side of the vehicle,
+// or of its expected place. One mark is enough.
 std::optional<LaneLine> OwnLane::met(const host::Input& marks, const std::optional<LaneLine>& expected) {
   const double middle = expected ? expected->offset : 0.0;
   std::optional<LaneLine> left, right;

@@ -1,8 +1,9 @@
 // A service's view of its own lane: the line of its middle, from lists of lane marks and odometry.
 //
-// In the vehicle's axes the line is y(x) = offset + heading x + curvature x^2 / 2. A list's marks are measured `ahead` of the vehicle,
-// at the list's instant. The view goes on to there with the odometry. Then it takes a share kGain of the difference. So a wrong
-// mark moves it a little, and a missing one not at all. Angles are small: the line errs by 1 % at a quarter radian.
+// In the vehicle's axes the line is y(x) = offset + heading x + curvature x^2 / 2. A list's marks are measured `ahead`
+// of the vehicle, at the list's instant. Odometry moves the view on to there. Then it takes a share kGain of the
+// difference. So a wrong mark moves it a little, and a missing one not at all. Angles are small: at a quarter radian
+// the line errs by 1 %.
 #pragma once
 
 #include <array>
@@ -47,7 +48,8 @@ class OwnLane {
   static constexpr double kGain = 0.3;
 
   OwnLane(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const LaneConfig& config);
-  // Returns nothing without odometry and marks that are fresh enough, or without global time. Call it at each execution.
+  // Returns nothing without odometry and marks that are fresh enough, or without global time. Call it at each
+  // execution.
   std::optional<Lane> look(const host::StepContext& context);
 
  private:

@@ -1,7 +1,9 @@
-// Lane keeping: steers the vehicle along the middle of its lane (nodes/control/stanley.h), and warns when it leaves the lane.
+// Lane keeping: steers the vehicle along the middle of its lane (nodes/control/stanley.h), and warns when it leaves the
+// lane.
 //
-// A command acts a dead time later. So the law gets the state after `preview`, with the yaw rate of now. A longer preview, over the
-// wheels' lag, takes a swing of the yaw rate for a turn. The angle is limited: without slip the centripetal acceleration is at most largest_lateral, 3 m/s^2 as in ISO 11270.
+// A command acts a dead time later. So the law gets the state after `preview`, with the present yaw rate. A longer
+// preview, over the wheels' lag, takes a swing of the yaw rate for a turn. The angle is limited: without slip the
+// centripetal acceleration is at most largest_lateral, 3 m/s^2 as in ISO 11270.
 #pragma once
 
 #include "core/strict_yaml.h"
@@ -25,8 +27,8 @@ struct LaneKeepingConfig {
 // Reads all but the vehicle, and where the camera measures marks.
 LaneKeepingConfig load_lane_keeping(YamlMap& yaml);
 
-// Ports `marks` and `odometry` -> `command`. The actuator takes its steering angle alone. Without a view of the lane the command is
-// invalid, and the warning stays as it is.
+// Ports `marks` and `odometry` -> `command`. The actuator takes its steering angle alone. Without a view of the lane
+// the command is invalid, and the warning stays as it is.
 class LaneKeeping final : public host::Step {
  public:
   LaneKeeping(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

@@ -1,8 +1,8 @@
-// The line between the processes of one host that need the vehicle's state: the actuator's node and the sensors' devices. It lies
-// beside the bus, so it takes no slot and no identifier, and it is the same for every live medium.
+// The line between the processes of one host that need the vehicle's state: the actuator's node and the sensors'
+// devices. It lies beside the bus, so it takes no slot and no identifier, and it is the same for every live medium.
 //
-// Each process has a Unix datagram socket, whose name follows from the session and its number. (The name is an abstract one, which
-// ends with its process.) A message goes to each of the others by name; to one that is not there it is lost.
+// Each process has a Unix datagram socket, whose name follows from the session and its number. (The name is an abstract
+// one, which ends with its process.) A message goes to each of the others by name; to one that is not there it is lost.
 //
 // Nothing allocates or waits after construction, except in catch_up(). One thread uses the line.
 #pragma once
@@ -43,7 +43,9 @@ class Line {
   // For a process that begins later: waits until the record is whole, at most for `patience`. Returns whether it is.
   bool catch_up(std::chrono::milliseconds patience);
 
+  // Adds an actuation of this process to the record, and tells all others. It is in the drive's time.
   void tell(const host::Actuation& actuation);
+  // Takes in the messages that have come, and answers them.
   void take_in();
   int descriptor() const { return socket_; }  // readable when a message has come
   const Counts& counts() const { return record_.counts(); }

@@ -63,8 +63,8 @@ Record::Reaction Record::take(std::span<const std::byte> message) {
   return {};
 }
 
-// Nothing is missing if the oldest of the repeated ones is known, or is the first that there was. As long as something is missing,
-// each message is an occasion to ask again.
+// Nothing is missing if the oldest of the repeated ones is known, or is the first that there was. As long as something
+// is missing, each message is an occasion to ask again.
 Record::Reaction Record::told(std::span<const Actuation> heard) {
   if (heard.empty()) return {};
   const std::span<const Actuation> known = driven_.actuations();

@@ -1,10 +1,10 @@
-// The record of a vehicle that commands drive, as each process of a drive in real time has it that needs the vehicle's state.
-// The vehicle's way is a pure function of the actuations from their instants on (sim/world/vehicle/driven.h). So processes
-// tell each other actuations, not states. They travel beside the bus (nodes/runner/vehicle/line.h).
+// The record of a vehicle that commands drive. In real time each process that needs the vehicle's state has one. The
+// vehicle's way is a pure function of its actuations (sim/world/vehicle/driven.h). So processes tell each other
+// actuations, not states. They travel beside the bus (nodes/runner/vehicle/line.h).
 //
 // An actuation is known a dead time before it begins. A message may take that long.
 //   lost        each message repeats the actuations before it, kRepeated in all; so the next one makes it good
-//   late        looks at the vehicle beyond its instant were without it, later ones are with it; counted
+//   late        earlier looks at its instant or beyond were without it, later ones are with it; counted
 //   twice, or in another order      no difference
 //   more lost than are repeated     the record is not whole: the process asks, and processes with a whole one answer
 //   a process that begins later     likewise

@@ -1,20 +1,21 @@
 // Chains of cause and effect: from a sensor's picture to the actuator that acts on it, in best and worst case.
 //
-// A chain begins with a sensor's measuring task. It leads through lists and tasks to a task that reads commands and writes
-// nothing. A command is a list that a service has written: a task that reads an image, or another list that descends from no
-// single sensor. The stages and assumptions are those of schedules/analysis/ages.h; they continue from the image to the actuator.
+// A chain begins with a sensor's measuring task. It leads through lists and tasks to a task that reads commands and
+// writes nothing. A command is a list that a service has written: a task that reads an image, or another list that
+// descends from no single sensor. The stages and assumptions are those of schedules/analysis/ages.h; they continue from
+// the image to the actuator.
 //
-//   reduced reaction time   from the first picture that shows an event to the start of the task that reads the first command
-//                           resting on that picture, provided that the event is detected in it
+//   reduced reaction time   from the first picture that shows an event to the start of the task that reads the first
+//                           command resting on that picture, provided that the event is detected in it
 //   reaction time           from the event itself: it may just have missed the picture before
 //   reduced data age        the age of the newest picture that a command rests on, when the command is read
 //   data age                the same at the last instant before the next command is read
-// The largest reaction time equals the largest data age: until the picture after next has an effect, the one before counts
-// (Guenzel et al., "On the equivalence of maximum reaction time and maximum data age for cause-effect chains", ECRTS 2023). The
-// reduced times leave out what lies before the picture, or after the reading.
+// The largest reaction time equals the largest data age: until the picture after next has an effect, the one before
+// counts (Guenzel et al., "On the equivalence of maximum reaction time and maximum data age for cause-effect chains",
+// ECRTS 2023). The reduced times leave out what lies before the picture, or after the reading.
 //
-// The lag of a filter is no part of a chain: the picture has its first effect on the image, not its whole one. Neither is the
-// actuator's dead time, which is the vehicle's.
+// The lag of a filter is no part of a chain: the picture has its first effect on the image, not its whole one. Neither
+// is the actuator's dead time, which is the vehicle's.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +35,7 @@ struct Chain {
   PduId command{};   // the list that the actuator reads
   AgePath path;      // its use is the actuator's reading; waypoints are those of the chain
   bool fused = false;  // its pictures come through the image, so that BUFF may hold them
-  // Every measurement passes the same instants of the grid at best and at worst: both are reached, up to the clocks' difference.
+  // Each measurement passes the same instants at best and at worst. Both are reached, up to the clocks' difference.
   bool exact = false;
   Duration between_pictures{};  // longest time between two measurements
 
@@ -51,8 +52,8 @@ inline constexpr std::size_t kMostChains = 200;
 // Returns the chains in the order of Cluster::sensors and then of the tasks. The cluster must have passed check().
 std::vector<Chain> chains(const model::Cluster& cluster);
 
-// Returns the chains as a table in milliseconds, for people; empty without a chain. With a dead time, that of the actuator,
-// the rows of reactions end when the vehicle is acted upon.
+// Returns the chains as a table in milliseconds, for people; empty without a chain. With a dead time, that of the
+// actuator, the rows of reactions end when the vehicle is acted upon.
 std::string chains_text(const model::Cluster& cluster, Duration dead_time = {});
 
 }  // namespace ttf::schedules::analysis::chain

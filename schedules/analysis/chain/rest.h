@@ -18,8 +18,8 @@ class RestOfChain {
   RestOfChain(const model::Cluster& cluster, std::string name, Path path, std::size_t first);
 
   const std::string& name() const { return name_; }
-  // Returns the time from the task's beginning, at `start` of global time, until the actuator reads the first command resting on
-  // it: at least and at most, with the clocks' difference. The task executes for `lasts`.
+  // Returns the time from the task's beginning, at `start` of global time, until the actuator reads the first command
+  // resting on it: at least and at most, with the clocks' difference. The task executes for `lasts`.
   Duration earliest(GlobalTime start, Duration lasts) const { return behind(start, lasts, false); }
   Duration latest(GlobalTime start, Duration lasts) const { return behind(start, lasts, true); }
 

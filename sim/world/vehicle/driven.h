@@ -1,8 +1,9 @@
 // The way of a vehicle that commands drive: they come over the bus, while the drive goes on.
 //
-// An actuation is a demand on engine, brakes and steering from an instant on. It lies a dead time after the actuator's reading of
-// the command. So every look at an instant comes when all actuations until then are known. The way is a pure function of them,
-// in one process or in several, for any number of looks.
+// An actuation is a demand on engine, brakes and steering from an instant on. It lies a dead time after the actuator's
+// reading of the command. So in virtual time all actuations until an instant are known before any look at it; in real
+// time one may become known late (insert()). The way is a pure function of them, in one process or in several, for any
+// number of looks.
 //
 //   u   the newest command, within the actuator's limits; before the first one, no acceleration, and wheels as they are
 //   a'  = (gain u - a) / lag            acceleration
@@ -10,9 +11,10 @@
 // Both are exact within a step of the vehicle's model (single_track.h), with their mean over the step. The vehicle does not
 // drive backwards: braking ends in a standstill.
 //
-// When no actuation has come for the time `after`, or since the start for as long, the actuator holds the last one, lets it fade with the time constant `decay`,
-// or brakes by `deceleration` with the wheels as they are. It does not ask for the reason: a list that got lost, came late or was
-// refused, a dead controller, and an actuator without supply are all the same.
+// When no actuation has come for the time `after`, or since the start for as long, the actuator holds the last one,
+// lets it fade with the time constant `decay`, or brakes by `deceleration` with the wheels as they are. It does not ask
+// for the reason: a list that got lost, came late or was refused, a dead controller, and an actuator without supply are
+// all the same.
 //
 // States are kept on the world's grid of 10 ms. An instant between is a few steps of the model away.
 #pragma once
