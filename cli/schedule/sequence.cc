@@ -79,7 +79,7 @@ struct Frame {
   }
 };
 
-// The request of the options. `interest` outlives it.
+// Asked by the options. The sensors of interest outlive it.
 struct Asked {
   FrameRequest request;
   DetectionTimes times;

@@ -60,7 +60,7 @@ struct SupervisorConfig {
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
-  // How often external nodes are listened to, if there are any, or anything else.
+  // How often Hooks::listen is called, if it is set or there are external nodes.
   Duration listen_every = Duration::milliseconds(100);
   // How often the nodes' health is shown: in place on a terminal, else in words. 0: never.
   Duration status_every = Duration::milliseconds(1'000);

@@ -52,7 +52,7 @@ struct RunnerConfig {
   host::NodeStart cold{};
   TrueTime end{};            // events due later are not done
   int stop_descriptor = -1;  // stops as soon as it is readable
-  // To the other processes that need the vehicle's state; null where no commands drive it, or the node needs none.
+  // Leads to the other processes that need the vehicle's state; null if no commands drive it, or this one needs none.
   vehicle::Line* vehicle = nullptr;
 };
 

@@ -20,12 +20,12 @@ struct StepPorts {
   bool any_reads = false;                       // besides `reads`, the step reads at least one sensor's list, by a
                                                 // port with that sensor's name
   std::vector<std::string_view> may_read = {};  // ports that a task may leave out
-  bool any_writes = false;  // likewise, it writes sensors' lists, by ports called camera_objects for the
-                            // sensor camera
+  // It writes sensors' lists, too, each at the port written_port() of its sensor.
+  bool any_writes = false;
   std::vector<std::string_view> may_write = {};
 };
 
-// Returns the port by which a step with any_writes writes the lists of a sensor.
+// Returns the port by which a step with any_writes writes the lists of a sensor: camera_objects for the sensor camera.
 std::string written_port(std::string_view sensor);
 
 // Returns whether a step's name is a library's file name, such as distance.so, and not that of the program's own code.

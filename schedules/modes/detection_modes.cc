@@ -25,18 +25,18 @@ Finding finding(const std::string& key, const std::string& value, const std::str
   return {"command line", 0, key, value, expected};
 }
 
-// The instants at which a detection may begin: every step of the grid within a round.
+// Returns the instants within a round at which a detection may begin: those of the grid.
 std::vector<GlobalTime> beginnings(const model::Cluster& cluster, const Grid& grid) {
   const std::int64_t cycles = grid.step.ns / cluster.cycle().ns;
   std::vector<GlobalTime> instants;
-  // The step may not divide the round: all cycles come, then.
+  // If the step does not divide the round, a detection may begin in any cycle.
   const std::int64_t every = model::kCycles % cycles == 0 ? cycles : 1;
   for (std::int64_t c = model::kFromCycle; c < model::kFromCycle + model::kCycles; c += every)
     instants.push_back(model::time_of(cluster.flexray, c, grid.offset));
   return instants;
 }
 
-// The time that a detection certainly ends in, on global time.
+// Returns the longest time that a detection takes in global time.
 Duration by_any_clock(const model::Cluster& cluster, Duration worst_case) {
   const ClockBounds clocks = analysis::clock_bounds(cluster);
   return worst_case + Duration{clocks.drift_ns(worst_case.ns) + model::kGranularity_ns + clocks.apart_ns};
