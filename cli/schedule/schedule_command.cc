@@ -100,6 +100,11 @@ nlohmann::ordered_json contributions_json(const std::vector<schedules::analysis:
   return json;
 }
 
+// Returns null for a time without a bound: a detector does not look at all pictures (schedules/analysis/ages.h).
+nlohmann::ordered_json known_ms(Duration time, bool known) {
+  return known ? nlohmann::ordered_json(in_ms(time)) : nlohmann::ordered_json(nullptr);
+}
+
 // Returns the dead time of the scenario's actuator; zero without a scenario.
 Duration dead_time_in(const std::string& scenario) {
   if (scenario.empty()) return {};
@@ -111,6 +116,7 @@ Duration dead_time_in(const std::string& scenario) {
 
 nlohmann::ordered_json chain_json(const schedules::model::Cluster& cluster,
                                   const schedules::analysis::chain::Chain& chain, Duration dead_time) {
+  const auto from_event = [&](Duration time) { return known_ms(time, chain.looks_at_all()); };
   nlohmann::ordered_json json{
       {"sensor", cluster.sensor(chain.sensor).name},
       {"chain", chain.name},
@@ -118,13 +124,13 @@ nlohmann::ordered_json chain_json(const schedules::model::Cluster& cluster,
       {"dead_time_ms", in_ms(dead_time)},
       {"reduced_reaction_time_ms",
        {in_ms(chain.reduced_reaction_best() + dead_time), in_ms(chain.reduced_reaction_worst() + dead_time)}},
-      {"reaction_time_worst_ms", in_ms(chain.reaction_worst() + dead_time)},
-      {"reduced_data_age_worst_ms", in_ms(chain.reduced_age_worst())},
-      {"data_age_worst_ms", in_ms(chain.age_worst())}};
+      {"reaction_time_worst_ms", from_event(chain.reaction_worst() + dead_time)},
+      {"reduced_data_age_worst_ms", from_event(chain.reduced_age_worst())},
+      {"data_age_worst_ms", from_event(chain.age_worst())}};
   if (chain.fused) {
     json["held_reduced_reaction_time_worst_ms"] = in_ms(chain.reduced_reaction_worst(true) + dead_time);
-    json["held_reaction_time_worst_ms"] = in_ms(chain.reaction_worst(true) + dead_time);
-    json["held_reduced_data_age_worst_ms"] = in_ms(chain.reduced_age_worst(true));
+    json["held_reaction_time_worst_ms"] = from_event(chain.reaction_worst(true) + dead_time);
+    json["held_reduced_data_age_worst_ms"] = from_event(chain.reduced_age_worst(true));
   }
   json["contributions"] = contributions_json(chain.path.to_use);
   return json;
@@ -154,7 +160,7 @@ int check(const ScheduleOptions& options) {
                                {"available_ms", {in_ms(path.fusion_best), in_ms(path.fusion_worst)}},
                                {"fused_ms", {in_ms(path.fused_best), in_ms(path.fused_worst)}},
                                {"first_use_ms", {in_ms(path.use_best), in_ms(path.use_worst)}},
-                               {"newest_at_any_use_worst_ms", in_ms(path.newest_worst)},
+                               {"newest_at_any_use_worst_ms", known_ms(path.newest_worst, !path.chosen)},
                                {"buffered_use_worst_ms", in_ms(path.buffered_use_worst)}};
     if (auto parts = contributions_json(path.to_use); !parts.is_null()) one["contributions"] = std::move(parts);
     json["ages"].push_back(std::move(one));

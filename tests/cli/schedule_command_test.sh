@@ -61,6 +61,22 @@ for c in chains:
     assert abs(sum(p["worst_ms"] for p in c["contributions"]) + 50 - worst) < 1e-6, c
 PY
 
+# A detector looks at some pictures only: its chains have no bound from the event on.
+loop=$source/schedules/adaptive_loop_synchronised.yaml
+expect 0 '^  picture looked at to first command  ' schedule check "$loop"
+says '^schedule sequence --cluster. has one for a table of detections.$'
+"$program" schedule check "$loop" --json >"$work/loop.json" || fail "a loop with a detector as JSON fails"
+python3 - "$work/loop.json" <<'PY' || fail "the chains through a detector have false bounds"
+import json, sys
+check = json.load(open(sys.argv[1]))
+unknown = ["reaction_time_worst_ms", "reduced_data_age_worst_ms", "data_age_worst_ms"]
+for c in check["chains"]:
+    assert c["reduced_reaction_time_ms"][1] > 0, c
+    assert all((c[key] is None) == c["sensor"].startswith("camera") for key in unknown), c
+for a in check["ages"]:
+    assert (a["newest_at_any_use_worst_ms"] is None) == a["sensor"].startswith("camera"), a
+PY
+
 # On real CAN FD: the failing rules, and the time scale at which all hold.
 expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" \
   --medium can-fd:1M/5M

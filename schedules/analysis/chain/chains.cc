@@ -74,16 +74,24 @@ std::string chains_text(const model::Cluster& cluster, Duration dead_time) {
     for (const Contribution& part : chain.path.to_use) row("    " + part.name, part.best, part.worst);
     if (dead) row("    the actuator's dead time", dead_time, dead_time);
     const std::string held = ", if held for order (BUFF)";
-    row("  first picture to first command", chain.reduced_reaction_best() + dead_time,
-        chain.reduced_reaction_worst() + dead_time);
-    row("  reaction time, from the event", std::nullopt, chain.reaction_worst() + dead_time);
-    row("  data age when a command is read", chain.path.use_best, chain.reduced_age_worst());
-    row("  data age until the next command is read", std::nullopt, chain.age_worst());
+    const bool all_pictures = chain.looks_at_all();
+    row(all_pictures ? "  first picture to first command" : "  picture looked at to first command",
+        chain.reduced_reaction_best() + dead_time, chain.reduced_reaction_worst() + dead_time);
+    if (all_pictures) {
+      row("  reaction time, from the event", std::nullopt, chain.reaction_worst() + dead_time);
+      row("  data age when a command is read", chain.path.use_best, chain.reduced_age_worst());
+      row("  data age until the next command is read", std::nullopt, chain.age_worst());
+    }
     if (!chain.fused) continue;
     row("  first command" + held, std::nullopt, chain.reduced_reaction_worst(true) + dead_time);
+    if (!all_pictures) continue;
     row("  reaction time" + held, std::nullopt, chain.reaction_worst(true) + dead_time);
     row("  data age when read" + held, std::nullopt, chain.reduced_age_worst(true));
   }
+  if (!std::ranges::all_of(all, &Chain::looks_at_all))
+    text +=
+        "How often a detector looks at a camera is not known, so that there is no bound from the event on. `ttfusion\n"
+        "schedule sequence --cluster` has one for a table of detections.\n";
   if (all.size() == kMostChains) text += fmt::format("more than {} chains: the others are left out\n", kMostChains);
   text +=
       "All of it provided that the event is detected in the first picture. The filter's lag comes on top: it hangs on\n"

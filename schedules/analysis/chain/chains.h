@@ -14,6 +14,10 @@
 // counts (Guenzel et al., "On the equivalence of maximum reaction time and maximum data age for cause-effect chains",
 // ECRTS 2023). The reduced times leave out what lies before the picture, or after the reading.
 //
+// A detector that holds lists looks at some pictures, and not at others (AgePath::chosen). The reduced reaction time then begins
+// with a picture that it looks at. How often it looks is not known here: reaction time and data age have no bound.
+// schedules/modes bounds them for a table of detections.
+//
 // The lag of a filter is no part of a chain: the picture has its first effect on the image, not its whole one. Neither
 // is the actuator's dead time, which is the vehicle's.
 #pragma once
@@ -38,6 +42,9 @@ struct Chain {
   // Each measurement passes the same instants at best and at worst. Both are reached, up to the clocks' difference.
   bool exact = false;
   Duration between_pictures{};  // longest time between two measurements
+
+  // Whether each picture has an effect. Otherwise only the reduced reaction time has a meaning, of a picture looked at.
+  bool looks_at_all() const { return !path.chosen; }
 
   Duration reduced_reaction_best() const { return path.use_best; }
   Duration reduced_reaction_worst(bool held = false) const { return held ? path.buffered_use_worst : path.use_worst; }

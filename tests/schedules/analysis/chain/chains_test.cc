@@ -79,6 +79,24 @@ TEST(Chains, AreNoneWithoutAServiceThatCommands) {
   EXPECT_TRUE(chains(cluster).empty());
 }
 
+// Some pictures are not looked at: there is no bound from an event on.
+TEST(Chains, ThroughADetectorBeginWithAPictureThatItLooksAt) {
+  model::Cluster cluster = driving(true);
+  EXPECT_TRUE(chains(cluster)[0].looks_at_all());
+  cluster.nodes[0].tasks[0].holds = Duration::milliseconds(20);
+  const auto found = chains(cluster);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_FALSE(found[0].looks_at_all());
+  EXPECT_GE(found[0].reduced_reaction_worst(), Duration::microseconds(35'500));
+  const std::string text = chains_text(cluster), all = chains_text(driving(true));
+  EXPECT_NE(text.find("picture looked at to first command"), std::string::npos);
+  EXPECT_NE(text.find("first command, if held"), std::string::npos);
+  for (const char* row : {"first picture to", "reaction time, ", "data age when", "data age until"}) {
+    EXPECT_EQ(text.find(row), std::string::npos) << row;
+    EXPECT_NE(all.find(row), std::string::npos) << row;
+  }
+}
+
 // A region of interest returns to its camera. No chain goes round.
 TEST(Chains, AFeedbackEndsTheSearch) {
   model::Cluster cluster = driving(true);
