@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -34,6 +35,7 @@ struct SequenceOptions {
   std::string slots = "text", order = "text";
   bool json = false, best_bound = false;
   std::string cluster, task, step = "10ms", offset = "0";
+  std::optional<std::string> best_case;
   std::vector<std::string> modes;
   std::string process_noise = "1", sigma = "1", share = "0.5";
 };
@@ -147,9 +149,13 @@ constexpr Duration kLongestBound = Duration::milliseconds(100'000);
 ModesAsked modes_of(const SequenceOptions& options, const Asked& asked) {
   const Duration step = duration("--step", options.step, {Duration::microseconds(100), Duration::milliseconds(1'000)});
   const std::int64_t offset = decimal_option("--offset", options.offset, 1, {0, 65'535}, " macroticks");
+  std::optional<Duration> best_case;
+  if (options.best_case)
+    best_case = duration("--best-case", *options.best_case,
+                         {Duration{}, std::min(asked.times.primary[0], asked.times.secondary[0])});
   ModesAsked modes{options.cluster,
                    options.task,
-                   {step, Macroticks{static_cast<int>(offset)}},
+                   {step, Macroticks{static_cast<int>(offset)}, best_case},
                    asked.times,
                    options.sensors,
                    {asked.request.bound},
@@ -234,8 +240,11 @@ void add_sequence(CLI::App& schedule, Action& action) {
       ->capture_default_str();
   command->add_option("--offset", options->offset, "With --cluster: macrotick of the cycle at which detections begin")
       ->capture_default_str();
+  command->add_option("--best-case", options->best_case,
+                      "With --cluster: shortest detection, if its list leaves as it ends (default: lists wait for the "
+                      "worst case)");
   command->get_option("--cluster")->needs("--task")->excludes("--best-beta");
-  for (const char* of_modes : {"--task", "--mode", "--step", "--offset"})
+  for (const char* of_modes : {"--task", "--mode", "--step", "--offset", "--best-case"})
     command->get_option(of_modes)->needs(command->get_option("--cluster"));
   for (const char* of_best : {"--process-noise", "--sigma", "--share"})
     command->get_option(of_best)->needs(command->get_option("--best-beta"));

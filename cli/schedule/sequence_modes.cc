@@ -93,6 +93,7 @@ void print_json(const ModesAsked& asked, const Checked& found) {
       one["activations"].push_back({{"detection", schedules::sequence::letters({detection.detection}, asked.sensors)},
                                     {"cycle", detection.cycle},
                                     {"offset", asked.grid.offset.value},
+                                    {"best_case_ms", in_ms(detection.best_case)},
                                     {"worst_case_ms", in_ms(detection.worst_case)},
                                     {"occupied_ms", in_ms(detection.occupied)}});
     json["modes"].push_back(std::move(one));
@@ -114,7 +115,7 @@ void print_json(const ModesAsked& asked, const Checked& found) {
 void print_mode(const ModesAsked& asked, const Mode& mode) {
   fmt::print("mode {} for a bound of {:g} ms: a frame of {:g} ms, {} cycles\n", letters(mode.sequence, asked.sensors),
              in_ms(mode.bound), in_ms(mode.frame), mode.cycles);
-  fmt::print("  detection   cycle  offset  begins [ms]  ends at most [ms]  occupied until [ms]\n");
+  fmt::print("  detection   cycle  offset  begins [ms]  list at most [ms]  occupied until [ms]\n");
   for (const PlacedDetection& one : mode.detections) {
     const Duration begins = one.begins;
     fmt::print("  {:<9}  {:>6}  {:>6}  {:>11.3f}  {:>17.3f}  {:>19.3f}\n",
@@ -131,8 +132,9 @@ void print_modes(const ModesAsked& asked) {
   for (const Mode& mode : found.modes) print_mode(asked, mode);
   fmt::print(
       "consistent with {}: detections end within their steps, and no list of {} is torn or replaced, "
-      "whenever modes change at a frame's end\n",
-      found.cluster.name, asked.task);
+      "whenever modes change at a frame's end; lists {}\n",
+      found.cluster.name, asked.task,
+      asked.grid.best_case ? "may leave when their detections end" : "wait for their detections' worst cases");
   if (found.chains.empty()) fmt::print("no chain leads from {} to an actuator\n", asked.task);
   for (std::size_t c = 0; c < found.chains.size(); ++c) {
     const std::vector<Rows> rows = rows_of(asked, found, c);

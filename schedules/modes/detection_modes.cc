@@ -42,24 +42,26 @@ Duration by_any_clock(const model::Cluster& cluster, Duration worst_case) {
   return worst_case + Duration{clocks.drift_ns(worst_case.ns) + model::kGranularity_ns + clocks.apart_ns};
 }
 
-// The shortest time between the ends of two detections, one directly behind the other, in any modes.
-Duration shortest_between_ends(const model::Cluster& cluster, const std::vector<Mode>& modes) {
+// The shortest time between the lists of two detections, one directly behind the other, in any modes.
+Duration shortest_between_lists(const model::Cluster& cluster, const std::vector<Mode>& modes) {
   std::optional<Duration> shortest;
   const ClockBounds clocks = analysis::clock_bounds(cluster);
   for (const Mode& mode : modes)
     for (const PlacedDetection& one : mode.detections)
       for (const Mode& next_mode : modes)
         for (const PlacedDetection& next : next_mode.detections) {
-          const std::int64_t apart = (one.occupied - one.worst_case + next.worst_case).ns;
+          const std::int64_t apart = (one.occupied - one.worst_case + next.best_case).ns;
           shortest = std::min(shortest.value_or(Duration{apart}), Duration{apart - clocks.drift_ns(apart)});
         }
-  return shortest.value_or(Duration{});
+  return std::max(Duration{}, shortest.value_or(Duration{}));
 }
 
-// Whether a list that is written at the end of a detection is in its slots before the next one is written.
+// Whether a list is in its slots before the next one is written.
 bool leaves_in_time(const model::Cluster& cluster, PduId pdu, const std::vector<Mode>& modes, const Grid& grid) {
-  const Duration next = shortest_between_ends(cluster, modes);
+  const Duration next = shortest_between_lists(cluster, modes);
   const std::vector<analysis::SlotGroup> groups = analysis::slot_groups(cluster, pdu);
+  // A list that may wait for later cycles may be torn.
+  if (!std::ranges::all_of(groups, &analysis::SlotGroup::bounded)) return false;
   const std::int64_t apart = analysis::clock_bounds(cluster).apart_ns;
   for (const GlobalTime begins : beginnings(cluster, grid))
     for (const Mode& mode : modes)
@@ -67,8 +69,9 @@ bool leaves_in_time(const model::Cluster& cluster, PduId pdu, const std::vector<
         const GlobalTime written = begins + one.worst_case;
         const GlobalTime latest = begins + by_any_clock(cluster, one.worst_case);
         const bool taken = std::ranges::any_of(groups, [&](const analysis::SlotGroup& group) {
-          const model::CycleInstant at{group.base_cycle, group.repetition, group.taken_from};
-          return next_occurrence(cluster.flexray, at, latest).time + Duration{apart} < written + next;
+          const model::CycleInstant turn{group.base_cycle, group.repetition, group.taken_from};
+          const std::int64_t cycle = next_occurrence(cluster.flexray, turn, latest).cycle;
+          return time_of(cluster.flexray, cycle, group.taken_by) + Duration{apart} < written + next;
         });
         if (!taken) return false;
       }
@@ -83,7 +86,7 @@ CameraBound bound_of(const model::Cluster& cluster, const RestOfChain& rest, con
   for (const PlacedDetection& one : mode.detections) {
     if (one.detection.sensor != sensor) continue;
     for (const GlobalTime begins : beginnings(cluster, grid)) {
-      const Duration least = rest.earliest(begins, one.worst_case), most = rest.latest(begins, one.worst_case);
+      const Duration least = rest.earliest(begins, one.best_case), most = rest.latest(begins, one.worst_case);
       bound.least = first ? least : std::min(bound.least, least);
       bound.most = std::max(bound.most, most);
       first = false;
@@ -141,7 +144,9 @@ Mode placed(const model::Cluster& cluster, const sequence::Sequence& sequence, c
   mode.sequence = sequence;
   for (const sequence::Detection& detection : sequence) {
     const Duration worst_case = times.of(detection), occupied = sequence::occupied(worst_case, grid.step);
-    mode.detections.push_back({detection, mode.frame.ns / cluster.cycle().ns, mode.frame, worst_case, occupied});
+    const Duration best_case = std::min(worst_case, grid.best_case.value_or(worst_case));
+    mode.detections.push_back(
+        {detection, mode.frame.ns / cluster.cycle().ns, mode.frame, worst_case, best_case, occupied});
     mode.frame += occupied;
   }
   mode.cycles = mode.frame.ns / cluster.cycle().ns;
@@ -178,15 +183,15 @@ std::vector<Finding> unsound(const model::Cluster& cluster, const Detector& dete
     if (!leaves_in_time(cluster, out.pdu, modes, grid))
       findings.push_back(finding(
           "--task", name,
-          fmt::format("must have slots of {} between the ends of any two detections", cluster.pdu(out.pdu).name)));
+          fmt::format("must have slots of {} between the lists of any two detections", cluster.pdu(out.pdu).name)));
     return findings;
   }
   for (const model::CanMessage& message : cluster.can(out.medium).messages)
-    if (const Duration between = shortest_between_ends(cluster, modes);
+    if (const Duration between = shortest_between_lists(cluster, modes);
         message.pdu == out.pdu && between < message.shortest_period)
       findings.push_back(finding("--task", name,
                                  fmt::format("must write its list every {} at most, the shortest period of {} on {}; "
-                                             "two detections may end {} apart",
+                                             "those of two detections may be {} apart",
                                              ms(message.shortest_period), cluster.pdu(out.pdu).name,
                                              cluster.can(out.medium).name, ms(between))));
   return findings;

@@ -2,19 +2,22 @@
 //
 // In a cluster, one task stands for the detector that several cameras share. A mode is a frame of schedules/sequence
 // with an instant for each detection: they begin on a grid of whole cycles, and each occupies the task for whole steps
-// of the grid, at least two. Its list is written when the detection ends, at the latest its worst-case duration behind
-// its beginning. Modes change at a frame's end only. A frame may begin at any step of the grid, because
-// frames before it have different lengths.
+// of the grid, at least two. Its list is written its worst-case duration behind its beginning, by the node's clock, even
+// if the detection ends before. With Grid::best_case, the list is written when the detection ends, at least so long
+// behind its beginning. Modes change at a frame's end only. A frame may begin at any step of the grid, because frames
+// before it have different lengths.
 //
 // A mode is sound if
 //   steps     a step is a whole number of cycles, as the slots of the lists repeat with cycles
 //   ends      each detection ends before its steps do, by any clock
 //   lists     each list is in its slots, or given to its CAN, before the next one is written: none is torn or
-//             replaced. This holds for all modes at once, and so where they change.
+//             replaced. In the dynamic segment its turn comes in every cycle of its frames, and its latest turn counts.
+//             This holds for all modes at once, and so where they change.
 // For a sound mode, the chain from a picture to the actuator is bounded over every cycle in which its detection may
 // begin (schedules/analysis/chain).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,8 @@ namespace ttf::schedules::modes {
 struct Grid {
   Duration step = Duration::milliseconds(10);
   Macroticks offset{0};  // a detection begins there in its cycle
+  // The shortest detection, if a list is written as soon as its detection ends.
+  std::optional<Duration> best_case = std::nullopt;
 };
 
 struct PlacedDetection {
@@ -36,6 +41,7 @@ struct PlacedDetection {
   std::int64_t cycle = 0;  // its number in the frame, from 0
   Duration begins{};       // from the frame's beginning
   Duration worst_case{};
+  Duration best_case{};  // the worst case, if lists wait for it
   Duration occupied{};
 };
 

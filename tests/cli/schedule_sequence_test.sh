@@ -52,7 +52,9 @@ expect 0 '^mode AaBaCa for a bound of 200 ms: a frame of 240 ms, 48 cycles$' sch
   --task camera_pre.preprocess --mode 200ms --mode 300ms
 says '^  a +10 +0 +50.000 +77.700 +80.000$'
 says '^consistent with closed_loop_synchronised: '
-says '^  AaaBaaCaa then ABC +A '
+says '^  AaaBaaCaa then ABC +A ' "; lists wait for their detections' worst cases$"
+expect 0 '; lists may leave when their detections end$' schedule sequence "${modes[@]}" --task camera_pre.preprocess \
+  --mode 200ms --best-case 27.7ms
 "$program" schedule sequence "${modes[@]}" --task camera_pre.preprocess --mode 200ms --json >"$work/modes.json" ||
   fail "modes as JSON fail"
 python3 - "$work/modes.json" <<'PY' || fail "modes are no JSON"
@@ -82,6 +84,10 @@ mistake '--task = camera_pre: must be a node and its task in' "${modes[@]}" --ta
 mistake '--step = 7 ms: must be a multiple of the communication cycle, 5 ms' "${modes[@]}" \
   --task camera_pre.preprocess --step 7ms
 mistake '--offset = 5000: must be 0..4999 macroticks' "${modes[@]}" --task camera_pre.preprocess --offset 5000
+mistake 'those of two detections may be 7\.[0-9]+ ms apart' "${modes[@]}" --task camera_pre.preprocess --mode 200ms \
+  --best-case 5ms
+mistake '--best-case = 30ms: must be 0..0.0277 s with its unit' "${modes[@]}" --task camera_pre.preprocess \
+  --best-case 30ms
 mistake '--primary = 50 ms: must end .* before its steps of 50 ms do' --sensors ABC --beta 0ms --primary 50ms \
   --secondary 20ms --cluster closed_loop_synchronised --task camera_pre.preprocess
 mistake '--cluster' "${modes[@]}"

@@ -74,7 +74,7 @@ TEST_F(DetectionModes, ListsMustNotComeFasterThanTheirCanAllows) {
   EXPECT_THAT(findings({mode({})}), testing::IsEmpty()) << "primary detections alone";
   const auto words = findings({mode({}), mode(ms(300))});
   ASSERT_EQ(words.size(), 1u);
-  EXPECT_THAT(words[0], HasSubstr("two detections may end 29.9"));
+  EXPECT_THAT(words[0], HasSubstr("two detections may be 29.9"));
 }
 
 // The list goes over FlexRay, in every fourth or eighth cycle.
@@ -88,10 +88,44 @@ TEST_F(DetectionModes, ListsMustHaveSlotsBetweenAnyTwoDetections) {
   };
   EXPECT_TRUE(with_repetition(4).empty());
   EXPECT_EQ(with_repetition(8).size(), 1u) << "40 ms are too long for detections 30 ms apart";
+  grid.best_case = ms(5);
+  EXPECT_EQ(with_repetition(4).size(), 1u) << "a list may leave 7.3 ms behind the one before";
+  grid.best_case.reset();
   cluster.nodes[index_of(there.node)].tasks.push_back(task);
   EXPECT_THAT(
       unsound(cluster, {there.node, cluster.nodes[index_of(there.node)].tasks.data()}, {mode({})}, grid)[0].sentence(),
       HasSubstr("only task"));
+}
+
+// A primary detection of 46.3 ms ends 3.7 ms before the next one begins, which may last 5 ms.
+TEST_F(DetectionModes, ListsThatLeaveEarlyAreNearerToEachOther) {
+  const auto waiting = bounds(cluster, detector(), mode({}), grid, 0);
+  grid.best_case = ms(5);
+  EXPECT_EQ(mode({}).detections[1].best_case, ms(5));
+  const auto words = findings({mode({})});
+  ASSERT_EQ(words.size(), 1u) << "lists may come every 20 ms";
+  EXPECT_THAT(words[0], HasSubstr("two detections may be 8.6"));
+  const auto early = bounds(cluster, detector(), mode({}), grid, 0);
+  EXPECT_LT(early[0].least, waiting[0].least - ms(39));
+  EXPECT_EQ(early[0].most, waiting[0].most);
+  grid.best_case = ms(60);
+  EXPECT_EQ(mode({}).detections[0].best_case, us(46'300)) << "no more than the worst case";
+}
+
+// Lists of the camera leave between 1.014 and 1.171 ms of each cycle of 2 ms. They are written 19.8 ms behind the beginning at
+// 1.1 ms, and the next one at 21.1 ms.
+TEST_F(DetectionModes, AListInTheDynamicSegmentCountsWithItsLatestTurn) {
+  cluster = file::load_cluster(shipped_path("flexray_demo"));
+  grid.best_case = Duration{};
+  const auto begins_at = [&](int offset, Duration lasts) {
+    grid.offset = Macroticks{offset};
+    const sequence::DetectionTimes short_ones(1, lasts, ms(1));
+    return findings({placed(cluster, {sequence::Detection{0, false}}, short_ones, grid)}).size();
+  };
+  EXPECT_EQ(begins_at(1100, us(19'800)), 1u);
+  EXPECT_EQ(begins_at(1200, us(19'700)), 0u) << "the next one is written at 21.2 ms";
+  cluster.nodes[index_of(detector().node)].flexray->pLatestTx = 10;
+  EXPECT_EQ(begins_at(1200, us(19'700)), 1u) << "its turn may not come";
 }
 
 // A detection may begin and end like the preprocessing. Its chain is the same.
