@@ -5,6 +5,9 @@
 // descends from no single sensor. The stages and assumptions are those of schedules/analysis/ages.h; they continue from
 // the image to the actuator.
 //
+// Marks of lanes are a list of no sensor in a cluster, so that lane keeping is a service. They come with their camera's
+// own list, and take no way beside it.
+//
 //   reduced reaction time   from the first picture that shows an event to the start of the task that reads the first
 //                           command resting on that picture, provided that the event is detected in it
 //   reaction time           from the event itself: it may just have missed the picture before
@@ -14,9 +17,9 @@
 // counts (Guenzel et al., "On the equivalence of maximum reaction time and maximum data age for cause-effect chains",
 // ECRTS 2023). The reduced times leave out what lies before the picture, or after the reading.
 //
-// A detector that holds lists looks at some pictures, and not at others (AgePath::chosen). The reduced reaction time then begins
-// with a picture that it looks at. How often it looks is not known here: reaction time and data age have no bound.
-// schedules/modes bounds them for a table of detections.
+// A detector that holds lists looks at some pictures, and not at others (AgePath::chosen). The reduced reaction time
+// then begins with a picture that it looks at. How often it looks is not known here: reaction time and data age have no
+// bound. schedules/modes bounds them for a table of detections.
 //
 // The lag of a filter is no part of a chain: the picture has its first effect on the image, not its whole one. Neither
 // is the actuator's dead time, which is the vehicle's.

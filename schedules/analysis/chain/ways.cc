@@ -42,12 +42,20 @@ class Ways {
            !reads_shared(task) && cluster_.sensor(sensor_).kind != model::SensorKind::kOdometry;
   }
 
+  // A measuring task may list more of its picture beside the sensor's own list, as marks of lanes. A task that reads both goes
+  // by the own one.
+  bool comes_beside(const model::PortBinding& out, const model::Task& reader) const {
+    return way_.empty() && cluster_.pdu(out.pdu).sensor == kNoSensor &&
+           std::ranges::any_of(reader.reads, [&](const auto& in) { return cluster_.pdu(in.pdu).sensor == sensor_; });
+  }
+
   void pass(const model::PortBinding& out, bool commands) {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       for (const model::Task& reader : cluster_.nodes[n].tasks) {
         const bool reads = std::ranges::any_of(
             reader.reads, [&](const auto& in) { return in.pdu == out.pdu && in.medium == out.medium; });
-        if (!reads || std::ranges::any_of(way_, [&](const Reading& one) { return one.task == &reader; })) continue;
+        if (!reads || comes_beside(out, reader)) continue;
+        if (std::ranges::any_of(way_, [&](const Reading& one) { return one.task == &reader; })) continue;
         const bool before = commanded_;
         commanded_ = commands;
         way_.push_back({&out, static_cast<NodeId>(n), &reader});

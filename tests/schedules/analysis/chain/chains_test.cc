@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
@@ -128,6 +130,25 @@ TEST(Chains, OfTheShippedLoopsLeadThroughBothServices) {
     EXPECT_NE(text.find("dead time"), std::string::npos);
   }
   EXPECT_TRUE(chains(file::load_cluster(shipped_path("paper_synchronised"))).empty());
+}
+
+// Two services read the image, and lane keeping reads marks. Marks come with the boxes of the same picture.
+TEST(Chains, OfMarksOfLanesPassTheFusionBy) {
+  for (const char* name : {"driven_surround_synchronised", "driven_surround_unsynchronised"}) {
+    std::vector<Chain> marks;
+    const auto found = chains(file::load_cluster(shipped_path(name)));
+    EXPECT_EQ(found.size(), 7u * 2u + 2u) << "marks and odometry reach a third service";
+    for (const Chain& chain : found) {
+      EXPECT_EQ(std::ranges::count(found, chain.name, &Chain::name), 1) << chain.name;
+      EXPECT_LE(chain.reduced_reaction_best(), chain.reduced_reaction_worst()) << chain.name;
+      if (chain.name == "mono_camera -> mono_pre.preprocess -> feature.keep_lane -> actuator.act")
+        marks.push_back(chain);
+    }
+    ASSERT_EQ(marks.size(), 1u);
+    EXPECT_FALSE(marks[0].fused);
+    EXPECT_EQ(marks[0].exact, std::string(name) == "driven_surround_synchronised");
+    EXPECT_LT(marks[0].reduced_reaction_worst(), Duration::milliseconds(60));
+  }
 }
 
 }  // namespace
