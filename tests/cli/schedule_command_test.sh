@@ -64,7 +64,7 @@ PY
 # A detector looks at some pictures only: its chains have no bound from the event on.
 loop=$source/schedules/adaptive_loop_synchronised.yaml
 expect 0 '^  picture looked at to first command  ' schedule check "$loop"
-says '^schedule sequence --cluster. has one for a table of detections.$'
+says '^.ttfusion schedule sequence --cluster. has one for a table of detections.$'
 "$program" schedule check "$loop" --json >"$work/loop.json" || fail "a loop with a detector as JSON fails"
 python3 - "$work/loop.json" <<'PY' || fail "the chains through a detector have false bounds"
 import json, sys

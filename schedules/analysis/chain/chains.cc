@@ -90,8 +90,8 @@ std::string chains_text(const model::Cluster& cluster, Duration dead_time) {
   }
   if (!std::ranges::all_of(all, &Chain::looks_at_all))
     text +=
-        "How often a detector looks at a camera is not known, so that there is no bound from the event on. `ttfusion\n"
-        "schedule sequence --cluster` has one for a table of detections.\n";
+        "How often a detector looks at a camera is not known: its chains have no bound from the event on.\n"
+        "`ttfusion schedule sequence --cluster` has one for a table of detections.\n";
   if (all.size() == kMostChains) text += fmt::format("more than {} chains: the others are left out\n", kMostChains);
   text +=
       "All of it provided that the event is detected in the first picture. The filter's lag comes on top: it hangs on\n"
