@@ -3,9 +3,9 @@
 // In a cluster, one task stands for the detector that several cameras share. A mode is a frame of schedules/sequence
 // with an instant for each detection: they begin on a grid of whole cycles, and each occupies the task for whole steps
 // of the grid, at least two. Its list is written its worst-case duration behind its beginning, by the node's clock,
-// even if the detection ends before. With Grid::best_case, the list is written when the detection ends, at least so long
-// behind its beginning. Modes change at a frame's end only. A frame may begin at any step of the grid, because frames
-// before it have different lengths.
+// even if the detection ends before. With Grid::best_case, the list is written when the detection ends, at least so
+// long behind its beginning. Modes change at a frame's end only. A frame may begin at any step of the grid, because
+// frames before it have different lengths.
 //
 // A mode is sound if
 //   steps     a step is a whole number of cycles, as the slots of the lists repeat with cycles
