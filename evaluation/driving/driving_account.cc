@@ -144,6 +144,10 @@ void DrivingAccount::on(const recording::records::CommandIssued& command) {
 
 void DrivingAccount::on(const recording::records::TaskRun& run) { warnings_.hear(run.start.node, run.start.true_time); }
 
+void DrivingAccount::on(const recording::records::PowerChanged& power) {
+  warnings_.note_power(power.stamp.node, power.stamp.true_time);
+}
+
 void DrivingAccount::on(const recording::records::CommandTaken& taken) {
   if (taken.stamp.true_time < from_) return;
   note_jitter(taken);

@@ -79,6 +79,7 @@ class DrivingAccount final : public recording::records::Sink {
   void on(const recording::records::EgoTruth&) override;
   void on(const recording::records::TruthState&) override;
   void on(const recording::records::TaskRun&) override;
+  void on(const recording::records::PowerChanged&) override;
   void on(const recording::records::ImageWritten&) override;
   void on(const recording::records::DetectionMade& r) override { detections_.on(r); }
   void on(const recording::records::SequencePlanned& r) override { detections_.on(r); }

@@ -30,6 +30,15 @@ void WarningAccount::hear(NodeId node, TrueTime at) {
   }
 }
 
+void WarningAccount::note_power(NodeId node, TrueTime at) {
+  for (Service& one : services_) {
+    if (!one.warns || node != one.warner) continue;
+    note_silence(one, at);
+    if (one.warns) one.warned.back().to = at;
+    one.warns = false;
+  }
+}
+
 void WarningAccount::note_silence(Service& service, TrueTime until) {
   if (!service.warns || until - service.heard <= kSilent) return;
   service.warned.back().to = service.heard;

@@ -35,6 +35,8 @@ class WarningAccount {
   void judge(std::size_t service, TrueTime at, bool hazard);
   // Tells that a node lives.
   void hear(NodeId node, TrueTime at);
+  // Tells that a node's supply was switched: it has forgotten its warnings, and takes none back.
+  void note_power(NodeId node, TrueTime at);
   void warn(const recording::records::Warning& warning);
   // Returns a service's findings at the drive's end.
   WarningFindings finish(std::size_t service, TrueTime end);

@@ -226,6 +226,33 @@ TEST(DrivingAccount, ADeadServiceWarnsNoLonger) {
   }
 }
 
+// The node is back before the silence counts. It knows nothing of the warning, so it never takes it back.
+TEST(DrivingAccount, ANodeThatLosesItsSupplyForgetsItsWarning) {
+  Drive drive;
+  for (const std::int64_t hazard : {1000, 5000}) {
+    for (std::int64_t ms = hazard; ms <= hazard + 600; ms += 20) drive.at(ms, 0, 10, 0, 20, 0);
+    drive.at(hazard + 620, 0, 10, 0, 100, 0);
+  }
+  drive.warn(1000, true);
+  for (std::int64_t ms = 1040; ms <= 5600; ms += 40) {
+    const bool is_off = ms > 1400 && ms < 1800;
+    if (!is_off) drive.command(ms);
+    if (ms != 1400) continue;
+    PowerChanged power;
+    power.stamp.true_time = at_ms(ms);
+    power.stamp.node = NodeId{7};
+    drive.account.on(power);  // of another node
+    EXPECT_NE(power.stamp.node, Stamp{}.node);
+    power.stamp.node = Stamp{}.node;
+    power.on = false;
+    drive.account.on(power);
+  }
+  const WarningFindings found = drive.account.finish().warnings[kForwardCollision];
+  EXPECT_EQ(found.given, 1u);
+  EXPECT_EQ(found.right, 1u);
+  EXPECT_EQ(found.missed, 1u) << "nobody warned of the second hazard";
+}
+
 // On a bend the object ahead is off the x axis, and the one straight ahead is in another lane.
 TEST(DrivingAccount, TheWayBends) {
   DrivingAccount account({}, TrueTime{});
