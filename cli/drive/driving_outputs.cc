@@ -34,7 +34,7 @@ WarningFindings beside(const DrivingFindings& f) {
 }
 
 std::string spread_cell(const evaluation::driving::Spread& spread) {
-  return fmt::format("{} / {}", cell(1e3 * spread.mean(), 0), cell(1e3 * spread.deviation(), 0));
+  return fmt::format("{} / {}", finite_cell(1e3 * spread.mean(), 0), finite_cell(1e3 * spread.deviation(), 0));
 }
 
 struct DrivingRow {

@@ -12,9 +12,9 @@ void Spread::add(Duration duration) {
   sum_ += off;
   squares_ += off * off;
 }
-double Spread::mean() const { return count_ == 0 ? 0.0 : first_ + sum_ / static_cast<double>(count_); }
+double Spread::mean() const { return count_ == 0 ? kNone : first_ + sum_ / static_cast<double>(count_); }
 double Spread::deviation() const {
-  if (count_ < 2) return 0.0;
+  if (count_ < 2) return kNone;
   const double n = static_cast<double>(count_);
   return std::sqrt(std::max(0.0, squares_ - sum_ * sum_ / n) / (n - 1.0));
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/ids.h"
@@ -19,9 +20,11 @@ namespace ttf::evaluation::driving {
 class Spread {
  public:
   void add(Duration duration);
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
   std::uint64_t count() const { return count_; }
-  double mean() const;
-  double deviation() const;  // by the sum of squares over count - 1
+  double mean() const;       // kNone without a sample
+  double deviation() const;  // by the sum of squares over count - 1; kNone for less than two
 
  private:
   std::uint64_t count_ = 0;

@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "core/time.h"
@@ -40,7 +39,7 @@ struct DrivingConfig {
 };
 
 struct DrivingFindings {
-  static constexpr double kNone = std::numeric_limits<double>::infinity();
+  static constexpr double kNone = Spread::kNone;
   std::uint64_t moments = 0;       // at which the truth was judged
   double smallest_gap_m = kNone;   // 0: a collision
   double smallest_ttc_s = kNone;   // for constant speeds

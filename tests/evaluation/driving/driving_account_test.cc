@@ -118,6 +118,17 @@ TEST(DetectionAccount, TheIntervalIsThatOfTheCameraLookedAtMost) {
   EXPECT_NEAR(found->frames.mean(), 0.155, 1e-12);
 }
 
+TEST(DetectionAccount, TooFewSamplesHaveNoMeanAndNoDeviation) {
+  Spread spread;
+  EXPECT_EQ(spread.mean(), DrivingFindings::kNone);
+  EXPECT_EQ(spread.deviation(), DrivingFindings::kNone);
+  spread.add(Duration::milliseconds(20));
+  EXPECT_NEAR(spread.mean(), 0.02, 1e-12);
+  EXPECT_EQ(spread.deviation(), DrivingFindings::kNone);
+  spread.add(Duration::milliseconds(20));
+  EXPECT_EQ(spread.deviation(), 0.0);
+}
+
 TEST(DrivingAccount, TheSmallestGapAndTimeToCollisionAreOfTheObjectInTheWay) {
   Drive drive;
   drive.at(0, 0, 20, 0, 40, 20);
