@@ -35,7 +35,7 @@ void DrivingAccount::on(const recording::records::TruthState& object) {
       recording::scene::gap_ahead(object, config_.front_m, config_.width_m, recording::scene::way_curvature(*ego_));
   if (!gap || (ahead_ && ahead_->gap <= *gap)) return;
   const double along = std::cos(object.heading);
-  ahead_ = Ahead{*gap, object.speed * along, object.acceleration * along};
+  ahead_ = Ahead{*gap, object.speed * along, object.acceleration * along, object.object};
 }
 
 void DrivingAccount::judge() {
@@ -55,10 +55,10 @@ void DrivingAccount::judge() {
     if (config_.minimum_gap != nullptr && gap < config_.minimum_gap(ego_->vx)) ++below_;
     if (ahead_->gap <= 0.0) findings_.collision = {ego_->at, closing};
     note_braking(ahead_->acceleration);
-    note_slowing(ahead_->speed);
   } else {
     note_braking(0.0);
   }
+  note_slowing();
   note_hazards(remaining);
   before_ = ego_;
   ego_.reset();
@@ -77,13 +77,23 @@ void DrivingAccount::note_braking(double acceleration) {
   if (ego_->vx < kStands_mps) findings_.stopping_distance_m = braking_way_;
 }
 
-void DrivingAccount::note_slowing(double speed_ahead) {
-  if (!slow_at_ && was_fast_ && speed_ahead < config_.reaction_speed_mps) slow_at_ = ego_->at;
-  was_fast_ = speed_ahead >= config_.reaction_speed_mps;
+// An object that is slow when it comes in front of the vehicle did not fall below the speed there.
+void DrivingAccount::note_slowing() {
+  const bool is_fast = ahead_ && ahead_->speed >= config_.reaction_speed_mps;
+  if (!slow_at_ && ahead_ && fast_ == ahead_->object && !is_fast) {
+    slow_at_ = ego_->at;
+    if (told_slow_) note_reaction(*told_slow_);
+  }
+  fast_ = is_fast ? std::optional(ahead_->object) : std::nullopt;
+  told_slow_.reset();
+}
+
+void DrivingAccount::note_reaction(TrueTime image) {
+  if (!findings_.reaction && !findings_.collision && image >= *slow_at_) findings_.reaction = image - *slow_at_;
 }
 
 void DrivingAccount::on(const recording::records::ImageWritten& image) {
-  if (!slow_at_ || findings_.reaction || findings_.collision || image.stamp.true_time < *slow_at_) return;
+  if (findings_.reaction || findings_.collision) return;
   // The image's object in the way is found as the true one is.
   std::optional<double> nearest, speed;
   for (const recording::records::ImageObject& object : image.objects) {
@@ -100,7 +110,11 @@ void DrivingAccount::on(const recording::records::ImageWritten& image) {
     nearest = gap;
     speed = object.speed * std::cos(object.heading);
   }
-  if (speed && *speed < config_.reaction_speed_mps) findings_.reaction = image.stamp.true_time - *slow_at_;
+  if (!speed || *speed >= config_.reaction_speed_mps) return;
+  if (slow_at_)
+    note_reaction(image.stamp.true_time);
+  else if (!told_slow_ && ego_ && image.stamp.true_time >= ego_->at)
+    told_slow_ = image.stamp.true_time;  // whether it is true is known at the next moment
 }
 
 // At a standstill the acceleration ends with the motion, whatever the brakes do: no controller decides about it.

@@ -89,10 +89,12 @@ class DrivingAccount final : public recording::records::Sink {
  private:
   struct Ahead {
     double gap = 0.0, speed = 0.0, acceleration = 0.0;
+    ObjectId object{};
   };
   void judge();
   void note_braking(double acceleration);
-  void note_slowing(double speed_ahead);
+  void note_slowing();
+  void note_reaction(TrueTime image);
   void note_hazards(double time_to_collision);
   void note_jerk();
   void note_beside(const recording::records::TruthState& object);
@@ -106,8 +108,9 @@ class DrivingAccount final : public recording::records::Sink {
   std::optional<Ahead> ahead_;
   std::optional<recording::records::EgoTruth> before_, jerk_from_;
   std::optional<double> braking_way_;  // since the object ahead braked
-  bool was_fast_ = false;              // the object ahead, at the moment before
+  std::optional<ObjectId> fast_;       // the object ahead at the moment before, if it was
   std::optional<TrueTime> slow_at_;    // it fell below the reaction speed
+  std::optional<TrueTime> told_slow_;  // the first image since the moment that says so
   std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
   WarningAccount warnings_;

@@ -13,6 +13,7 @@ using namespace recording::records;
 constexpr TrueTime at_ms(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 
 struct Drive {
+  ObjectId ahead{};
   DrivingAccount account{{.time_gap_s = 1.0, .standstill_m = 2.0}, TrueTime{}};
 
   // The vehicle at `x` with its speed and acceleration, and an object whose rear is `gap` ahead of its front.
@@ -32,6 +33,7 @@ struct Drive {
     object.y = y;
     object.speed = speed_ahead;
     object.acceleration = -braking_ahead;
+    object.object = ahead;
     account.on(object);
   }
   void warn(std::int64_t ms, bool on) {
@@ -85,6 +87,34 @@ TEST(DrivingAccount, TheReactionTimeLastsFromTheTruthToTheImage) {
   slow.image(50, 40, 26.0);
   slow.at(100, 0, 29, 0, 40, 26.0);
   EXPECT_FALSE(slow.account.finish().reaction) << "it was never fast";
+}
+
+// The moment at 200 ms is judged when that at 300 ms comes; the image lies between them.
+TEST(DrivingAccount, TheReactionMayComeBeforeTheNextMoment) {
+  Drive drive;
+  drive.at(100, 3, 29, 0, 40, 27.1, 8.0);
+  drive.image(150, 40, 26.9);  // noise
+  drive.at(200, 6, 29, 0, 40, 26.9, 8.0);
+  drive.image(250, 40, 26.9);
+  drive.at(300, 9, 29, 0, 40, 26.0, 8.0);
+  drive.image(350, 40, 26.0);
+  const DrivingFindings found = drive.account.finish();
+  ASSERT_TRUE(found.reaction);
+  EXPECT_EQ(*found.reaction, Duration::milliseconds(50));
+}
+
+TEST(DrivingAccount, ASlowObjectThatComesInFrontIsNoReaction) {
+  for (const bool another : {false, true})
+    for (const bool nobody : {false, true}) {
+      Drive drive;
+      drive.at(0, 0, 29, 0, 40, 29.0);
+      drive.at(100, 3, 29, 0, 40, 29.0, 0.0, nobody ? 10.0 : 0.0);  // perhaps beside the way
+      if (another) drive.ahead = ObjectId{7};
+      drive.at(200, 6, 29, 0, 40, 20.0);
+      drive.at(300, 9, 29, 0, 40, 20.0);
+      drive.image(350, 40, 20.0);
+      EXPECT_EQ(drive.account.finish().reaction.has_value(), !another && !nobody);
+    }
 }
 
 TEST(DetectionAccount, TheIntervalIsThatOfTheCameraLookedAtMost) {
