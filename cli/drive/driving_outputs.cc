@@ -141,6 +141,9 @@ std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario&
 
 void add_services(evaluation::driving::DrivingConfig& config, const drives::Scenario& scenario,
                   const schedules::model::Cluster& cluster) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      if (task.step == "actuator") config.reads_every = cluster.cycle() * task.activation.at.repetition;
   config.lane = lane_kept(scenario, cluster);
   if (has_step(cluster, "blind_spot_warning")) {
     const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;

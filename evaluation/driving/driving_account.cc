@@ -14,6 +14,7 @@ constexpr double kSlowestClosing_mps = 0.5;
 constexpr double kBrakes = 1.0;  // [m/s^2]
 constexpr double kStands_mps = 0.05;
 constexpr Duration kJerkOver = Duration::milliseconds(40);
+constexpr int kMostPeriods = 3;  // between two readings: after more the clocks' rates count, and no jitter
 
 }  // namespace
 
@@ -175,13 +176,18 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
   }
 }
 
-// A reading has a record for each port. A refused command may be one that was read without global time.
+// A reading has a record for each port. A refused command may be one that was read without global time. A reading without a
+// new command may be, too: then its global time is the local one.
 void DrivingAccount::note_jitter(const recording::records::CommandTaken& taken) {
   if (read_ && read_->true_time == taken.stamp.true_time) return;
-  const bool in_global_time = taken.verdict != recording::records::kLateCommand;
+  const bool is_local = taken.stamp.global.ns == taken.stamp.local.ns;
+  const bool in_global_time = taken.verdict != recording::records::kLateCommand && !(has_own_time_ && is_local);
+  has_own_time_ = has_own_time_ || !is_local;
   if (read_ && in_global_time) {
-    const Duration apart = (taken.stamp.true_time - read_->true_time) - (taken.stamp.global - read_->global);
-    findings_.reading_jitter.add(Duration{std::abs(apart.ns)});
+    const Duration by_cluster = taken.stamp.global - read_->global;
+    const Duration apart = (taken.stamp.true_time - read_->true_time) - by_cluster;
+    if (!config_.reads_every || by_cluster <= *config_.reads_every * kMostPeriods)
+      findings_.reading_jitter.add(Duration{std::abs(apart.ns)});
   }
   read_ = in_global_time ? std::optional(taken.stamp) : std::nullopt;
 }

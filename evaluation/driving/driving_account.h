@@ -34,6 +34,7 @@ struct DrivingConfig {
   std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
   std::optional<LaneConfig> lane{};               // if a service keeps one
   std::optional<BlindSpotZone> blind_spot{};      // if a service watches it
+  std::optional<Duration> reads_every{};          // the period of the actuator's task, if it is known
   // The smallest admissible gap [m] at a speed; null: none.
   double (*minimum_gap)(double speed) = nullptr;
 };
@@ -62,7 +63,7 @@ struct DrivingFindings {
   std::optional<LaneFindings> lane;
   bool watches_blind_spot = false;
   // How much later or earlier a reading of commands came than the one before it, against the cluster's time. In virtual
-  // time only clocks differ.
+  // time only clocks differ. Readings between which the node lost the cluster's time are none.
   recording::records::BinnedDurations reading_jitter;
 };
 
@@ -117,6 +118,7 @@ class DrivingAccount final : public recording::records::Sink {
   std::optional<LaneAccount> lane_;
   std::array<bool, 2> beside_{};                   // an object in the blind spot: left, right
   std::optional<recording::records::Stamp> read_;  // when the actuator last read commands, in global time
+  bool has_own_time_ = false;                      // the actuator's local time is another than the cluster's
 };
 
 }  // namespace ttf::evaluation::driving

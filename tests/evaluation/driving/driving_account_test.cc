@@ -391,5 +391,38 @@ TEST(DrivingAccount, TheJitterOfReadingsIsAgainstTheClustersTime) {
   EXPECT_EQ(jitter.count_from(lateness_bin(Duration::microseconds(250))), 2u);
 }
 
+// The node loses the cluster's time after 400 ms, reads once by its own, and is back two seconds later. Its clock goes 100 ppm
+// slow: that would be 200 us.
+TEST(DrivingAccount, ALossOfGlobalTimeIsNoJitter) {
+  DrivingAccount account({.reads_every = Duration::milliseconds(40)}, TrueTime{});
+  const auto read = [&](std::int64_t ms, std::int64_t global_ms) {
+    CommandTaken taken;
+    taken.stamp.true_time = at_ms(ms) + Duration::microseconds(ms / 10);
+    taken.stamp.local = LocalTime{} + Duration::milliseconds(ms - 17);
+    taken.stamp.global = GlobalTime{} + Duration::milliseconds(global_ms);
+    taken.verdict = kNoNewCommand;
+    account.on(taken);
+  };
+  for (std::int64_t ms = 0; ms <= 400; ms += 40) read(ms, ms);
+  read(440, 440 - 17);
+  for (std::int64_t ms = 2440; ms <= 2840; ms += 40) read(ms, ms);
+  const BinnedDurations jitter = account.finish().reading_jitter;
+  EXPECT_EQ(jitter.count(), 20u);
+  EXPECT_LT(jitter.longest(), Duration::microseconds(5));
+}
+
+TEST(DrivingAccount, AReadingAfterALongGapIsNoJitter) {
+  for (const std::int64_t periods : {3, 4}) {
+    DrivingAccount account({.reads_every = Duration::milliseconds(40)}, TrueTime{});
+    for (const std::int64_t k : {std::int64_t{0}, periods}) {
+      CommandTaken taken;
+      taken.stamp.true_time = at_ms(41 * k);
+      taken.stamp.global = GlobalTime{} + Duration::milliseconds(40 * k);
+      account.on(taken);
+    }
+    EXPECT_EQ(account.finish().reading_jitter.count(), periods == 3 ? 1u : 0u);
+  }
+}
+
 }  // namespace
 }  // namespace ttf::evaluation::driving
