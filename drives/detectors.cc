@@ -75,11 +75,25 @@ std::vector<SensorId> cameras_of(const Cluster& cluster, const Task& task) {
   return cameras;
 }
 
+bool looks_at_regions(const Cluster& cluster, SensorId camera) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const Task& task : node.tasks)
+      if (is_detector(task)) return std::ranges::count(cameras_of(cluster, task), camera) > 0;
+  return true;
+}
+
 void check_detectors(const Cluster& cluster, Findings& findings) {
+  std::string first;
   for (const schedules::model::Node& node : cluster.nodes)
     for (const Task& task : node.tasks) {
       const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
       if (is_detector(task)) {
+        if (!first.empty())
+          findings.add(
+              {cluster.file, task.line, path + ".step", task.step,
+               fmt::format("must be another step: {} is the detector already, and a scenario describes one", first)});
+        else
+          first = path;
         check_ports(cluster, task, path, findings);
         check_times(cluster, task, path, findings);
       } else if (task.holds > Duration{}) {

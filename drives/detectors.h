@@ -12,6 +12,8 @@ namespace ttf::drives {
 bool is_detector(const schedules::model::Task& task);
 // Returns the cameras that share the detector, in the order of the ports read.
 std::vector<SensorId> cameras_of(const schedules::model::Cluster& cluster, const schedules::model::Task& task);
+// Returns whether somebody looks at this camera's regions of interest: the detector, if the cluster has one.
+bool looks_at_regions(const schedules::model::Cluster& cluster, SensorId camera);
 
 // Checks the cluster's adaptive cameras; their ports are bound.
 void check_detectors(const schedules::model::Cluster& cluster, Findings& findings);

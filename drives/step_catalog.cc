@@ -40,13 +40,13 @@ const sim::world::vehicle::EgoConfig& ego_of(const Scenario& scenario) {
   static const sim::world::vehicle::EgoConfig kUsual;
   return scenario.world.ego ? *scenario.world.ego : kUsual;
 }
-// Returns the pictures of the cluster's cameras with one lens, as far as they measure.
+// Returns the pictures of the cluster's cameras with one lens, as far as they measure and their regions are looked at.
 std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const schedules::model::Cluster& cluster) {
   std::vector<nodes::driving::Picture> pictures;
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     if (cluster.sensors[s].kind != schedules::model::SensorKind::kMonoCamera) continue;
     const sim::world::MonoCameraConfig& camera = scenario.sensors.mono_cameras.of(cluster.sensors[s].name).model;
-    if (!camera.device.enabled) continue;
+    if (!camera.device.enabled || !looks_at_regions(cluster, static_cast<SensorId>(s))) continue;
     const sim::world::Placement& at = camera.device.placement;
     pictures.push_back({static_cast<SensorId>(s), at.x, at.y, at.heading, camera.height_m, camera.focal_px,
                         camera.focal_px * std::tan(camera.half_field_rad), camera.half_height_px});

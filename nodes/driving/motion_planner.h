@@ -33,7 +33,7 @@ PlannerConfig load_planner(YamlMap& yaml);
 // of interest.
 class MotionPlanner final : public host::Step {
  public:
-  // `pictures` are those of the cluster's cameras; the first one that sees the object gets the region.
+  // `pictures` are those of the cameras whose regions are looked at; the first one that sees the object gets the region.
   MotionPlanner(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                 const PlannerConfig& config, std::vector<Picture> pictures);
   void run(host::StepContext& context) override;

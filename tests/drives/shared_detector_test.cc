@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -125,6 +126,40 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
   EXPECT_THAT(refused("{camera: camera_d,"),
               HasSubstr("adaptive_camera.regions.camera = camera_d: must be a camera of"));
   EXPECT_THAT(refused("{"), HasSubstr("adaptive_camera.regions[0].camera"));
+}
+
+schedules::model::Task& detector_of(schedules::model::Cluster& cluster) {
+  for (schedules::model::Node& node : cluster.nodes)
+    for (schedules::model::Task& task : node.tasks)
+      if (is_detector(task)) return task;
+  throw std::logic_error("no detector");
+}
+
+TEST(SharedDetector, IsTheOnlyOne) {
+  schedules::model::Cluster cluster = Drive(kShared, StrategyKind::kTt).cluster;
+  schedules::model::Task again = detector_of(cluster);
+  again.name = "again";
+  cluster.nodes.back().tasks.push_back(again);
+  Findings findings;
+  check_detectors(cluster, findings);
+  try {
+    findings.throw_if_any();
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("tasks.again.step = adaptive_camera: must be another step: "
+                                        "nodes.detector.tasks.detect is the detector already"));
+  }
+}
+
+TEST(SharedDetector, RegionsOfOtherCamerasAreOfNoUse) {
+  schedules::model::Cluster cluster = Drive(kShared, StrategyKind::kTt).cluster;
+  schedules::model::Task& task = detector_of(cluster);
+  const std::vector<SensorId> cameras = cameras_of(cluster, task);
+  for (const SensorId camera : cameras) EXPECT_TRUE(looks_at_regions(cluster, camera));
+  task.reads.erase(task.reads.begin());
+  for (const SensorId camera : cameras) EXPECT_EQ(looks_at_regions(cluster, camera), camera != cameras.front());
+  task.step = "fusion";
+  EXPECT_TRUE(looks_at_regions(cluster, cameras.front())) << "nobody chooses";
 }
 
 }  // namespace
