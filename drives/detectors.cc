@@ -9,6 +9,7 @@
 #include "core/counted.h"
 #include "core/nearest.h"
 #include "schedules/model/ports.h"
+#include "schedules/sequence/history.h"
 
 namespace ttf::drives {
 namespace {
@@ -52,16 +53,30 @@ void check_ports(const Cluster& cluster, const Task& task, const std::string& pa
                   fmt::format("must be at most {} cameras", schedules::sequence::kMostSensors)});
 }
 
+Duration step_of(const Cluster& cluster, const Task& task) { return cluster.cycle() * task.activation.at.repetition; }
+
 void check_times(const Cluster& cluster, const Task& task, const std::string& path, Findings& findings) {
   if (task.activation.kind != schedules::model::ActivationKind::kTime) {
     findings.add({cluster.file, task.line, path + ".activation", "",
                   "must be of kind time: a detection takes whole steps, and an execution is one"});
     return;
   }
-  const Duration step = cluster.cycle() * task.activation.at.repetition;
+  const Duration step = step_of(cluster, task);
   if (task.holds < step * 2)
     findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
                   fmt::format("must be at least {:g} ms: a detection takes at least two executions", in_ms(step * 2))});
+}
+
+// A detector that is cut off at each whole picture would take less than the scenario says.
+void check_whole_picture(const Scenario& scenario, const Cluster& cluster, const Task& task, const std::string& path,
+                         Findings& findings) {
+  const Duration step = step_of(cluster, task), picture = nodes::vision::whole_picture(scenario.adaptive_camera);
+  const Duration needed = schedules::sequence::occupied(picture, step);
+  if (task.holds < needed)
+    findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+                  fmt::format("must be at least {:g} ms, in steps of {:g} ms: a whole picture takes {:g} ms by "
+                              "adaptive_camera.picture_time and hardware_factor of {}",
+                              in_ms(needed), in_ms(step), in_ms(picture), scenario.file)});
 }
 
 }  // namespace
@@ -103,11 +118,12 @@ void check_detectors(const Cluster& cluster, Findings& findings) {
     }
 }
 
-void check_regions(const Scenario& scenario, const Cluster& cluster) {
+void check_detections(const Scenario& scenario, const Cluster& cluster) {
   Findings findings;
   for (const schedules::model::Node& node : cluster.nodes)
     for (const Task& task : node.tasks) {
       if (!is_detector(task)) continue;
+      check_whole_picture(scenario, cluster, task, fmt::format("nodes.{}.tasks.{}", node.name, task.name), findings);
       std::vector<std::string> names;
       for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
       for (const nodes::vision::FixedRegion& fixed : scenario.adaptive_camera.regions) {

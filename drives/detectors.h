@@ -17,8 +17,8 @@ bool looks_at_regions(const schedules::model::Cluster& cluster, SensorId camera)
 
 // Checks the cluster's adaptive cameras; their ports are bound.
 void check_detectors(const schedules::model::Cluster& cluster, Findings& findings);
-// Checks the scenario's regions of interest. Throws InputError with every finding.
-void check_regions(const Scenario& scenario, const schedules::model::Cluster& cluster);
+// Checks the scenario's times and regions of interest against the cluster's detector. Throws InputError with every finding.
+void check_detections(const Scenario& scenario, const schedules::model::Cluster& cluster);
 
 // Returns the pictures of the detector's cameras, as the scenario describes them.
 std::vector<nodes::vision::SharedCamera> pictures_of(const Scenario& scenario, const schedules::model::Cluster& cluster,

@@ -124,7 +124,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   check_fusion(cluster, strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
-  check_regions(scenario, cluster);
+  check_detections(scenario, cluster);
   const faults::FaultPlan faults = faults::resolve(scenario.faults, cluster);
   const faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -143,7 +143,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   check_fusion(cluster, config.strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
-  check_regions(scenario, cluster);
+  check_detections(scenario, cluster);
   std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;

@@ -32,8 +32,8 @@ AdaptiveCamera::AdaptiveCamera(const schedules::model::Cluster& cluster, const s
                                const AdaptiveCameraConfig& config, std::vector<SharedCamera> cameras,
                                const DetectionKey& key)
     : config_(config), key_(key), step_(cluster.cycle() * task.activation.at.repetition), round_(cluster.round()),
-      holds_(task.holds), plan_(with_steps(config.plan, step_), static_cast<int>(cameras.size())),
-      shares_(cameras.size()) {
+      holds_(step_ * (task.holds.ns / step_.ns)),
+      plan_(with_steps(config.plan, step_), static_cast<int>(cameras.size())), shares_(cameras.size()) {
   int most = 0;
   for (std::size_t in = 0; in < task.reads.size(); ++in) {
     const schedules::model::PortBinding& read = task.reads[in];
@@ -172,8 +172,6 @@ bool AdaptiveCamera::look(host::StepContext& context, std::size_t number, bool s
   work.record.area = secondary ? std::min(1.0, camera.region->area() / camera.area()) : 1.0;
   work.record.took = std::min(drawn_time(camera.sensor, picture->sequence, work.record.area), holds_);
   work.steps_left = schedules::sequence::occupied(work.record.took, step_).ns / step_.ns;
-  // Whole steps may be longer than the task may hold a list.
-  work.steps_left = std::min(work.steps_left, holds_.ns / step_.ns);
   work_ = work;
   return true;
 }
@@ -184,6 +182,10 @@ Duration AdaptiveCamera::drawn_time(SensorId sensor, std::uint32_t picture, doub
   const double relative = std::max(kLeastShare, 1.0 + config_.deviation * draw.normal());
   const double whole = config_.hardware_factor * static_cast<double>(config_.picture_time.ns);
   return Duration::nanoseconds(std::llround(whole * share * relative));
+}
+
+Duration whole_picture(const AdaptiveCameraConfig& config) {
+  return Duration::nanoseconds(std::llround(config.hardware_factor * static_cast<double>(config.picture_time.ns)));
 }
 
 }  // namespace ttf::nodes::vision

@@ -9,8 +9,9 @@
 // write nothing. No clock of the machine is asked.
 //
 // A picture is looked at once. It may be kOldestPicture steps old. A camera without one costs its detection and a step.
-// A detection takes at most as long as the task may hold a list (schedules::model::Task::holds). Then the detector
-// gives what it has. If the task missed executions for so long, the detection is dropped.
+// A detection takes at most as long as the task may hold a list (schedules::model::Task::holds), in whole steps. Then
+// the detector gives what it has. The mean time of a whole picture is not cut: drives/detectors.h refuses that. If the
+// task missed executions for so long, the detection is dropped.
 //
 // The camera's model finds the boxes (sim/world/mono_camera.h). A primary detection lists them all. A secondary one
 // lists those whose middle lies in the region. So clutter falls with the region's area.
@@ -47,6 +48,8 @@ struct AdaptiveCameraConfig {
   std::vector<FixedRegion> regions;
 };
 AdaptiveCameraConfig load_adaptive_camera(YamlMap& yaml);
+// Returns the mean time of a detection in a whole picture.
+Duration whole_picture(const AdaptiveCameraConfig& config);
 
 // A camera of the detector: its picture reaches this far from its middle.
 struct SharedCamera {
@@ -102,7 +105,7 @@ class AdaptiveCamera final : public host::Step {
 
   AdaptiveCameraConfig config_;
   DetectionKey key_;
-  Duration step_, round_, holds_;
+  Duration step_, round_, holds_;  // whole steps
   std::vector<Camera> cameras_;
   FramePlan plan_;
   struct RegionPort {

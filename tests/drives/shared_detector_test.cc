@@ -81,7 +81,7 @@ std::string refusal(const std::string& key, const std::string& changed, const st
     const schedules::model::Cluster cluster = schedules::file::parse_cluster(text, "cluster.yaml");
     check_steps(cluster);
     const std::string file = shipped(kShared);
-    check_regions(parse_scenario(read_file(file) + scenario, "shared.yaml"), cluster);
+    check_detections(parse_scenario(read_file(file) + scenario, "shared.yaml"), cluster);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -89,7 +89,12 @@ std::string refusal(const std::string& key, const std::string& changed, const st
 }
 
 TEST(SharedDetector, RefusesWhatItCannotLookAt) {
-  EXPECT_EQ(refusal("holds: 70 ms", "holds: 20 ms"), "taken");
+  EXPECT_EQ(refusal("holds: 70 ms", "holds: 50 ms"), "taken");
+  for (const std::string held : {"49 ms", "20 ms"})
+    EXPECT_THAT(refusal("holds: 70 ms", "holds: " + held),
+                HasSubstr("nodes.detector.tasks.detect.holds = " + held +
+                          ": must be at least 50 ms, in steps of 10 ms: a whole picture takes 46.3 ms by "
+                          "adaptive_camera.picture_time and hardware_factor of shared.yaml"));
   EXPECT_THAT(refusal("holds: 70 ms", "holds: 19 ms"),
               HasSubstr("nodes.detector.tasks.detect.holds = 19 ms: must be at least 20 ms"));
   EXPECT_THAT(refusal("deadline: 3500 us,", "deadline: 3500 us, holds: 20 ms,"),
@@ -116,7 +121,7 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
     std::string other = text;
     other.replace(other.find(region), region.size(), changed);
     try {
-      check_regions(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
+      check_detections(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,8 @@ struct ByHand final : Sink {
   std::uint32_t pictures = 0;
   bool blind = false;  // no pictures come
 
-  explicit ByHand(const AdaptiveCameraConfig& config = sure()) : step(cluster(), task(), config, three(), {1, 0}) {
+  explicit ByHand(const AdaptiveCameraConfig& config = sure(), const schedules::model::Task& of = task())
+      : step(cluster(), of, config, three(), {1, 0}) {
     for (const auto& read : task().reads) {
       lists.emplace_back(read.port, read.pdu, cluster().pdu(read.pdu));
       inputs.push_back({read.port, read.pdu, &cluster().pdu(read.pdu), std::nullopt, false});
@@ -227,6 +229,18 @@ TEST(AdaptiveCamera, DrawsItsTimesAndNeverHoldsForLonger) {
     sum += one.took.seconds();
   }
   EXPECT_NEAR(sum / static_cast<double>(once.made.size()), 0.0463, 0.008);
+}
+
+TEST(AdaptiveCamera, HoldsAListForWholeSteps) {
+  AdaptiveCameraConfig config;
+  config.deviation = 0.5;
+  schedules::model::Task longer = task();
+  longer.holds = longer.holds + Duration::milliseconds(5);
+  ByHand once(config), half_a_step_more(config, longer);
+  EXPECT_EQ(once.executions(400), half_a_step_more.executions(400));
+  Duration longest{};
+  for (const DetectionMade& one : half_a_step_more.made) longest = std::max(longest, one.took);
+  EXPECT_EQ(longest, task().holds) << "no detection takes longer than its list was held";
 }
 
 TEST(AdaptiveCamera, APlannersRegionsComeAsItWroteThem) {
