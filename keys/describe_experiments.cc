@@ -42,7 +42,8 @@ constexpr Description kExperiment[] = {
     {"compare.confidence", "Intervals have this confidence."},
     {"interactions",
      "The answer says whether a change of an axis lowers a measure of one paradigm more than of another."},
-    {"interactions[].measure", "The measure is this one; absent, the first.", "position_rmse_truth"},
+    {"interactions[].measure", "The measure is this one, no event as collision; absent, the first.",
+     "position_rmse_truth"},
     {"interactions[].by",
      "Changes are compared as shares of the values before, or as differences; absent, as shares for measures with a "
      "unit.",

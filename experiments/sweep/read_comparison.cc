@@ -62,6 +62,11 @@ void read_interaction(YamlMap& map, SweepFile& file) {
   const auto place = std::find(file.measures.begin(), file.measures.end(), measure);
   const Measure* about = find_measure(measure);
   one.scale = about != nullptr && is_ratio_scale(*about) ? Scale::kRatio : Scale::kDifference;
+  // Each difference of two shares has an interval for paired drives (experiments/results/share.h); a difference of two such
+  // differences has none. Student's would have no width where the event never happens.
+  if (about != nullptr && about->is_event)
+    map.fail(map.has("measure") ? "measure" : "",
+             fmt::format("must not be about {}, an event: an interaction of shares has no interval", measure));
   if (map.has("by"))
     one.scale = map.choice<Scale>("by", {{"ratio", Scale::kRatio}, {"difference", Scale::kDifference}});
   const auto axis = axis_of(map, "axis", file);

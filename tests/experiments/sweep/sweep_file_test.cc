@@ -188,6 +188,14 @@ TEST(SweepFile, AsksForInteractions) {
   EXPECT_THAT(asked("axis: one, lowers: t, more_than: a, by: sum"),
               HasSubstr("by = sum: must be one of ratio, difference"));
   EXPECT_THAT(asked("axis: one, lowers: t"), HasSubstr("more_than: is missing"));
+
+  const auto of_events = [](const std::string& text) {
+    return refusal(kHead + kTwoAxes + "measures: [collision, nees]\ninteractions: [{" + text + "}]\n");
+  };
+  const std::string why = "must not be about collision, an event: an interaction of shares has no interval";
+  EXPECT_EQ(of_events("measure: nees, axis: one, lowers: t, more_than: a"), "taken");
+  EXPECT_EQ(of_events("measure: collision, axis: one, lowers: t, more_than: a"), line + "measure = collision: " + why);
+  EXPECT_THAT(of_events("axis: one, lowers: t, more_than: a"), HasSubstr(why)) << "the first measure";
 }
 
 TEST(SweepFile, AFileThatIsNotThereIsTheEntrysMistake) {
