@@ -50,11 +50,23 @@ CommandTaken Actuator::read(host::StepContext& context, Port& port) {
 }
 
 void Actuator::run(host::StepContext& context) {
-  run_longitudinal(context);
-  if (lateral_) lateral_->combine(context);
+  Records records = run_longitudinal(context);
+  if (lateral_) {
+    const CommandTaken taken = lateral_->combine(context);
+    if (taken.verdict != recording::records::kNoNewCommand) records.add(taken);
+  }
+  for (std::size_t i = 0; i < records.count; ++i) {
+    CommandTaken& taken = records.all[i];
+    if (taken.verdict == recording::records::kApplied) {
+      taken.acceleration = context.actuation->acceleration;
+      taken.steering = context.actuation->steering;
+      taken.from = context.actuation->from;
+    }
+    context.sink->on(taken);
+  }
 }
 
-void Actuator::run_longitudinal(host::StepContext& context) {
+Actuator::Records Actuator::run_longitudinal(host::StepContext& context) {
   CommandTaken taken = read(context, command_);
   if (taken.verdict == recording::records::kApplied) steering_ = taken.steering;
   std::optional<CommandTaken> emergency;
@@ -68,6 +80,7 @@ void Actuator::run_longitudinal(host::StepContext& context) {
     return read.verdict != recording::records::kNoNewCommand && read.verdict != recording::records::kLateCommand;
   };
   const bool acts = counts->has_value() && (is_new(taken) || (emergency && is_new(*emergency)));
+  Records records;
   bool told = false;
   const auto tell = [&](CommandTaken read) {
     if (read.verdict == recording::records::kApplied) {
@@ -78,21 +91,21 @@ void Actuator::run_longitudinal(host::StepContext& context) {
         read.verdict = recording::records::kWeakerCommand;
       }
     }
-    context.sink->on(read);
+    records.add(read);
   };
   tell(taken);
   if (emergency && emergency->verdict != recording::records::kNoNewCommand) tell(*emergency);
-  if (!acts || told) return;
+  if (!acts || told) return records;
   CommandTaken earlier = (*counts)->taken;
   earlier.stamp = context.stamp;
   hand_over(context, earlier);
-  context.sink->on(earlier);
+  records.add(earlier);
+  return records;
 }
 
-void Actuator::hand_over(host::StepContext& context, CommandTaken& taken) const {
-  taken.steering = steering_;
-  taken.from = context.stamp.true_time + config_.dead_time;
-  context.actuation = host::Actuation{taken.from, taken.acceleration, taken.steering};
+void Actuator::hand_over(host::StepContext& context, const CommandTaken& taken) const {
+  const TrueTime from = context.stamp.true_time + config_.dead_time;
+  context.actuation = host::Actuation{from, taken.acceleration, steering_};
 }
 
 }  // namespace ttf::nodes::driving

@@ -2,6 +2,7 @@
 // dead time after its reading on. sim/world/vehicle/driven.h has the rest: lag, limits, and the reaction without commands.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -34,11 +35,17 @@ class Actuator final : public host::Step {
     CommandSignals signals;
     std::optional<Living> living;
   };
+  // Those of one execution, in order. An applied one has what was handed over.
+  struct Records {
+    std::array<recording::records::CommandTaken, 4> all;
+    std::size_t count = 0;
+    void add(const recording::records::CommandTaken& taken) { all[count++] = taken; }
+  };
   // Returns the verdict on a port's list, and keeps an accepted command.
   recording::records::CommandTaken read(host::StepContext& context, Port& port);
   bool is_old(const host::StepContext& context, GlobalTime issued) const;
-  void run_longitudinal(host::StepContext& context);
-  void hand_over(host::StepContext& context, recording::records::CommandTaken& taken) const;
+  Records run_longitudinal(host::StepContext& context);
+  void hand_over(host::StepContext& context, const recording::records::CommandTaken& taken) const;
 
   sim::world::vehicle::ActuatorConfig config_;
   Duration round_;

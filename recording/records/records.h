@@ -385,7 +385,7 @@ struct CommandIssued {
 
 // An actuator's reading of a command: it is applied from the instant `from` on, or not. A reading has a record for the
 // list of adaptive cruise control, and one for each new list of another service. An earlier command that counts on has
-// one of its own.
+// one of its own. An applied one has the actuation that was handed over. Several of one reading have the same.
 inline constexpr std::uint8_t kApplied = 0, kNoNewCommand = 1, kInvalidCommand = 2, kLateCommand = 3;
 // A service other than cruise control asks for nothing; a service asks for less than another one.
 inline constexpr std::uint8_t kNothingAsked = 4, kWeakerCommand = 5;

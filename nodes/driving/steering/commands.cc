@@ -33,25 +33,22 @@ CommandTaken LateralCommands::read(host::StepContext& context) const {
   return taken;
 }
 
-void LateralCommands::combine(host::StepContext& context) {
+CommandTaken LateralCommands::combine(host::StepContext& context) {
   const LocalTime now = context.stamp.local;
+  pull_.execute(now);
+  wheels_.execute(now);
   CommandTaken taken = read(context);
   const bool steers = taken.verdict == recording::records::kApplied;
   if (context.actuation) pull_.accept(context.actuation->acceleration, now);
   if (steers) wheels_.accept(taken.steering, now);
-  if (context.actuation || steers) {
-    double acceleration = pull_.value(config_, now);
-    const bool brakes = config_.without == sim::world::vehicle::WithoutCommand::kBrake;
-    if (brakes && pull_.alone(config_, now)) acceleration = -config_.deceleration;
-    if (brakes && wheels_.alone(config_, now)) acceleration = std::min(acceleration, -config_.deceleration);
-    const TrueTime from = context.stamp.true_time + config_.dead_time;
-    context.actuation = host::Actuation{from, acceleration, wheels_.value(config_, now)};
-    if (steers) {
-      taken.acceleration = acceleration;
-      taken.from = from;
-    }
-  }
-  context.sink->on(taken);
+  if (!context.actuation && !steers) return taken;
+  double acceleration = pull_.value(config_, now);
+  const bool brakes = config_.without == sim::world::vehicle::WithoutCommand::kBrake;
+  if (brakes && pull_.alone(config_, now)) acceleration = -config_.deceleration;
+  if (brakes && wheels_.alone(config_, now)) acceleration = std::min(acceleration, -config_.deceleration);
+  const TrueTime from = context.stamp.true_time + config_.dead_time;
+  context.actuation = host::Actuation{from, acceleration, wheels_.value(config_, now)};
+  return taken;
 }
 
 }  // namespace ttf::nodes::driving::steering

@@ -5,14 +5,13 @@
 namespace ttf::nodes::driving::steering {
 
 bool Demand::alone(const sim::world::vehicle::ActuatorConfig& config, LocalTime now) const {
-  return newest_ && now - newest_->at >= config.after;
+  return since_ && now - *since_ >= config.after;
 }
 
 double Demand::value(const sim::world::vehicle::ActuatorConfig& config, LocalTime now) const {
-  if (!newest_) return 0.0;
-  if (config.without != sim::world::vehicle::WithoutCommand::kDecay || !alone(config, now)) return newest_->value;
-  const Duration since = now - newest_->at - config.after;
-  return newest_->value * std::exp(-since.seconds() / config.decay.seconds());
+  if (config.without != sim::world::vehicle::WithoutCommand::kDecay || !alone(config, now)) return value_;
+  const Duration since = now - *since_ - config.after;
+  return value_ * std::exp(-since.seconds() / config.decay.seconds());
 }
 
 }  // namespace ttf::nodes::driving::steering

@@ -232,7 +232,9 @@ TEST(ActuatorWithLateral, EachAxisFollowsItsOwnCommands) {
   ASSERT_TRUE(brakes);
   EXPECT_NEAR(brakes->acceleration, -8.0, 1e-9);
   EXPECT_NEAR(brakes->steering, 0.02, 1e-9) << "the wheels stay";
-  EXPECT_EQ(wheels.taken.back().verdict, kNoNewCommand);
+  ASSERT_EQ(wheels.taken.size(), 2u) << "the list of cruise control that is not there, and the one that came";
+  EXPECT_EQ(wheels.taken[0].verdict, kNoNewCommand);
+  EXPECT_NEAR(wheels.taken[1].steering, 0.02, 1e-9) << "a record has what was handed over";
   wheels.command("lateral", 0.0, 0.03);
   const auto steers = wheels.run(wheels.step);
   ASSERT_TRUE(steers);
@@ -262,6 +264,55 @@ TEST(ActuatorWithLateral, AnAxisWithoutCommandsDoesWhatTheFileSays) {
   EXPECT_NEAR(last(WithoutCommand::kDecay, "command").acceleration, -faded, 1e-9);
   EXPECT_NEAR(last(WithoutCommand::kBrake, "command").acceleration, -4.0, 1e-9);
   EXPECT_NEAR(last(WithoutCommand::kBrake, "command").steering, 0.02, 1e-9);
+}
+
+// Silence begins 200 ms after the first execution.
+TEST(ActuatorWithLateral, AnAxisThatNeverHadACommandReactsToo) {
+  const auto at = [](WithoutCommand without, const char* speaks, int executions) {
+    Wheels wheels(without);
+    std::optional<host::Actuation> actuation;
+    for (int execution = 0; execution < executions; ++execution) {
+      wheels.command(speaks, 0.5, 0.02);
+      actuation = wheels.run(wheels.step);
+    }
+    return *actuation;
+  };
+  EXPECT_NEAR(at(WithoutCommand::kBrake, "lateral", 5).acceleration, 0.0, 1e-9);
+  EXPECT_NEAR(at(WithoutCommand::kBrake, "lateral", 6).acceleration, -4.0, 1e-9);
+  EXPECT_NEAR(at(WithoutCommand::kBrake, "lateral", 6).steering, 0.02, 1e-9);
+  EXPECT_NEAR(at(WithoutCommand::kBrake, "command", 5).acceleration, 0.5, 1e-9);
+  EXPECT_NEAR(at(WithoutCommand::kBrake, "command", 6).acceleration, -4.0, 1e-9);
+  for (const WithoutCommand without : {WithoutCommand::kHold, WithoutCommand::kDecay}) {
+    EXPECT_NEAR(at(without, "lateral", 11).acceleration, 0.0, 1e-9) << "there is nothing to hold";
+    EXPECT_NEAR(at(without, "command", 11).acceleration, 0.5, 1e-9);
+    EXPECT_NEAR(at(without, "command", 11).steering, 0.0, 1e-9);
+  }
+}
+
+// Whoever drives by the records alone gets the vehicle of the actuations.
+TEST(ActuatorWithLateral, EachAppliedRecordHasWhatWasHandedOver) {
+  for (const WithoutCommand without : {WithoutCommand::kHold, WithoutCommand::kDecay, WithoutCommand::kBrake}) {
+    Wheels wheels(without);
+    std::size_t compared = 0;
+    for (int execution = 0; execution < 24; ++execution) {
+      if (execution % 2 == 0) wheels.command("command", -0.1 * execution, 0.3);
+      if (execution % 5 == 0) wheels.command("emergency", -8.0, 0.3);
+      if (execution < 8 && execution % 3 != 1) wheels.command("lateral", -5.0, 0.001 * execution);
+      const auto actuation = wheels.run(wheels.step);
+      bool told = false;
+      for (const CommandTaken& taken : wheels.taken) {
+        if (taken.verdict != kApplied) continue;
+        ASSERT_TRUE(actuation) << execution;
+        EXPECT_EQ(taken.from, actuation->from);
+        EXPECT_EQ(taken.acceleration, actuation->acceleration) << execution;
+        EXPECT_EQ(taken.steering, actuation->steering) << execution;
+        told = true;
+      }
+      EXPECT_EQ(told, actuation.has_value()) << execution;
+      compared += told;
+    }
+    EXPECT_GT(compared, 12u);
+  }
 }
 
 // A car on the own lane of a bend of 400 m, 2 m to the left of the x axis.
