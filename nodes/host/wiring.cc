@@ -10,10 +10,10 @@ namespace ttf::nodes::host {
 namespace {
 
 // The fusion needs every sample of odometry. To services the newest one is the vehicle's state. To an actuator the newest
-// command is the demand, and to low-level control the newest plan.
+// command is the demand, to low-level control the newest plan, and to lane keeping the newest marks are the lane.
 bool tells_a_state(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const schedules::model::PortBinding& port) {
-  if (task.step == "actuator" || task.step == "vehicle_control") return true;
+  if (task.step == "actuator" || task.step == "vehicle_control" || task.step == "lane_keeping") return true;
   const SensorId sensor = cluster.pdu(port.pdu).sensor;
   if (task.step == "adaptive_camera") return true;  // it looks at the newest picture
   return is_service(task.step) && sensor != kNoSensor &&

@@ -131,7 +131,8 @@ TEST(ClosedLoop, KeepsItsLaneInABend) {
   evaluation::driving::DrivingAccount account(
       {.lane = evaluation::driving::LaneConfig{*scenario.world.road, scenario.world.ego->on->lane}},
       evaluation_start(scenario));
-  drive.run(account);
+  const DriveOutcome outcome = drive.run(account);
+  EXPECT_EQ(outcome.counts.overwritten_lists, 0u) << "lane keeping wants the newest odometry, not each";
   const evaluation::driving::DrivingFindings found = account.finish();
   EXPECT_LT(found.lane->largest_offset_m, 0.4);
   EXPECT_EQ(found.lane->outside, 0.0);
