@@ -57,6 +57,24 @@ std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const
 std::string_view name_read(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
   return name_of(cluster, cluster.pdu(nodes::host::binding_of(task.reads, "raw").pdu).sensor);
 }
+const schedules::model::Task* writer_of(const schedules::model::Cluster& cluster, PduId list) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      for (const schedules::model::PortBinding& out : task.writes)
+        if (out.pdu == list) return &task;
+  return nullptr;
+}
+// Returns the name of the camera that measures these marks, empty if only a library's step knows it.
+std::string_view camera_of(const schedules::model::Cluster& cluster, PduId marks) {
+  for (std::size_t hops = 0; hops < cluster.pdus.size(); ++hops) {
+    const schedules::model::Task* const writer = writer_of(cluster, marks);
+    if (writer == nullptr) break;
+    if (writer->step == "lane_camera_preprocessing") return name_read(cluster, *writer);
+    if (writer->step != "gateway") break;
+    marks = nodes::host::binding_of(writer->reads, "in").pdu;
+  }
+  return {};
+}
 // Returns the service's parameters, with the vehicle's and the camera's.
 nodes::driving::steering::LaneKeepingConfig lane_keeping_of(const Scenario& scenario,
                                                             const schedules::model::Cluster& cluster,
@@ -72,10 +90,7 @@ nodes::driving::steering::LaneKeepingConfig lane_keeping_of(const Scenario& scen
       vehicle.mass, vehicle.front_axle, vehicle.rear_axle,
       vehicle.friction * vehicle.front_stiffness * kGravity * vehicle.mass * vehicle.rear_axle / vehicle.wheelbase()};
   const PduId marks = nodes::host::binding_of(task.reads, "marks").pdu;
-  for (const schedules::model::Sensor& sensor : cluster.sensors)
-    for (const schedules::model::Task& source : cluster.node(sensor.host).tasks)
-      for (const schedules::model::PortBinding& list : source.writes)
-        if (list.pdu == marks) config.lane.ahead_m = scenario.sensors.mono_cameras.of(sensor.name).model.marks.ahead_m;
+  config.lane.ahead_m = scenario.sensors.mono_cameras.of(camera_of(cluster, marks)).model.marks.ahead_m;
   return config;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "evaluation/accuracy/drive_measures.h"
@@ -108,6 +109,64 @@ TEST(ShippedTwoLasers, AreTrackedByEveryStrategy) {
     EXPECT_EQ(summary.missed, 0u) << name_of(strategy);
     EXPECT_EQ(summary.age_fused_by_sensor.size(), 3u) << name_of(strategy);
   }
+}
+
+// Two cameras with one lens have the same host. Marks are of the camera whose pictures they come from.
+TEST(LaneKeepingWithTwoCameras, TakesItsOwnCamerasDistance) {
+  struct Steering final : recording::records::Sink {
+    double angle = 0.0;
+    using Sink::on;
+    void on(const recording::records::CommandIssued& command) override {
+      EXPECT_TRUE(command.valid);
+      angle = command.steering;
+    }
+  };
+  const auto steering = [](double own_m, double other_m) {
+    Drive drive("scenarios/lane_keeping.yaml", StrategyKind::kTt);
+    schedules::model::Cluster& cluster = drive.cluster;
+    schedules::model::Sensor other = cluster.sensor(*cluster.find_sensor("mono_camera"));
+    other.name = "other_camera";
+    cluster.sensors.push_back(other);
+    auto& cameras = drive.scenario.sensors.mono_cameras;
+    for (const auto& [name, ahead_m] : {std::pair{"mono_camera", own_m}, std::pair{"other_camera", other_m}}) {
+      cameras.own.push_back(cameras.usual);
+      cameras.own.back().name = name;
+      cameras.own.back().model.marks.ahead_m = ahead_m;
+    }
+    const NodeId node = *cluster.find_node("feature");
+    const auto steps =
+        make_steps({&drive.scenario, &cluster, StrategyKind::kTt, 1, 0, nullptr, nullptr, nullptr}, node);
+    Steering seen;
+    for (std::size_t t = 0; t < steps.size(); ++t) {
+      const schedules::model::Task& task = cluster.node(node).tasks[t];
+      if (task.step != "lane_keeping") continue;
+      const GlobalTime now = GlobalTime{} + Duration::milliseconds(1'000);
+      std::vector<nodes::host::Output> lists, outputs;
+      std::vector<nodes::host::Input> inputs;
+      for (const auto& port : task.reads) {
+        nodes::host::Output& list = lists.emplace_back(port.port, port.pdu, cluster.pdu(port.pdu));
+        list.begin(1, 1, now);
+        const std::pair<const char*, double> values[] = {{"offset", 1.75},  {"heading", 0.02}, {"curvature", 0.0},
+                                                         {"validity", 1.0}, {"speed", 20.0},   {"yaw_rate", 0.0}};
+        for (const auto& [name, value] : values)
+          if (const auto signal = schedules::model::find_signal(list.layout().element, name))
+            list.set(0, *signal, value);
+      }
+      for (std::size_t i = 0; i < lists.size(); ++i)
+        inputs.push_back({task.reads[i].port, task.reads[i].pdu, &lists[i].layout(), lists[i].view(), true});
+      for (const auto& port : task.writes) outputs.emplace_back(port.port, port.pdu, cluster.pdu(port.pdu));
+      nodes::host::StepContext context;
+      context.stamp.global = now;
+      context.inputs = inputs;
+      context.outputs = outputs;
+      context.sink = &seen;
+      steps[t]->run(context);
+    }
+    return seen.angle;
+  };
+  const double near = steering(10.0, 25.0);
+  EXPECT_EQ(near, steering(10.0, 10.0));
+  EXPECT_NE(near, steering(25.0, 10.0));
 }
 
 }  // namespace
