@@ -35,7 +35,9 @@ void AdaptiveCruiseControl::run(host::StepContext& context) {
     issued_.reset();
     before_ = 0.0;
   }
-  const double dt = context.activation > 0 ? (now - issued_.value_or(last_)).seconds() : 0.0;
+  // Executions may not have happened for any time, as without global time.
+  const Duration since = std::min(now - issued_.value_or(last_), config_.memory);
+  const double dt = context.activation > 0 ? since.seconds() : 0.0;
   last_ = now;
   recording::records::CommandIssued record;
   record.gap = std::numeric_limits<double>::infinity();

@@ -25,7 +25,8 @@ struct CruiseConfig {
 CruiseConfig load_cruise(YamlMap& yaml);
 
 // Ports `image` and `odometry` -> `command`. Each execution issues a command; it is invalid without a view of the way
-// ahead. After a gap within the last command's life the acceleration goes on from there, after a longer one from zero.
+// ahead. After a gap within the last command's life the acceleration goes on from there, and after a longer one from
+// zero, with the jerk of one execution, or of `memory` at most.
 class AdaptiveCruiseControl final : public host::Step {
  public:
   AdaptiveCruiseControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

@@ -7,6 +7,16 @@
 #include "nodes/driving/ahead.h"
 
 namespace ttf::nodes::driving {
+namespace {
+
+// Executions that are further apart have others between them that did not happen.
+Duration longest_without_a_gap(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                               Duration max_plan_age) {
+  const bool timed = task.activation.kind == schedules::model::ActivationKind::kTime;
+  return std::max(max_plan_age, timed ? 2 * task.activation.at.repetition * cluster.cycle() : cluster.round());
+}
+
+}  // namespace
 
 ControlConfig load_control(YamlMap& yaml) {
   ControlConfig c;
@@ -27,8 +37,9 @@ ControlConfig load_control(YamlMap& yaml) {
 
 VehicleControl::VehicleControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                                const ControlConfig& config)
-    : config_(config), round_(cluster.round()), plan_(place_of(task, "plan")),
-      signals_(bind_plan(cluster, cluster.pdu(task.reads[plan_].pdu))), place_(cluster, task), out_(cluster, task) {}
+    : config_(config), round_(cluster.round()), longest_(longest_without_a_gap(cluster, task, config.max_plan_age)),
+      plan_(place_of(task, "plan")), signals_(bind_plan(cluster, cluster.pdu(task.reads[plan_].pdu))),
+      place_(cluster, task), out_(cluster, task) {}
 
 double VehicleControl::steering(const Place& own) {
   control::StanleyInput input;
@@ -45,8 +56,11 @@ double VehicleControl::steering(const Place& own) {
 
 void VehicleControl::run(host::StepContext& context) {
   const std::optional<Place> own = place_.look(context);
-  const double dt = context.activation > 0 ? (context.stamp.local - last_).seconds() : 0.0;
-  last_ = context.stamp.local;
+  const LocalTime now = context.stamp.local;
+  const bool goes_on = context.activation > 0 && now - last_ <= longest_;
+  const double dt = goes_on ? (now - last_).seconds() : 0.0;
+  if (!goes_on) integral_ = 0.0;
+  last_ = now;
   const host::Input& input = context.inputs[plan_];
   if (input.fresh) issued_ = host::past_time_stamp(*input.layout, *input.list, context.stamp.global, round_);
   const Plan plan = input.list ? decode_plan(*input.layout, *input.list, signals_) : Plan{};

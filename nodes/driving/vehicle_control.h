@@ -29,7 +29,8 @@ struct ControlConfig {
 ControlConfig load_control(YamlMap& yaml);
 
 // Ports `plan` and `odometry` -> `command`. Each execution issues a command. It is invalid without a valid plan that is
-// young enough, and without odometry; the integral begins at zero afterwards.
+// young enough, and without odometry; the integral begins at zero afterwards. So it does after executions that did not
+// happen, as without global time, for longer than a plan lives.
 class VehicleControl final : public host::Step {
  public:
   VehicleControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -41,6 +42,7 @@ class VehicleControl final : public host::Step {
 
   ControlConfig config_;
   Duration round_;
+  Duration longest_;      // between two executions without a gap
   std::size_t plan_ = 0;  // the port's place among the inputs
   PlanSignals signals_;
   OwnPlace place_;

@@ -176,6 +176,7 @@ template <class Service> struct ByEye : Sink {
   std::vector<Warning> warnings;
   std::optional<CommandIssued> issued;
   std::int64_t executions = 0;
+  Duration skipped{};
 
   explicit ByEye(const char* service) : name(service), step(cluster(), task_of("feature", service), {}) {}
   using Sink::on;
@@ -212,7 +213,7 @@ template <class Service> struct ByEye : Sink {
     outputs.emplace_back("command", command_pdu, cluster().pdu(command_pdu));
     host::StepContext context;
     context.stamp.global = kNow;
-    context.stamp.local = LocalTime{} + executions * Duration::milliseconds(40);
+    context.stamp.local = LocalTime{} + executions * Duration::milliseconds(40) + skipped;
     context.activation = static_cast<std::uint32_t>(executions++);
     context.inputs = inputs;
     context.outputs = outputs;
@@ -295,6 +296,17 @@ TEST(AdaptiveCruiseControl, RemembersItsCommandInAGapAsShortAsTheCommandsLife) {
   for (int i = 0; i < 3; ++i) cruising.look_away();
   cruising.look(15.0, 0.0, 20.0);
   EXPECT_NEAR(cruising.issued->acceleration, -0.1, 2e-3) << "after 160 ms it begins anew";
+}
+
+// The node had no global time for two seconds, in which its tasks did not execute.
+TEST(AdaptiveCruiseControl, BeginsAnewAfterExecutionsThatDidNotHappen) {
+  Cruising cruising;
+  for (int i = 0; i < 60; ++i) cruising.look(15.0, 0.0, 20.0);
+  cruising.skipped += Duration::milliseconds(2'000);
+  cruising.look(15.0, 0.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, -0.25, 2e-3) << "the jerk of 100 ms, the memory";
+  cruising.look(15.0, 0.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, -0.35, 2e-3);
 }
 
 // A vehicle that stands holds its brakes until the law asks for 0.3 m/s^2.

@@ -236,6 +236,19 @@ TEST(VehicleControl, TurnsAPlannedSpeedIntoAnAccelerationWithinLimits) {
   EXPECT_LT(control.command->acceleration, -5.0) << "and holds it";
 }
 
+// The node had no global time for two seconds, in which its tasks did not execute.
+TEST(VehicleControl, BeginsAnewAfterExecutionsThatDidNotHappen) {
+  Controlling control;
+  for (int i = 0; i < 101; ++i) control.follow(29.4, 29.0);
+  EXPECT_GT(control.command->acceleration, 1.3);
+  control.now_ms += 2'000;
+  control.follow(29.4, 29.0);
+  ASSERT_TRUE(control.command->valid);
+  EXPECT_NEAR(control.command->acceleration, 2.5 * 0.4, 0.01) << "without an integral, of before or of the gap";
+  control.follow(29.4, 29.0);
+  EXPECT_NEAR(control.command->acceleration, 2.5 * 0.4, 0.01);
+}
+
 TEST(VehicleControl, SteersBackToTheLineThatItStartedOn) {
   Controlling control;
   control.follow(20.0, 20.0);
