@@ -65,6 +65,9 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
 void check_loop(const Scenario& scenario, const schedules::model::Cluster& cluster);
 // Returns a warning if commands drive the vehicle, and an object follows; else "". Objects' ways are drawn beforehand.
 std::string following_warning(const Scenario& scenario);
+// Returns the time between two readings of commands by the actuator; the shortest one that is allowed if there is none, or if
+// check_loop() would refuse it.
+Duration between_readings(const schedules::model::Cluster& cluster);
 // Returns the node with the actuator, if there is one.
 std::optional<NodeId> actuator_node(const schedules::model::Cluster& cluster);
 // Checks that the cluster describes tasks: a bus description passes the schedule's checks, but no node could run it. Throws

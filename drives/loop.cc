@@ -28,9 +28,14 @@ std::vector<ActuatorTask> actuators(const Cluster& cluster) {
   return found;
 }
 
-// The vehicle has room for an actuation each millisecond (sim/world/vehicle/driven.h). Lists that activate a task may come in
-// any number, if a node babbles.
+// The vehicle has room for actuations of readings by time (sim/world/vehicle/driven.h). Lists that activate a task may come in any
+// number, if a node babbles.
 constexpr Duration kLeastBetween = Duration::milliseconds(2);
+
+bool is_by_time(const Task& task) { return task.activation.kind == schedules::model::ActivationKind::kTime; }
+Duration period_by_time(const Cluster& cluster, const Task& task) {
+  return task.activation.at.repetition * cluster.cycle();
+}
 
 std::string key_of(const ActuatorTask& one) { return "nodes." + one.node->name + ".tasks." + one.task->name + ".step"; }
 
@@ -74,8 +79,7 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
     throw InputError({cluster.file, found[1].task->line, key_of(found[1]), "actuator",
                       fmt::format("must be absent: {} has an actuator, and a vehicle has one", found[0].node->name)});
   const Task& task = *found[0].task;
-  const Duration between = task.activation.at.repetition * cluster.cycle();
-  if (task.activation.kind != schedules::model::ActivationKind::kTime || between < kLeastBetween)
+  if (!is_by_time(task) || period_by_time(cluster, task) < kLeastBetween)
     throw InputError(
         {cluster.file, task.line, "nodes." + found[0].node->name + ".tasks." + task.name + ".activation", "",
          fmt::format("must be by time, once in {:g} ms at most: the task moves the vehicle", in_ms(kLeastBetween))});
@@ -120,6 +124,12 @@ std::string following_warning(const Scenario& scenario) {
                   "it",
                   first->name)}
       .sentence();
+}
+
+Duration between_readings(const Cluster& cluster) {
+  const std::vector<ActuatorTask> found = actuators(cluster);
+  if (found.empty() || !is_by_time(*found.front().task)) return kLeastBetween;
+  return std::max(kLeastBetween, period_by_time(cluster, *found.front().task));
 }
 
 std::optional<NodeId> actuator_node(const Cluster& cluster) {

@@ -45,7 +45,9 @@ Surroundings surroundings_of(const Scenario& scenario, const schedules::model::C
     around.scene = std::make_shared<nodes::sensing::TracedScene>(scenario.truth, start);
     return around;
   }
-  around.world = std::make_shared<nodes::sensing::WorldScene>(scenario.world, seed, replication, start);
+  sim::world::WorldConfig world = scenario.world;
+  if (world.ego && world.ego->actuator) world.ego->actuator->between = between_readings(cluster);
+  around.world = std::make_shared<nodes::sensing::WorldScene>(world, seed, replication, start);
   around.scene = around.world;
   for (const sim::world::ObjectConfig& object : scenario.world.objects)
     if (object.reference && !around.reference)

@@ -160,6 +160,7 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   tasks.push_back(tasks.front());
   EXPECT_THAT(refusal(drive), HasSubstr("must be absent: actuator has an actuator, and a vehicle has one"));
   tasks.pop_back();
+  EXPECT_EQ(between_readings(drive.cluster), Duration::milliseconds(40));
   tasks.front().activation.at.repetition = 0;
   EXPECT_THAT(refusal(drive), HasSubstr("nodes.actuator.tasks.act.activation: must be by time"));
   tasks.front().activation.at.repetition = 8;

@@ -24,7 +24,10 @@ struct ActuatorConfig {
   WithoutCommand without = WithoutCommand::kBrake;
   Duration decay = Duration::milliseconds(500);  // the time constant of kDecay
   double deceleration = 4.0;                     // [m/s^2], of kBrake, positive
+  // The schedule's: the time between two readings of commands. The vehicle has room for twice as many actuations.
+  Duration between = Duration::milliseconds(2);
 };
+// Reads all but `between`.
 ActuatorConfig load_actuator(YamlMap& yaml);
 
 }  // namespace ttf::sim::world::vehicle

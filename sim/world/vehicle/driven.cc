@@ -8,7 +8,7 @@
 namespace ttf::sim::world::vehicle {
 namespace {
 
-constexpr std::int64_t kStateEvery_ns = 10'000'000, kCommandEvery_ns = 1'000'000;
+constexpr std::int64_t kStateEvery_ns = 10'000'000;
 constexpr std::int64_t kStep_ns = 2'000'000;  // kStep_s
 constexpr Range<Duration> kLag{Duration{}, Duration::milliseconds(5'000)};
 
@@ -54,7 +54,7 @@ Driven::Driven(const EgoConfig& config, const road::Road* road, Duration duratio
     : vehicle_(config.vehicle), actuator_(config.actuator.value()),
       most_states_(static_cast<std::size_t>(duration.ns / kStateEvery_ns + 2)) {
   grid_.reserve(most_states_);
-  actuations_.reserve(static_cast<std::size_t>(duration.ns / kCommandEvery_ns + 2));
+  actuations_.reserve(static_cast<std::size_t>(duration.ns / (actuator_.between.ns / 2) + 2));
   grid_.push_back({start_of(config, road)});
 }
 

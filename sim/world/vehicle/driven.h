@@ -44,7 +44,7 @@ enum class Inserted {
   kRefused,  // before the drive, or beyond the room
 };
 
-//   D1  after construction nothing allocates, as long as at most one actuation a millisecond comes
+//   D1  after construction nothing allocates, as long as actuations come at most twice as often as readings (ActuatorConfig::between)
 //   D2  a state at `t` is that of the actuations from instants up to `t`, however many looks there were before
 //   D3  after insert() it is so for every later look: an actuation that became known late changes no earlier look
 class Driven {

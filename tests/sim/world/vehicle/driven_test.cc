@@ -141,6 +141,19 @@ TEST(Driven, AllocatesNothingOnItsWay) {
   EXPECT_EQ(support::allocations(), before);
 }
 
+// A drive of an hour would need 86 MB for an actuation each millisecond. The schedule has one each 40 ms.
+TEST(Driven, HasRoomForTwiceAsManyActuationsAsReadings) {
+  EgoConfig config = at_speed(20.0);
+  config.actuator->between = Duration::milliseconds(40);
+  Driven driven(config, nullptr, kLong);
+  const std::int64_t before = support::allocations();
+  int taken = 0;
+  for (std::int64_t k = 1; k <= 502; ++k) taken += driven.insert({at_ms(k), 0.1, 0.0}) == Inserted::kNew ? 1 : 0;
+  EXPECT_EQ(driven.insert({at_ms(503), 0.1, 0.0}), Inserted::kRefused);
+  EXPECT_EQ(support::allocations(), before);
+  EXPECT_EQ(taken, 502);
+}
+
 // Looks at 1200 ms, then an actuation of 1000 ms comes, then an earlier one, then both again.
 TEST(Driven, AnActuationMayBecomeKnownLateOrTwice) {
   Driven late(at_speed(20.0), nullptr, kLong), in_time(at_speed(20.0), nullptr, kLong);
