@@ -289,7 +289,7 @@ TEST(ActuatorWithLateral, AnAxisThatNeverHadACommandReactsToo) {
   }
 }
 
-// Whoever drives by the records alone gets the vehicle of the actuations.
+// So the records alone give the vehicle of the actuations.
 TEST(ActuatorWithLateral, EachAppliedRecordHasWhatWasHandedOver) {
   for (const WithoutCommand without : {WithoutCommand::kHold, WithoutCommand::kDecay, WithoutCommand::kBrake}) {
     Wheels wheels(without);
