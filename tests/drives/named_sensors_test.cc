@@ -128,6 +128,7 @@ TEST(LaneKeepingWithTwoCameras, TakesItsOwnCamerasDistance) {
     other.name = "other_camera";
     cluster.sensors.push_back(other);
     auto& cameras = drive.scenario.sensors.mono_cameras;
+    cameras.own.clear();
     for (const auto& [name, ahead_m] : {std::pair{"mono_camera", own_m}, std::pair{"other_camera", other_m}}) {
       cameras.own.push_back(cameras.usual);
       cameras.own.back().name = name;
