@@ -56,9 +56,13 @@ void EmergencyBraking::run(host::StepContext& context) {
   }
   const bool goes_on =
       on_[recording::records::kEmergencyBraking] && remaining < kNone && view->own_speed > kStopped_mps;
-  const bool brakes = remaining < config_.braking_time_s || goes_on;
-  tell(context, recording::records::kForwardCollision, brakes || remaining < config_.warning_time_s, record.track,
-       remaining);
+  // At a standstill the noise of the other vehicle's speed looks like an approach, with no way left. So nothing begins there.
+  const auto within = [&](std::uint8_t service, double least_s) {
+    return remaining < least_s && (on_[service] || view->own_speed > kStopped_mps);
+  };
+  const bool brakes = within(recording::records::kEmergencyBraking, config_.braking_time_s) || goes_on;
+  const bool warns = brakes || within(recording::records::kForwardCollision, config_.warning_time_s);
+  tell(context, recording::records::kForwardCollision, warns, record.track, remaining);
   tell(context, recording::records::kEmergencyBraking, brakes, record.track, remaining);
   if (brakes) record.reason = recording::records::kForEmergency;
   out_.issue(context, {brakes, brakes ? -config_.deceleration : 0.0, 0.0}, record);

@@ -1,4 +1,4 @@
-// Lane keeping, blind spot warning and an actuator with lateral commands, each with lists by hand.
+// Lane keeping, blind spot warning, emergency braking and an actuator with lateral commands, each with lists by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "nodes/driving/actuator.h"
 #include "nodes/driving/adaptive_cruise_control.h"
 #include "nodes/driving/blind_spot_warning.h"
+#include "nodes/driving/emergency_braking.h"
 #include "nodes/driving/steering/lane_keeping.h"
 #include "schedules/file/loader.h"
 
@@ -333,6 +334,34 @@ TEST(AdaptiveCruiseControl, ItsCorridorBendsIfItIsCurved) {
     EXPECT_NEAR(service.issued->gap, 40.0 - 2.0 - 3.4, 0.01);
     EXPECT_NEAR(service.issued->speed_ahead, 20.0, 0.01);
   }
+}
+
+// A car 0.4 m ahead, whose speed is an estimate with noise.
+TEST(EmergencyBraking, BeginsNothingAtAStandstill) {
+  const schedules::model::Task& task = task_there("feature", "emergency_braking");
+  EmergencyBraking step(surround(), task, {});
+  ServiceByHand service(task);
+  const auto see = [&](double own_speed, double speed_ahead) {
+    service.receive("image", {{{"id", 7},
+                               {"x", 5.8},
+                               {"y", 0},
+                               {"heading", 0},
+                               {"speed", speed_ahead},
+                               {"length", 4},
+                               {"width", 1.8},
+                               {"status", 1}}});
+    service.receive("odometry", {{{"speed", own_speed}, {"yaw_rate", 0}}});
+    service.run(step);
+    return service.issued && service.issued->valid;
+  };
+  EXPECT_FALSE(see(0.1, -0.8));
+  EXPECT_TRUE(service.warnings.empty());
+  EXPECT_TRUE(see(0.8, 0.0));
+  EXPECT_TRUE(see(0.1, -0.8)) << "what has begun goes on";
+  EXPECT_EQ(service.warnings.size(), 2u);
+  EXPECT_FALSE(see(0.0, 0.0));
+  EXPECT_FALSE(see(0.0, -0.8));
+  EXPECT_EQ(service.warnings.size(), 4u);
 }
 
 }  // namespace
