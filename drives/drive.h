@@ -60,13 +60,14 @@ void check_late(const Scenario& scenario, const schedules::model::Cluster& clust
 // Checks that the strategy works with the activation of the cluster's fusion task: TT does not if lists activate
 // it. Throws InputError; run_drive() calls it too.
 void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy);
-// Checks that commands drive the scenario's vehicle where the cluster has an actuator, and only there: one actuator, which is
-// done with a command before the vehicle answers, and sensors that see no future. Throws InputError; run_drive() calls it too.
+// Checks that commands drive the scenario's vehicle where the cluster has an actuator, and only there. There is one
+// actuator, which is done with a command before the vehicle answers. Sensors see no future. Throws InputError;
+// run_drive() calls it too.
 void check_loop(const Scenario& scenario, const schedules::model::Cluster& cluster);
 // Returns a warning if commands drive the vehicle, and an object follows; else "". Objects' ways are drawn beforehand.
 std::string following_warning(const Scenario& scenario);
-// Returns the time between two readings of commands by the actuator; the shortest one that is allowed if there is none, or if
-// check_loop() would refuse it.
+// Returns the time between two readings of commands by the actuator. Without one that check_loop() accepts, it is the
+// shortest time allowed.
 Duration between_readings(const schedules::model::Cluster& cluster);
 // Returns the node with the actuator, if there is one.
 std::optional<NodeId> actuator_node(const schedules::model::Cluster& cluster);

@@ -28,8 +28,8 @@ std::vector<ActuatorTask> actuators(const Cluster& cluster) {
   return found;
 }
 
-// The vehicle has room for actuations of readings by time (sim/world/vehicle/driven.h). Lists that activate a task may come in any
-// number, if a node babbles.
+// The vehicle has room for actuations of readings by time (sim/world/vehicle/driven.h). Lists that activate a task may
+// come in any number, if a node babbles.
 constexpr Duration kLeastBetween = Duration::milliseconds(2);
 
 bool is_by_time(const Task& task) { return task.activation.kind == schedules::model::ActivationKind::kTime; }

@@ -3,8 +3,7 @@
 // Each of the two axes has an age of its own (demand.h). If one of them gets a command, the actuation has the other's
 // last value. An axis without commands for the time `after`, since the actuator's first execution, too, reacts as the
 // actuator's file says. It holds its value, or lets it fade. Or the vehicle brakes, with the wheels as they were asked
-// for. If neither axis gets a command, there is
-// no actuation.
+// for. If neither axis gets a command, there is no actuation.
 #pragma once
 
 #include <cstddef>
