@@ -16,6 +16,7 @@ A directive stands as a comment above its table:
     where: A=V, ...  points with these values only
     names: X=Y, ...  the page says Y where the experiment says X
     crossing: yes    percent: a last column, where the sign changes along `columns`
+    given: X=V V .., a column X before the others, of figures that are not the answer's, a value a row; to compare with
 
 Differences that stay certain among all of their measure, by Holm's method, are bold. A line above the table counts them.
 """
@@ -43,7 +44,8 @@ class Directive:
         self.where = dict(item.split("=", 1) for item in listed.get("where", []))
         self.names = dict(item.split("=", 1) for item in listed.get("names", []))
         self.crossing = "crossing" in keys
-        unknown = set(keys) - {"rows", "columns", "where", "names", "crossing"}
+        self.given = {name: values.split() for name, values in (item.split("=", 1) for item in listed.get("given", []))}
+        unknown = set(keys) - {"rows", "columns", "where", "names", "crossing", "given"}
         if self.kind not in KINDS or not self.measures or unknown:
             raise Wrong(f"table: {text}: must be one of {', '.join(KINDS)}, a measure, and known keys")
 
@@ -137,7 +139,7 @@ class Table:
         if strangers:
             raise Wrong(f"table: {directive.text}: {strangers[0]} is no paradigm (there are: {', '.join(everyone)})")
         self.certain = {m: certain_of(answer, m) for m in directive.measures}
-        self.header, self.lines = self.laid_out()
+        self.header, self.lines = self.with_given(*self.laid_out())
 
     def estimate(self, point, paradigm, measure):
         return point["paradigms"][paradigm][measure]
@@ -190,6 +192,15 @@ class Table:
         if not lines:
             raise Wrong(f"table: {d.text}: the experiment has no such interaction")
         return header, lines
+
+    def with_given(self, header, lines):
+        given = self.directive.given
+        for name, values in given.items():
+            if len(values) != len(lines):
+                raise Wrong(f"table: {self.directive.text}: {name} has {len(values)} values for {len(lines)} rows")
+        header = [*header[:len(self.rows)], *given, *header[len(self.rows):]]
+        return header, [([*named, *(values[i] for values in given.values())], cells)
+                        for i, (named, cells) in enumerate(lines)]
 
     def laid_out(self):
         d = self.directive

@@ -53,6 +53,13 @@ class Tables(unittest.TestCase):
         self.assertIn("| road | 1 | 100 | crossing |", text)
         self.assertIn("| a dry road | **-25 ± 5** | +25 ± 5 | 10 |", text)
 
+    def test_given_figures_stand_before_the_answers(self):
+        self.assertEqual(table("values error of tt; where: road=dry; given: book=1.5 1.9, old=2 3"),
+                         "| density | book | old | tt |\n|---|---|---|---|\n"
+                         "| 1 | 1.5 | 2 | 2.00 ± 0.20 |\n| 100 | 1.9 | 3 | 2.00 ± 0.20 |\n")
+        with self.assertRaises(result_tables.Wrong):
+            table("values error of tt; where: road=dry; given: book=1.5")
+
     def test_means_have_a_column_a_measure(self):
         self.assertEqual(table("means age error of free tt; where: road=icy, density=1; names: age=age [ms]"),
                          "| paradigm | age [ms] | error |\n|---|---|---|\n| free | 35.0 | 1.50 |\n| tt | 42.0 | 2.00 |\n")
