@@ -56,7 +56,7 @@ void EmergencyBraking::run(host::StepContext& context) {
   }
   const bool goes_on =
       on_[recording::records::kEmergencyBraking] && remaining < kNone && view->own_speed > kStopped_mps;
-  // At a standstill the noise of the other vehicle's speed looks like an approach, with no way left. So nothing begins there.
+  // At a standstill the noise of the other vehicle's speed looks like an approach, with no way left. So nothing begins.
   const auto within = [&](std::uint8_t service, double least_s) {
     return remaining < least_s && (on_[service] || view->own_speed > kStopped_mps);
   };

@@ -19,10 +19,10 @@ struct EmergencyConfig {
 // Reads all but the vehicle's front.
 EmergencyConfig load_emergency(YamlMap& yaml);
 
-// Ports `image` and `odometry` -> `command`, which is valid while the service brakes. It warns below the warning time, and brakes
-// below the braking time. It goes on until the object ahead is no longer approached or is lost, or the vehicle stands. A vehicle
-// that stands begins neither. Without a view its command is invalid, and its warnings stay as they are. The actuator goes on with
-// the last accepted command for a while (sim/world/vehicle/driven.h).
+// Ports `image` and `odometry` -> `command`, which is valid while the service brakes. It warns below the warning time, and
+// brakes below the braking time. It goes on until the object ahead is no longer approached or is lost, or the vehicle
+// stands. A vehicle that stands begins neither. Without a view its command is invalid, and its warnings stay as they are.
+// The actuator goes on with the last accepted command for a while (sim/world/vehicle/driven.h).
 class EmergencyBraking final : public host::Step {
  public:
   EmergencyBraking(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
