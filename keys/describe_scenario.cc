@@ -199,7 +199,7 @@ constexpr Description kScenario[] = {
     {"lane_keeping.lane_width", "A lane is assumed to be this wide until both of its marks were seen."},
     {"lane_keeping.least_validity", "Marks of a lower validity are not used: it is the share of the last five lists."},
     {"lane_keeping.max_marks_age", "Without newer marks for this long, the lane is unknown."},
-    {"blind_spot_warning", "Blind spot warning has these parameters. The origin is in the middle of the rear axle."},
+    {"blind_spot_warning", "Blind spot warning has these parameters, from the middle of the rear axle."},
     {"blind_spot_warning.ahead", "The zone begins this far ahead of the rear axle: at the driver's eyes."},
     {"blind_spot_warning.behind", "It ends this far behind the rear axle."},
     {"blind_spot_warning.nearest", "It begins this far off the vehicle's side."},

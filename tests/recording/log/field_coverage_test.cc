@@ -181,9 +181,10 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
   expect_same_fields<records::ImageObject, ttfusion::ImageObject>();
   records::for_each_kind([]<class Record>() {
     // The feature service's objects are parallel lists there: images and a list for each of their other
-    // fields.
+    // fields. The four numbers of a plan's region are fields there.
     const bool parallel = std::is_same_v<Record, records::FeatureUsed>;
-    expect_same_fields<Record, Payload<Record>>(parallel ? fields_of<records::FeatureObject>() - 1 : 0);
+    const bool region = std::is_same_v<Record, records::PlanMade>;
+    expect_same_fields<Record, Payload<Record>>(parallel ? fields_of<records::FeatureObject>() - 1 : region ? 3 : 0);
   });
 }
 
