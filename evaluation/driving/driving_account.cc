@@ -13,7 +13,9 @@ namespace {
 constexpr double kSlowestClosing_mps = 0.5;
 constexpr double kBrakes = 1.0;  // [m/s^2]
 constexpr double kStands_mps = 0.05;
+constexpr Duration kOneMoment = Duration::microseconds(10);
 constexpr Duration kJerkOver = Duration::milliseconds(40);
+constexpr Duration kFollowed = Duration::milliseconds(2'000);  // beside the way
 constexpr int kMostPeriods = 3;  // between two readings: after more the clocks' rates count, and no jitter
 
 }  // namespace
@@ -23,15 +25,24 @@ DrivingAccount::DrivingAccount(const DrivingConfig& config, TrueTime from)
   if (config.lane) lane_.emplace(*config.lane);
 }
 
+// Nodes tell the truth at one instant of the cluster's time, each by its own clock, and in any order. The earliest one counts.
 void DrivingAccount::on(const recording::records::EgoTruth& ego) {
-  if (ego_ && ego_->at == ego.at) return;  // another node tells the same
-  judge();
-  if (ego.at >= from_ && !findings_.collision) ego_ = ego;
+  if (ego.at < from_) return;
+  if (ego_ && ego.at - ego_->at < kOneMoment && ego_->at - ego.at < kOneMoment) {
+    if (ego.at >= ego_->at) return;
+    ahead_.reset();
+    beside_ = {};
+    if (fast_) fast_->speed.reset();
+  } else {
+    judge();
+  }
+  if (!findings_.collision) ego_ = ego;
 }
 
 void DrivingAccount::on(const recording::records::TruthState& object) {
   if (!ego_ || object.at != ego_->at) return;
   if (config_.blind_spot) note_beside(object);
+  if (fast_ && fast_->object == object.object) fast_->speed = object.speed * std::cos(object.heading);
   const std::optional<double> gap =
       recording::scene::gap_ahead(object, config_.front_m, config_.width_m, recording::scene::way_curvature(*ego_));
   if (!gap || (ahead_ && ahead_->gap <= *gap)) return;
@@ -78,14 +89,17 @@ void DrivingAccount::note_braking(double acceleration) {
   if (ego_->vx < kStands_mps) findings_.stopping_distance_m = braking_way_;
 }
 
-// An object that is slow when it comes in front of the vehicle did not fall below the speed there.
+// An object that is slow when it comes in front of the vehicle did not fall below the speed there. One that leaves the way for
+// a moment, as the vehicle weaves, is still followed.
 void DrivingAccount::note_slowing() {
-  const bool is_fast = ahead_ && ahead_->speed >= config_.reaction_speed_mps;
-  if (!slow_at_ && ahead_ && fast_ == ahead_->object && !is_fast) {
+  const bool another = fast_ && ahead_ && ahead_->object != fast_->object;
+  if (another || (fast_ && ego_->at - fast_->ahead_at > kFollowed)) fast_.reset();
+  if (!slow_at_ && fast_ && fast_->speed && *fast_->speed < config_.reaction_speed_mps) {
     slow_at_ = ego_->at;
     if (told_slow_) note_reaction(*told_slow_);
   }
-  fast_ = is_fast ? std::optional(ahead_->object) : std::nullopt;
+  if (ahead_ && ahead_->speed >= config_.reaction_speed_mps) fast_ = Leader{ahead_->object, ego_->at, std::nullopt};
+  if (fast_) fast_->speed.reset();
   told_slow_.reset();
 }
 

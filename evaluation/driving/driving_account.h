@@ -5,7 +5,8 @@
 // time. Lane departure has one when a side of the vehicle is beyond its mark. Blind spot warning has one when an
 // object's outline is in the zone of that side.
 //
-// The truth is judged at the instants at which it is recorded, some hundred a second. The object ahead is the nearest one whose
+// The truth is judged at the instants at which it is recorded, some hundred a second. Instants within 10 us of each other
+// are one: several nodes tell it by their clocks. The object ahead is the nearest one whose
 // outline overlaps the vehicle's way, a circle of its speed and yaw rate. A drive is judged up to its first collision.
 #pragma once
 
@@ -109,7 +110,12 @@ class DrivingAccount final : public recording::records::Sink {
   std::optional<Ahead> ahead_;
   std::optional<recording::records::EgoTruth> before_, jerk_from_;
   std::optional<double> braking_way_;  // since the object ahead braked
-  std::optional<ObjectId> fast_;       // the object ahead at the moment before, if it was
+  struct Leader {
+    ObjectId object{};
+    TrueTime ahead_at{};          // when it was last in the way
+    std::optional<double> speed;  // at this moment
+  };
+  std::optional<Leader> fast_;         // the last object ahead that was fast, unless another one has come between
   std::optional<TrueTime> slow_at_;    // it fell below the reaction speed
   std::optional<TrueTime> told_slow_;  // the first image since the moment that says so
   std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;

@@ -103,18 +103,60 @@ TEST(DrivingAccount, TheReactionMayComeBeforeTheNextMoment) {
   EXPECT_EQ(*found.reaction, Duration::milliseconds(50));
 }
 
+// The object ahead may be beside the way for some milliseconds before.
 TEST(DrivingAccount, ASlowObjectThatComesInFrontIsNoReaction) {
   for (const bool another : {false, true})
-    for (const bool nobody : {false, true}) {
+    for (const std::int64_t beside : {0, 500, 5000}) {
       Drive drive;
       drive.at(0, 0, 29, 0, 40, 29.0);
-      drive.at(100, 3, 29, 0, 40, 29.0, 0.0, nobody ? 10.0 : 0.0);  // perhaps beside the way
+      if (beside > 0) drive.at(100, 3, 29, 0, 40, 29.0, 0.0, 10.0);
       if (another) drive.ahead = ObjectId{7};
-      drive.at(200, 6, 29, 0, 40, 20.0);
-      drive.at(300, 9, 29, 0, 40, 20.0);
-      drive.image(350, 40, 20.0);
-      EXPECT_EQ(drive.account.finish().reaction.has_value(), !another && !nobody);
+      drive.at(beside + 200, 6, 29, 0, 40, 20.0);
+      drive.at(beside + 300, 9, 29, 0, 40, 20.0);
+      drive.image(beside + 350, 40, 20.0);
+      EXPECT_EQ(drive.account.finish().reaction.has_value(), !another && beside < 1000) << beside;
     }
+}
+
+TEST(DrivingAccount, AnObjectMayFallBelowTheSpeedBesideTheWay) {
+  Drive drive;
+  drive.at(0, 0, 29, 0, 40, 29.0);
+  drive.at(100, 3, 29, 0, 40, 26.9, 8.0, 10.0);
+  drive.at(200, 6, 29, 0, 40, 26.0, 8.0);
+  drive.image(250, 40, 26.0);
+  const DrivingFindings found = drive.account.finish();
+  ASSERT_TRUE(found.reaction);
+  EXPECT_EQ(*found.reaction, Duration::milliseconds(150));
+}
+
+// Two nodes tell the truth some nanoseconds apart, in either order.
+TEST(DrivingAccount, TheOrderOfNodesMakesNoDifference) {
+  const auto judged = [](bool swapped) {
+    Drive drive;
+    const auto tell = [&](std::int64_t ms, std::int64_t ns) {
+      EgoTruth ego;
+      ego.at = at_ms(ms) + Duration::nanoseconds(ns);
+      ego.vx = 20.0;
+      drive.account.on(ego);
+      TruthState object;
+      object.at = ego.at;
+      object.length = 4.0;
+      object.width = 1.8;
+      object.x = 20.0 - 1e-3 * static_cast<double>(9 * ms) - 1e-3 * static_cast<double>(ns);
+      drive.account.on(object);
+    };
+    for (std::int64_t ms = 0; ms < 2000; ms += 10) {
+      tell(ms, swapped ? 7 : 0);
+      tell(ms, swapped ? 0 : 7);
+    }
+    return drive.account.finish();
+  };
+  const DrivingFindings a = judged(false), b = judged(true);
+  ASSERT_TRUE(a.collision && b.collision);
+  EXPECT_EQ(a.collision->at, b.collision->at);
+  EXPECT_EQ(a.moments, b.moments);
+  EXPECT_EQ(a.gap_error_rms_m, b.gap_error_rms_m);
+  EXPECT_EQ(a.smallest_ttc_s, b.smallest_ttc_s);
 }
 
 TEST(DetectionAccount, TheIntervalIsThatOfTheCameraLookedAtMost) {
