@@ -1,6 +1,8 @@
 // The actuator between a command and the wheels (driven.h).
 #pragma once
 
+#include <optional>
+
 #include "core/strict_yaml.h"
 #include "core/time.h"
 
@@ -12,11 +14,12 @@ struct ActuatorConfig {
   // From the actuator's reading of a command until something happens. It is longer than the actuator's task, so that all others
   // can know of an actuation before it begins.
   Duration dead_time = Duration::milliseconds(50);
-  Duration lag = Duration::milliseconds(200);
-  double gain = 1.0;                  // a share of the acceleration
-  double largest_acceleration = 3.0;  // [m/s^2], that a command may ask for
-  double largest_deceleration = 9.0;  // [m/s^2], positive
-  double largest_steering = 0.6;      // [rad], to either side
+  Duration lag = Duration::milliseconds(200);  // of the acceleration
+  std::optional<Duration> steering_lag{};      // of the front wheels; absent: `lag`
+  double gain = 1.0;                           // a share of the acceleration
+  double largest_acceleration = 3.0;           // [m/s^2], that a command may ask for
+  double largest_deceleration = 9.0;           // [m/s^2], positive
+  double largest_steering = 0.6;               // [rad], to either side
   // A command is refused if its instant is further away than this when it is read.
   Duration oldest = Duration::milliseconds(100);
   // The reaction begins when no actuation has begun for this time. It counts from the drive's start, too.

@@ -31,6 +31,7 @@ ActuatorConfig load_actuator(YamlMap& yaml) {
   ActuatorConfig c;
   c.dead_time = yaml.duration_or("dead_time", c.dead_time, {Duration::milliseconds(1), Duration::milliseconds(2'000)});
   c.lag = yaml.duration_or("lag", c.lag, kLag);
+  c.steering_lag = yaml.duration_or("steering_lag", c.lag, kLag);
   c.gain = yaml.number_or("gain", c.gain, {0.05, 5.0});
   c.largest_acceleration = yaml.number_or("largest_acceleration", c.largest_acceleration, {0.1, 30.0}, "m/s^2");
   c.largest_deceleration = yaml.number_or("largest_deceleration", c.largest_deceleration, {0.1, 30.0}, "m/s^2");
@@ -112,10 +113,11 @@ std::int64_t Driven::next_change(const State& state, std::int64_t until) const {
 }
 
 void Driven::step(State& state, std::int64_t ns) const {
-  const double dt = seconds(ns), lag = actuator_.lag.seconds();
+  const double dt = seconds(ns);
   const Demand wanted = demand(state);
-  const Approach pull = approach(state.pull, actuator_.gain * wanted.acceleration, lag, dt);
-  const Approach wheels = approach(state.motion.steering, wanted.steering, lag, dt);
+  const Approach pull = approach(state.pull, actuator_.gain * wanted.acceleration, actuator_.lag.seconds(), dt);
+  const Approach wheels =
+      approach(state.motion.steering, wanted.steering, actuator_.steering_lag.value_or(actuator_.lag).seconds(), dt);
   const Command command{(wheels.end - state.motion.steering) / dt, std::max(pull.mean, -state.motion.speed / dt)};
   const double before = state.motion.speed;
   state.motion = stepped(vehicle_, state.motion, command, dt);

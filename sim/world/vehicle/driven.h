@@ -7,7 +7,7 @@
 //
 //   u   the newest command, within the actuator's limits; before the first one, no acceleration, and wheels as they are
 //   a'  = (gain u - a) / lag            acceleration
-//   d'  = (u_steering - d) / lag        angle of the front wheels, within the vehicle's rate
+//   d'  = (u_steering - d) / steering lag  angle of the front wheels, within the vehicle's rate
 // Both are exact within a step of the vehicle's model (single_track.h), with their mean over the step. The vehicle does not
 // drive backwards: braking ends in a standstill.
 //

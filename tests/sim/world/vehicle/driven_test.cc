@@ -46,6 +46,18 @@ TEST(Driven, FollowsACommandWithItsLag) {
   }
 }
 
+TEST(Driven, TheFrontWheelsMayHaveALagOfTheirOwn) {
+  const auto yaw_rate_after = [](std::optional<Duration> lag) {
+    EgoConfig config = at_speed(20.0);
+    config.actuator->steering_lag = lag;
+    Driven driven(config, nullptr, kLong);
+    driven.actuate({at_ms(1000), 0.0, 0.01});
+    return driven.at(at_ms(1300)).yaw_rate;
+  };
+  EXPECT_EQ(yaw_rate_after(std::nullopt), yaw_rate_after(Duration::milliseconds(500))) << "that of the acceleration";
+  EXPECT_NEAR(yaw_rate_after(Duration::milliseconds(500)) / yaw_rate_after(Duration{}), 1.0 - std::exp(-0.6), 1e-2);
+}
+
 TEST(Driven, ReactsWithoutAFirstCommandToo) {
   EgoConfig config = at_speed(20.0);
   config.actuator->lag = {};
