@@ -6,47 +6,27 @@ using recording::records::CommandTaken;
 
 Actuator::Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const sim::world::vehicle::ActuatorConfig& config)
-    : config_(config), round_(cluster.round()) {
+    : config_(config) {
   for (std::size_t i = 0; i < task.reads.size(); ++i) {
     if (task.reads[i].port == "lateral") lateral_.emplace(cluster, task, i, config);
-    const Port port{i, bind_command(cluster, cluster.pdu(task.reads[i].pdu)), {}};
-    if (task.reads[i].port == "command") command_ = port;
-    if (task.reads[i].port == "emergency") emergency_ = port;
+    if (task.reads[i].port == "command") command_ = Port{CommandInput(cluster, task, i, config.oldest)};
+    if (task.reads[i].port == "emergency") emergency_ = Port{CommandInput(cluster, task, i, config.oldest)};
   }
-}
-
-bool Actuator::is_old(const host::StepContext& context, GlobalTime issued) const {
-  const Duration age = context.stamp.global - issued;
-  return !context.global_time || age > config_.oldest || -age > config_.oldest;
 }
 
 CommandTaken Actuator::read(host::StepContext& context, Port& port) {
-  host::Input& input = context.inputs[port.input];
-  if (port.living && is_old(context, port.living->issued)) port.living.reset();
-  CommandTaken taken;
-  taken.stamp = context.stamp;
-  taken.pdu = input.pdu;
-  taken.verdict = recording::records::kNoNewCommand;
-  if (!input.fresh) return taken;
-  taken.sequence = input.list->sequence;
-  const Command command = decode_command(*input.layout, *input.list, port.signals);
-  taken.acceleration = command.acceleration;
-  taken.steering = command.steering;
-  const GlobalTime issued = host::past_time_stamp(*input.layout, *input.list, context.stamp.global, round_);
-  if (is_old(context, issued)) {
-    taken.verdict = recording::records::kLateCommand;
-    input.discarded = true;
-    return taken;
+  if (port.living && port.input.is_old(context, port.living->issued)) port.living.reset();
+  CommandInput::Reading reading = port.input.read(context);
+  switch (reading.taken.verdict) {
+    case recording::records::kApplied: port.living = reading; break;
+    case recording::records::kInvalidCommand:
+      port.living.reset();
+      // Emergency braking that does not brake says so by an invalid command.
+      if (&port != &*command_) reading.taken.verdict = recording::records::kNothingAsked;
+      break;
+    default: break;
   }
-  port.living.reset();
-  if (command.valid) {
-    taken.verdict = recording::records::kApplied;
-    port.living = Living{taken, issued};
-  } else {
-    // Emergency braking that does not brake says so by an invalid command.
-    taken.verdict = &port == &command_ ? recording::records::kInvalidCommand : recording::records::kNothingAsked;
-  }
-  return taken;
+  return reading.taken;
 }
 
 void Actuator::run(host::StepContext& context) {
@@ -67,12 +47,12 @@ void Actuator::run(host::StepContext& context) {
 }
 
 Actuator::Records Actuator::run_longitudinal(host::StepContext& context) {
-  CommandTaken taken = read(context, command_);
+  CommandTaken taken = read(context, *command_);
   if (taken.verdict == recording::records::kApplied) steering_ = taken.steering;
   std::optional<CommandTaken> emergency;
   if (emergency_) emergency = read(context, *emergency_);
 
-  const std::optional<Living>* counts = &command_.living;
+  const std::optional<CommandInput::Reading>* counts = &command_->living;
   if (emergency_ && emergency_->living &&
       (!*counts || emergency_->living->taken.acceleration < (*counts)->taken.acceleration))
     counts = &emergency_->living;

@@ -26,14 +26,9 @@ class Actuator final : public host::Step {
   void run(host::StepContext& context) override;
 
  private:
-  struct Living {
-    recording::records::CommandTaken taken;
-    GlobalTime issued{};
-  };
   struct Port {
-    std::size_t input = 0;
-    CommandSignals signals;
-    std::optional<Living> living;
+    CommandInput input;
+    std::optional<CommandInput::Reading> living{};  // the accepted command, until the next list or its age ends it
   };
   // Those of one execution, in order. An applied one has what was handed over.
   struct Records {
@@ -43,14 +38,11 @@ class Actuator final : public host::Step {
   };
   // Returns the verdict on a port's list, and keeps an accepted command.
   recording::records::CommandTaken read(host::StepContext& context, Port& port);
-  bool is_old(const host::StepContext& context, GlobalTime issued) const;
   Records run_longitudinal(host::StepContext& context);
   void hand_over(host::StepContext& context, const recording::records::CommandTaken& taken) const;
 
   sim::world::vehicle::ActuatorConfig config_;
-  Duration round_;
-  Port command_;
-  std::optional<Port> emergency_;
+  std::optional<Port> command_, emergency_;
   std::optional<steering::LateralCommands> lateral_;
   double steering_ = 0.0;  // [rad], of the last accepted command
 };

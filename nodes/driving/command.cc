@@ -4,6 +4,8 @@
 
 namespace ttf::nodes::driving {
 
+using recording::records::CommandTaken;
+
 CommandSignals bind_command(const schedules::model::Cluster& cluster, const schedules::model::PduLayout& layout) {
   return host::bind_element<3>(cluster, layout, {"valid", "acceleration", "steering"});
 }
@@ -33,6 +35,38 @@ void CommandOutput::issue(host::StepContext& context, const Command& command,
   record.acceleration = sent.acceleration;
   record.steering = sent.steering;
   context.sink->on(record);
+}
+
+CommandInput::CommandInput(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                           std::size_t input, Duration oldest)
+    : input_(input), signals_(bind_command(cluster, cluster.pdu(task.reads[input].pdu))), round_(cluster.round()),
+      oldest_(oldest) {}
+
+bool CommandInput::is_old(const host::StepContext& context, GlobalTime issued) const {
+  const Duration age = context.stamp.global - issued;
+  return !context.global_time || age > oldest_ || -age > oldest_;
+}
+
+CommandInput::Reading CommandInput::read(host::StepContext& context) const {
+  host::Input& input = context.inputs[input_];
+  Reading reading;
+  CommandTaken& taken = reading.taken;
+  taken.stamp = context.stamp;
+  taken.pdu = input.pdu;
+  taken.verdict = recording::records::kNoNewCommand;
+  if (!input.fresh) return reading;
+  taken.sequence = input.list->sequence;
+  const Command command = decode_command(*input.layout, *input.list, signals_);
+  taken.acceleration = command.acceleration;
+  taken.steering = command.steering;
+  reading.issued = host::past_time_stamp(*input.layout, *input.list, context.stamp.global, round_);
+  if (is_old(context, reading.issued)) {
+    taken.verdict = recording::records::kLateCommand;
+    input.discarded = true;
+  } else {
+    taken.verdict = command.valid ? recording::records::kApplied : recording::records::kInvalidCommand;
+  }
+  return reading;
 }
 
 }  // namespace ttf::nodes::driving

@@ -34,4 +34,24 @@ class CommandOutput {
   std::uint32_t sequence_ = 0;
 };
 
+// A port of the actuator. It refuses lists whose instant is further off than `oldest`, and all without global time.
+class CommandInput {
+ public:
+  struct Reading {
+    recording::records::CommandTaken taken;
+    GlobalTime issued{};
+  };
+  // `input` is the place of the port among the task's.
+  CommandInput(const schedules::model::Cluster& cluster, const schedules::model::Task& task, std::size_t input,
+               Duration oldest);
+  // Returns the verdict on the port's list: kNoNewCommand, kLateCommand, kInvalidCommand or kApplied.
+  Reading read(host::StepContext& context) const;
+  bool is_old(const host::StepContext& context, GlobalTime issued) const;
+
+ private:
+  std::size_t input_;
+  CommandSignals signals_;
+  Duration round_, oldest_;
+};
+
 }  // namespace ttf::nodes::driving

@@ -25,12 +25,8 @@ class LateralCommands {
   recording::records::CommandTaken combine(host::StepContext& context);
 
  private:
-  recording::records::CommandTaken read(host::StepContext& context) const;
-
   sim::world::vehicle::ActuatorConfig config_;
-  Duration round_;
-  std::size_t input_;
-  CommandSignals signals_;
+  CommandInput input_;
   Demand pull_, wheels_;
 };
 
