@@ -7,7 +7,6 @@
 namespace ttf::nodes::driving {
 namespace {
 
-constexpr std::uint8_t kConfirmed = 1;
 // A slower vehicle says too little about its way.
 constexpr double kSlowestOnCircle_mps = 3.0;
 
@@ -75,7 +74,7 @@ std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image, double cu
   const int count = host::element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i) {
     const recording::records::ImageObject object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
-    if ((object.status & kConfirmed) == 0 || object.x <= 0.0) continue;
+    if ((object.status & recording::records::kImageConfirmed) == 0 || object.x <= 0.0) continue;
     if (std::abs(object.y - 0.5 * curvature * object.x * object.x) > config_.half_width_m) continue;
     const double heading = object.heading - curvature * object.x;  // from the line of travel
     const double c = std::cos(heading), s = std::sin(heading);

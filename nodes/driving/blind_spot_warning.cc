@@ -6,11 +6,6 @@
 #include "nodes/host/signals.h"
 
 namespace ttf::nodes::driving {
-namespace {
-
-constexpr std::uint8_t kIsConfirmed = 1;
-
-}  // namespace
 
 BlindSpotConfig load_blind_spot(YamlMap& yaml) {
   BlindSpotConfig c;
@@ -38,7 +33,7 @@ TrackId BlindSpotWarning::found(const host::Input& image, double side, double ma
   const int count = host::element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i) {
     const recording::records::ImageObject object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
-    if ((object.status & kIsConfirmed) == 0) continue;
+    if ((object.status & recording::records::kImageConfirmed) == 0) continue;
     const double c = std::abs(std::cos(object.heading)), s = std::abs(std::sin(object.heading));
     const double along = 0.5 * (object.length * c + object.width * s) + margin,
                  across = 0.5 * (object.length * s + object.width * c) + margin;

@@ -130,7 +130,7 @@ void AdaptiveCamera::begin(host::StepContext& context) {
     plan_.pass();
   if (plan_.over()) begin_frame(context);
   const schedules::sequence::Detection next = plan_.next();
-  (void)look(context, static_cast<std::size_t>(next.sensor), next.secondary);
+  look(context, static_cast<std::size_t>(next.sensor), next.secondary);
   plan_.pass();
 }
 
@@ -142,16 +142,16 @@ void AdaptiveCamera::begin_frame(host::StepContext& context) {
                                                        plan_.length()});
 }
 
-// Begins a detection. Returns whether the camera has a picture for it.
-bool AdaptiveCamera::look(host::StepContext& context, std::size_t number, bool secondary) {
+// Begins a detection, if the camera has a picture for it.
+void AdaptiveCamera::look(host::StepContext& context, std::size_t number, bool secondary) {
   Camera& camera = cameras_[number];
   host::Input& raw = context.inputs[camera.in];
   const std::optional<host::Strobe> picture = strobe_of(context, raw, camera.sensor);
   if (!picture) {
     raw.discarded = raw.fresh;
-    return false;
+    return;
   }
-  if (picture->at <= camera.looked_at || context.stamp.global - picture->at > step_ * kOldestPicture) return false;
+  if (picture->at <= camera.looked_at || context.stamp.global - picture->at > step_ * kOldestPicture) return;
   camera.looked_at = picture->at;
   objects_.clear();
   const int count = host::element_count(*raw.layout, *raw.list);
@@ -173,7 +173,6 @@ bool AdaptiveCamera::look(host::StepContext& context, std::size_t number, bool s
   work.record.took = std::min(drawn_time(camera.sensor, picture->sequence, work.record.area), holds_);
   work.steps_left = schedules::sequence::occupied(work.record.took, step_).ns / step_.ns;
   work_ = work;
-  return true;
 }
 
 Duration AdaptiveCamera::drawn_time(SensorId sensor, std::uint32_t picture, double share) const {

@@ -100,7 +100,7 @@ class AdaptiveCamera final : public host::Step {
   void finish(host::StepContext& context);
   void begin(host::StepContext& context);
   void begin_frame(host::StepContext& context);
-  bool look(host::StepContext& context, std::size_t camera, bool secondary);
+  void look(host::StepContext& context, std::size_t camera, bool secondary);
   Duration drawn_time(SensorId sensor, std::uint32_t picture, double share) const;
 
   AdaptiveCameraConfig config_;

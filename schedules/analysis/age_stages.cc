@@ -81,7 +81,7 @@ class Builder {
       if (of_sensor && cluster_.pdu(next.out->pdu).sensor != sensor) {
         of_sensor = false;
         path.fused = path.stages.size();
-        held = !writes(*task, *next.out) || !reads_shared(*task);
+        held = !writes(*task, *next.out) || !reads_shared(cluster_, *task);
         if (held) pass(path, Waypoint::Kind::kFused, node);
         if (!writes(*task, *next.out)) {
           const Publisher publisher = publisher_of(cluster_, node);
@@ -126,12 +126,6 @@ class Builder {
   void receive(Path& path, NodeId node, const model::Task& task, const model::PortBinding& out) {
     pass(path, Waypoint::Kind::kReceived, node, out.pdu);
     activation(path, node, task, out);
-  }
-
-  // Whether the task reads a list of no single sensor, as a service does; a fusing one reads none.
-  bool reads_shared(const model::Task& task) const {
-    return std::any_of(task.reads.begin(), task.reads.end(),
-                       [&](const auto& binding) { return cluster_.pdu(binding.pdu).sensor == kNoSensor; });
   }
 
   static bool writes(const model::Task& task, const model::PortBinding& out) {
@@ -340,6 +334,11 @@ const model::Task* measuring_task(const model::Cluster& cluster, SensorId sensor
   for (const model::Task& task : cluster.node(cluster.sensor(sensor).device).tasks)
     if (task.activation.kind == model::ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
   return nullptr;
+}
+
+bool reads_shared(const model::Cluster& cluster, const model::Task& task) {
+  return std::ranges::any_of(task.reads,
+                             [&](const auto& binding) { return cluster.pdu(binding.pdu).sensor == kNoSensor; });
 }
 
 Publisher publisher_of(const model::Cluster& cluster, NodeId node) {

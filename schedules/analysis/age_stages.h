@@ -62,6 +62,8 @@ Path path_along(const model::Cluster& cluster, SensorId sensor, const std::vecto
 std::vector<AgePath> ages_along(const model::Cluster& cluster, const std::vector<Path>& paths);
 
 const model::Task* measuring_task(const model::Cluster& cluster, SensorId sensor);
+// Returns whether the task reads a list of no single sensor, as a service does; a fusing one reads none.
+bool reads_shared(const model::Cluster& cluster, const model::Task& task);
 // Returns the task of a fusing node that writes the image, and the image's binding; null if there is none.
 struct Publisher {
   const model::Task* task = nullptr;

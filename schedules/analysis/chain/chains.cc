@@ -94,7 +94,8 @@ std::string chains_text(const model::Cluster& cluster, Duration dead_time) {
         "`ttfusion schedule sequence --cluster` has one for a table of detections.\n";
   if (all.size() == kMostChains) text += fmt::format("more than {} chains: the others are left out\n", kMostChains);
   text +=
-      "All of it provided that the event is detected in the first picture. The filter's lag comes on top: it hangs on\n"
+      "All of it provided that the event is detected in the first picture. The filter's lag comes on top: it depends "
+      "on\n"
       "process noise and intervals, which the scenario has";
   text += dead ? ".\n" : ", as the actuator's dead time (--scenario).\n";
   return text;

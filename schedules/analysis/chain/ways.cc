@@ -19,11 +19,6 @@ class Ways {
   const std::vector<std::vector<Reading>>& found() const { return found_; }
 
  private:
-  bool reads_shared(const model::Task& task) const {
-    return std::ranges::any_of(task.reads,
-                               [&](const auto& binding) { return cluster_.pdu(binding.pdu).sensor == kNoSensor; });
-  }
-
   void extend(NodeId node, const model::Task& task) {
     // A crafted file may have more ways than anyone can walk.
     constexpr std::size_t kMostSteps = 100'000;
@@ -31,15 +26,15 @@ class Ways {
     if (task.writes.empty() && commanded_) found_.push_back(way_);
     for (const model::PortBinding& out : task.writes)
       if (const SensorId of = cluster_.pdu(out.pdu).sensor; of == sensor_ || of == kNoSensor)
-        pass(out, of == kNoSensor && reads_shared(task));
+        pass(out, of == kNoSensor && reads_shared(cluster_, task));
     if (const Publisher publisher = publisher_of(cluster_, node); fuses(task) && publisher.task != nullptr)
-      if (!reads_shared(*publisher.task)) pass(*publisher.image, false);
+      if (!reads_shared(cluster_, *publisher.task)) pass(*publisher.image, false);
   }
 
   // No image shows odometry (schedules/analysis/ages.h).
   bool fuses(const model::Task& task) const {
     return task.writes.empty() && !way_.empty() && cluster_.pdu(way_.back().out->pdu).sensor == sensor_ &&
-           !reads_shared(task) && cluster_.sensor(sensor_).kind != model::SensorKind::kOdometry;
+           !reads_shared(cluster_, task) && cluster_.sensor(sensor_).kind != model::SensorKind::kOdometry;
   }
 
   // A measuring task may list more of its picture beside the sensor's own list, as marks of lanes. A task that reads both goes
