@@ -15,10 +15,14 @@ constexpr double kNumbersRoom = 76, kPanelWidth = 860, kPanelHeight = 170, kBetw
 
 double seconds(TrueTime at) { return 1e-9 * static_cast<double>(at.ns); }
 
+// Truth comes some hundred times a second. A line does not cross a longer time without it.
+constexpr double kUnseen_s = 0.1;
+
 struct Series {
   const std::vector<drawing::Point>* points;
   std::string_view colour;
   bool marks;
+  bool is_rare = false;  // a line that crosses any time
 };
 // How a warning's begin is drawn, by service.
 struct WarningStyle {
@@ -53,8 +57,16 @@ void draw(drawing::Svg& svg, const drawing::PlotFrame& frame, const Series& seri
     return;
   }
   std::vector<drawing::Point> drawn;
-  for (const drawing::Point& p : *series.points) drawn.push_back(frame.at(p.x, p.y));
-  if (drawn.size() > 1) svg.polyline(drawn, {.stroke = series.colour, .width = 1.5}, false, {}, "truth");
+  const auto draw_part = [&] {
+    if (drawn.size() > 1) svg.polyline(drawn, {.stroke = series.colour, .width = 1.5}, false, {}, "truth");
+    drawn.clear();
+  };
+  for (std::size_t i = 0; i < series.points->size(); ++i) {
+    const drawing::Point& p = (*series.points)[i];
+    if (i > 0 && !series.is_rare && p.x - (*series.points)[i - 1].x > kUnseen_s) draw_part();
+    drawn.push_back(frame.at(p.x, p.y));
+  }
+  draw_part();
 }
 
 }  // namespace
@@ -69,7 +81,8 @@ void DrivingPicture::end_moment() {
     offset_.push_back({at, place.offset});
     heading_.push_back({at, place.heading * 180.0 / std::numbers::pi});
   }
-  if (ahead_) {
+  if (ahead_ && ahead_->x <= 0.0 && !collided_at_) collided_at_ = at;
+  if (ahead_ && !collided_at_) {
     gap_.push_back({at, ahead_->x});
     speed_ahead_.push_back({at, ahead_->y});
   }
@@ -143,7 +156,7 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
   }
   if (!sequence_.empty())
     panels.push_back(
-        {"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false}}, true, 0.1});
+        {"sequence [s]", {{&sequence_, drawing::kPurple, true}, {&bound_, drawing::kBlack, false, true}}, true, 0.1});
   using Kind = drawing::LegendEntry::Kind;
   std::vector<drawing::LegendEntry> legend{
       {Kind::kLine, "the vehicle, true", std::string(drawing::kBlack)},
@@ -152,13 +165,12 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
       {Kind::kMarker, "object's speed, as seen", std::string(drawing::kOrange), drawing::Marker::kCircle, true},
       {Kind::kMarker, "acceleration asked for", std::string(drawing::kGreen), drawing::Marker::kCircle, true}};
   for (std::size_t service = 0; service < kWarningStyles.size(); ++service) {
-    const bool braking = service <= recording::records::kEmergencyBraking;
-    if (!braking && std::ranges::find(warnings_, service, &std::pair<double, std::uint8_t>::second) == warnings_.end())
-      continue;
+    if (std::ranges::find(warnings_, service, &std::pair<double, std::uint8_t>::second) == warnings_.end()) continue;
     const WarningStyle& style = kWarningStyles[service];
     legend.push_back(
         {Kind::kLine, std::string(style.words), std::string(style.colour), {}, false, std::string(style.dash)});
   }
+  if (collided_at_) legend.push_back({Kind::kLine, "collision", std::string(drawing::kVermilion)});
   if (!sequence_.empty()) {
     legend.push_back({Kind::kMarker, "length of a sequence of detections", std::string(drawing::kPurple),
                       drawing::Marker::kCircle, true});
@@ -182,6 +194,10 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
       const double x = frame.at(at, frame.y_extent().low).x;
       const WarningStyle& style = kWarningStyles[service];
       svg.line({x, area.y}, {x, area.y + area.height}, {.stroke = style.colour, .dash = style.dash}, "warning");
+    }
+    if (collided_at_) {
+      const double x = frame.at(*collided_at_, frame.y_extent().low).x;
+      svg.line({x, area.y}, {x, area.y + area.height}, {.stroke = drawing::kVermilion, .width = 2}, "collision");
     }
     for (const Series& series : panels[i].series) draw(svg, frame, series);
     svg.close_group();

@@ -56,6 +56,7 @@ class DrivingPicture final : public recording::records::Sink {
   std::optional<TrueTime> planned_at_;                     // the newest sequence
   std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
   std::optional<recording::records::EgoTruth> ego_;
+  std::optional<double> collided_at_;    // [s]; no gap is shown behind it
   std::optional<drawing::Point> ahead_;  // gap and speed of the nearest object in the way
 };
 
