@@ -53,6 +53,11 @@ void check_ports(const Cluster& cluster, const Task& task, const std::string& pa
                   fmt::format("must be at most {} cameras", schedules::sequence::kMostSensors)});
 }
 
+int line_of_holds(const Cluster& cluster, const Task& task, const std::string& path) {
+  const auto line = cluster.parameter_lines.find(path + ".holds");
+  return line == cluster.parameter_lines.end() ? task.line : line->second;
+}
+
 Duration step_of(const Cluster& cluster, const Task& task) { return cluster.cycle() * task.activation.at.repetition; }
 
 void check_times(const Cluster& cluster, const Task& task, const std::string& path, Findings& findings) {
@@ -63,7 +68,8 @@ void check_times(const Cluster& cluster, const Task& task, const std::string& pa
   }
   const Duration step = step_of(cluster, task);
   if (task.holds < step * 2)
-    findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+    findings.add({cluster.file, line_of_holds(cluster, task, path), path + ".holds",
+                  fmt::format("{:g} ms", in_ms(task.holds)),
                   fmt::format("must be at least {:g} ms: a detection takes at least two executions", in_ms(step * 2))});
 }
 
@@ -73,10 +79,42 @@ void check_whole_picture(const Scenario& scenario, const Cluster& cluster, const
   const Duration step = step_of(cluster, task), picture = nodes::vision::whole_picture(scenario.adaptive_camera);
   const Duration needed = schedules::sequence::occupied(picture, step);
   if (task.holds < needed)
-    findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+    findings.add({cluster.file, line_of_holds(cluster, task, path), path + ".holds",
+                  fmt::format("{:g} ms", in_ms(task.holds)),
                   fmt::format("must be at least {:g} ms, in steps of {:g} ms: a whole picture takes {:g} ms by "
                               "adaptive_camera.picture_time and hardware_factor of {}",
                               in_ms(needed), in_ms(step), in_ms(picture), scenario.file)});
+}
+
+// A fixed region shows something of its camera's picture, and is no list's.
+void check_regions(const Scenario& scenario, const Cluster& cluster, const schedules::model::Node& node,
+                   const Task& task, Findings& findings) {
+  std::vector<std::string> names;
+  for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
+  const std::vector<nodes::vision::SharedCamera> pictures = pictures_of(scenario, cluster, task);
+  for (std::size_t i = 0; i < scenario.adaptive_camera.regions.size(); ++i) {
+    const nodes::vision::FixedRegion& fixed = scenario.adaptive_camera.regions[i];
+    const std::string key = fmt::format("adaptive_camera.regions[{}]", i);
+    const auto camera = std::ranges::find(names, fixed.camera);
+    if (camera == names.end()) {
+      findings.add({scenario.file, fixed.line, key + ".camera", fixed.camera,
+                    fmt::format("must be a camera of the node {} of {}: {}{}", node.name, cluster.file,
+                                joined(names, " or "), did_you_mean(fixed.camera, names))});
+    } else {
+      const nodes::vision::SharedCamera& picture = pictures[static_cast<std::size_t>(camera - names.begin())];
+      const auto check = [&](std::string_view axis, double low, double size, double half) {
+        if (low < half && low + size > -half) return;
+        findings.add({scenario.file, fixed.line, fmt::format("{}.{}", key, axis), fmt::format("{:g} px", low),
+                      fmt::format("must be from {:g} to {:g} px: the picture of {} reaches {:g} px from its middle",
+                                  -half - size, half, fixed.camera, half)});
+      };
+      check("x", fixed.region.x, fixed.region.width, picture.half_width_px);
+      check("y", fixed.region.y, fixed.region.height, picture.half_height_px);
+    }
+    if (has_port(task.reads, kRegions))
+      findings.add({scenario.file, fixed.line, "adaptive_camera.regions", "",
+                    fmt::format("must be absent: in {} the detector reads its regions from the bus", cluster.file)});
+  }
 }
 
 }  // namespace
@@ -112,7 +150,8 @@ void check_detectors(const Cluster& cluster, Findings& findings) {
         check_ports(cluster, task, path, findings);
         check_times(cluster, task, path, findings);
       } else if (task.holds > Duration{}) {
-        findings.add({cluster.file, task.line, path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+        findings.add({cluster.file, line_of_holds(cluster, task, path), path + ".holds",
+                      fmt::format("{:g} ms", in_ms(task.holds)),
                       fmt::format("must be absent: step {} writes at the end of the execution that reads", task.step)});
       }
     }
@@ -124,18 +163,7 @@ void check_detections(const Scenario& scenario, const Cluster& cluster) {
     for (const Task& task : node.tasks) {
       if (!is_detector(task)) continue;
       check_whole_picture(scenario, cluster, task, fmt::format("nodes.{}.tasks.{}", node.name, task.name), findings);
-      std::vector<std::string> names;
-      for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
-      for (const nodes::vision::FixedRegion& fixed : scenario.adaptive_camera.regions) {
-        if (std::ranges::find(names, fixed.camera) == names.end())
-          findings.add({scenario.file, fixed.line, "adaptive_camera.regions.camera", fixed.camera,
-                        fmt::format("must be a camera of the node {} of {}: {}{}", node.name, cluster.file,
-                                    joined(names, " or "), did_you_mean(fixed.camera, names))});
-        if (has_port(task.reads, kRegions))
-          findings.add(
-              {scenario.file, fixed.line, "adaptive_camera.regions", "",
-               fmt::format("must be absent: in {} the detector reads its regions from the bus", cluster.file)});
-      }
+      check_regions(scenario, cluster, node, task, findings);
     }
   findings.throw_if_any();
 }

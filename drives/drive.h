@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/ids.h"
@@ -66,6 +68,8 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
 void check_loop(const Scenario& scenario, const schedules::model::Cluster& cluster);
 // Returns a warning if commands drive the vehicle, and an object follows; else "". Objects' ways are drawn beforehand.
 std::string following_warning(const Scenario& scenario);
+// Returns a warning for each section of parameters whose step no task of these clusters has, one a line; else "".
+std::string unused_sections(const Scenario& scenario, std::span<const schedules::model::Cluster> clusters);
 // Returns the time between two readings of commands by the actuator. Without one that check_loop() accepts, it is the
 // shortest time allowed.
 Duration between_readings(const schedules::model::Cluster& cluster);

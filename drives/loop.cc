@@ -87,15 +87,16 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
     throw InputError(
         {scenario.file, line, key, "", "must be absent with --truth: the trace says how the vehicle drives"});
   const Duration least = longest_in_true_time(task);
-  if (scenario.world.ego->actuator->dead_time < least)
-    throw InputError({scenario.file, line, key + ".dead_time",
-                      fmt::format("{:g} ms", in_ms(scenario.world.ego->actuator->dead_time)),
+  const sim::world::vehicle::ActuatorConfig& actuator = *scenario.world.ego->actuator;
+  if (actuator.dead_time < least)
+    throw InputError({scenario.file, actuator.dead_time_line, key + ".dead_time",
+                      fmt::format("{:g} ms", in_ms(actuator.dead_time)),
                       fmt::format("must be at least {:g} ms: nothing happens before the task {} of {} has ended",
                                   in_ms(least), task.name, cluster.file)});
-  const Duration oldest = scenario.world.ego->actuator->oldest;
-  if (oldest >= oldest_told(cluster))
-    throw InputError({scenario.file, line, key + ".oldest", fmt::format("{:g} ms", in_ms(oldest)),
-                      fmt::format("must be below {:g} ms: stamps are told apart within a round of {}",
+  if (actuator.oldest >= oldest_told(cluster))
+    throw InputError({scenario.file, actuator.oldest_line, key + ".oldest",
+                      fmt::format("{:g} ms", in_ms(actuator.oldest)),
+                      fmt::format("must be from 1 ms to below {:g} ms: stamps are told apart within a round of {}",
                                   in_ms(oldest_told(cluster)), cluster.file)});
   for (const Node& node : cluster.nodes)
     for (const Task& service : node.tasks)
@@ -124,6 +125,23 @@ std::string following_warning(const Scenario& scenario) {
                   "it",
                   first->name)}
       .sentence();
+}
+
+std::string unused_sections(const Scenario& scenario, std::span<const Cluster> clusters) {
+  std::string text;
+  for (const StepSection& section : scenario.step_sections) {
+    const auto has = [&](const Cluster& cluster) {
+      return std::ranges::any_of(cluster.nodes, [&](const Node& node) {
+        return std::ranges::any_of(node.tasks, [&](const Task& task) { return task.step == section.step; });
+      });
+    };
+    if (std::ranges::any_of(clusters, has)) continue;
+    if (!text.empty()) text += '\n';
+    text +=
+        Finding{scenario.file, section.line, section.step, "", "has no effect: no task of the cluster has this step"}
+            .sentence();
+  }
+  return text;
 }
 
 Duration between_readings(const Cluster& cluster) {

@@ -65,35 +65,40 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.recorded_playing = nodes::sensing::load_recorded_playing(*recorded);
     recorded->finish();
   }
-  if (auto feature = root.map_if("feature_service")) {
+  const auto section_of = [&](std::string_view step) {
+    auto section = root.map_if(step);
+    if (section) scenario.step_sections.push_back({std::string(step), section->line()});
+    return section;
+  };
+  if (auto feature = section_of("feature_service")) {
     scenario.feature = nodes::service::load_feature(*feature);
     feature->finish();
   }
-  if (auto adaptive = root.map_if("adaptive_camera")) {
+  if (auto adaptive = section_of("adaptive_camera")) {
     scenario.adaptive_camera = nodes::vision::load_adaptive_camera(*adaptive);
     adaptive->finish();
   }
-  if (auto cruise = root.map_if("adaptive_cruise_control")) {
+  if (auto cruise = section_of("adaptive_cruise_control")) {
     scenario.cruise = nodes::driving::load_cruise(*cruise);
     cruise->finish();
   }
-  if (auto emergency = root.map_if("emergency_braking")) {
+  if (auto emergency = section_of("emergency_braking")) {
     scenario.emergency = nodes::driving::load_emergency(*emergency);
     emergency->finish();
   }
-  if (auto lane = root.map_if("lane_keeping")) {
+  if (auto lane = section_of("lane_keeping")) {
     scenario.lane_keeping = nodes::driving::steering::load_lane_keeping(*lane);
     lane->finish();
   }
-  if (auto blind_spot = root.map_if("blind_spot_warning")) {
+  if (auto blind_spot = section_of("blind_spot_warning")) {
     scenario.blind_spot = nodes::driving::load_blind_spot(*blind_spot);
     blind_spot->finish();
   }
-  if (auto planner = root.map_if("motion_planner")) {
+  if (auto planner = section_of("motion_planner")) {
     scenario.planner = nodes::driving::load_planner(*planner);
     planner->finish();
   }
-  if (auto control = root.map_if("vehicle_control")) {
+  if (auto control = section_of("vehicle_control")) {
     scenario.control = nodes::driving::load_control(*control);
     control->finish();
   }

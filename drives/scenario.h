@@ -34,6 +34,12 @@
 
 namespace ttf::drives {
 
+// A section of a step's parameters that the file has.
+struct StepSection {
+  std::string step;
+  int line = 0;
+};
+
 struct Scenario {
   std::string name;
   std::string description;
@@ -61,6 +67,7 @@ struct Scenario {
   nodes::driving::BlindSpotConfig blind_spot;
   nodes::driving::PlannerConfig planner;
   nodes::driving::ControlConfig control;
+  std::vector<StepSection> step_sections;
   double reaction_speed_mps = 27.0;  // the reaction time is judged at it (evaluation/driving/driving_account.h)
   fusion::metrics::CutOff cut_off;   // with which the drive's tracking is judged
   // The world of another simulator, in place of all in `world` that moves (drives/traced.h); null: none.

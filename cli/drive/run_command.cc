@@ -103,14 +103,16 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
   else
     plan.folder = alone ? options.out : options.out + "/" + named_folder(plan.scenario);
   std::string warning;
+  std::vector<schedules::model::Cluster> clusters;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
-    const schedules::model::Cluster cluster = checked_cluster(plan.scenario, strategy);
+    const schedules::model::Cluster& cluster = clusters.emplace_back(checked_cluster(plan.scenario, strategy));
     if (warning.empty()) warning = drives::motion_warning(plan.scenario, cluster);
     drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
     nodes::foreign::check_steps(cluster, steps);
     if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
   }
-  for (const std::string& one : {warning, drives::following_warning(plan.scenario)})
+  for (const std::string& one :
+       {warning, drives::following_warning(plan.scenario), drives::unused_sections(plan.scenario, clusters)})
     if (!one.empty()) print_warnings(one);
   return plan;
 }
@@ -223,7 +225,8 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(named());
   command->add_option("--truth", options->truth, "ASAM OSI trace in place of the scenario's objects (.osi or .mcap)")
       ->check(named());
-  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(named());
+  command->add_option("-o,--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")
+      ->check(named());
   add_step_options(*command, options->steps);
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");

@@ -98,7 +98,7 @@ void add_experiment(CLI::App& app, Action& action) {
   auto* replay =
       command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
   auto* resume = command->add_flag("--resume", options->resume, "Continue the results that are in --out");
-  command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)")->check(named());
+  command->add_option("-o,--out", options->out, "Folder for results (a sweep's default: out/<name>)")->check(named());
   command->add_option("--truth", options->truth, "Refused: a trace is for `ttfusion run`, `launch` and `node`")
       ->group("");
   drive::add_step_options(*command, options->steps);

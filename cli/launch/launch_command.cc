@@ -109,7 +109,8 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   facts.update(facts_of(plan.set));
   if (plan.set.scenario.truth) fmt::print(stderr, "{}\n", drives::truth_text(plan.set.scenario));
   for (const std::string& warning :
-       {drives::motion_warning(plan.set.scenario, plan.set.cluster), drives::following_warning(plan.set.scenario)})
+       {drives::motion_warning(plan.set.scenario, plan.set.cluster), drives::following_warning(plan.set.scenario),
+        drives::unused_sections(plan.set.scenario, {&plan.set.cluster, 1})})
     if (!warning.empty()) print_warnings(warning);
   const auto earlier = supervision::earlier_launch(plan.set.folder);
   supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
@@ -187,7 +188,8 @@ void add_launch(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   command->add_flag("--dry-run", arguments->dry_run, "Show the plan and whether its needs are met, but start nothing");
   command
-      ->add_option("--out", arguments->set.out, "Folder for logs, output and manifest (default: out/<scenario>/launch)")
+      ->add_option("-o,--out", arguments->set.out,
+                   "Folder for logs, output and manifest (default: out/<scenario>/launch)")
       ->check(named());
   command->add_flag("--json", arguments->json, "Summary, or with --dry-run the plan, as JSON on standard output");
   command->add_flag("--no-pictures", arguments->no_pictures, "Draw no pictures");

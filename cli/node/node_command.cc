@@ -53,7 +53,7 @@ void add_node(CLI::App& app, Action& action) {
   command->add_option("--host", arguments->set.host,
                       "Name of this machine's clock, the same for all its processes and for no others (default: the "
                       "machine's name); real time only");
-  command->add_option("--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)")
+  command->add_option("-o,--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)")
       ->check(named());
   command->add_flag("--json", arguments->json, "Outcome as JSON on standard output");
   command->callback([arguments, &action] { action = [arguments] { return run_node(*arguments); }; });

@@ -1,5 +1,7 @@
 #include "nodes/driving/emergency_braking.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "nodes/control/time_to_collision.h"
@@ -23,7 +25,8 @@ EmergencyConfig load_emergency(YamlMap& yaml) {
   EmergencyConfig c;
   c.warning_time_s = yaml.number_or("warning_time", c.warning_time_s, {0.1, 10.0}, "s");
   c.braking_time_s = yaml.number_or("braking_time", c.braking_time_s, {0.05, 10.0}, "s");
-  if (c.braking_time_s > c.warning_time_s) yaml.fail("braking_time", "must be at most `warning_time`");
+  if (c.braking_time_s > c.warning_time_s)
+    yaml.fail("braking_time", fmt::format("must be from 0.05 s to warning_time, which is {:g} s", c.warning_time_s));
   c.deceleration = yaml.number_or("deceleration", c.deceleration, {0.5, 15.0}, "m/s^2");
   load_path(yaml, c.path);
   return c;

@@ -173,7 +173,7 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.dead_time = 0.2 ms: must be at least"));
   drive = sound;
   drive.scenario.world.ego->actuator->oldest = Duration::milliseconds(280);
-  EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.oldest = 280 ms: must be below 280 ms"));
+  EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.oldest = 280 ms: must be from 1 ms to below 280 ms"));
   drive = sound;
   drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.01;
   EXPECT_THAT(refusal(drive), HasSubstr("the stamps of laser err"));
@@ -239,6 +239,15 @@ TEST(ClosedLoop, ObjectsThatFollowAreToldNotToSeeTheVehicle) {
   drive.scenario.world.objects.front().on->follow.emplace();
   EXPECT_THAT(following_warning(drive.scenario), HasSubstr("world.ego.actuator: drives a vehicle that objects which "
                                                            "follow do not see, such as leader"));
+}
+
+TEST(ClosedLoop, ASectionWithoutItsStepIsTold) {
+  const Drive drive = braking(StrategyKind::kTt, "\nlane_keeping: {}\nvehicle_control: {}\n");
+  const std::string told = unused_sections(drive.scenario, {&drive.cluster, 1});
+  EXPECT_THAT(told, HasSubstr("lane_keeping: has no effect: no task of the cluster has this step\n"));
+  EXPECT_THAT(told, HasSubstr("vehicle_control: has no effect"));
+  EXPECT_EQ(told.find("emergency_braking"), std::string::npos);
+  EXPECT_EQ(unused_sections(braking(StrategyKind::kTt).scenario, {&drive.cluster, 1}), "");
 }
 
 }  // namespace

@@ -129,8 +129,26 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
   };
   EXPECT_EQ(refused("{camera: camera_b,"), "taken");
   EXPECT_THAT(refused("{camera: camera_d,"),
-              HasSubstr("adaptive_camera.regions.camera = camera_d: must be a camera of"));
+              HasSubstr("adaptive_camera.regions[0].camera = camera_d: must be a camera of"));
   EXPECT_THAT(refused("{"), HasSubstr("adaptive_camera.regions[0].camera"));
+  // The picture reaches 360 px from its middle.
+  const std::size_t at = text.find(region) + region.size(), end = text.find('}', at);
+  const auto shown = [&](const std::string& place) {
+    std::string other = text;
+    other.replace(at, end - at, place);
+    try {
+      check_detections(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  EXPECT_EQ(shown(" x: -400, y: 300, width: 5100, height: 100"), "taken");
+  EXPECT_THAT(shown(" x: 400, y: -180, width: 5100, height: 360"),
+              HasSubstr("adaptive_camera.regions[0].x = 400 px: must be from -5459.92 to 359.923 px: the picture of "
+                        "camera_a reaches 359.923 px from its middle"));
+  EXPECT_THAT(shown(" x: -180, y: -470, width: 360, height: 100"),
+              HasSubstr("adaptive_camera.regions[0].y = -470 px: must be from -460 to 360 px"));
 }
 
 schedules::model::Task& detector_of(schedules::model::Cluster& cluster) {

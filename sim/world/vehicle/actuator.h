@@ -22,6 +22,7 @@ struct ActuatorConfig {
   double largest_steering = 0.6;               // [rad], to either side
   // A command is refused if its instant is further away than this when it is read.
   Duration oldest = Duration::milliseconds(100);
+  int dead_time_line = 0, oldest_line = 0;  // in the file
   // The reaction begins when no actuation has begun for this time. It counts from the drive's start, too.
   Duration after = Duration::milliseconds(200);
   WithoutCommand without = WithoutCommand::kBrake;

@@ -30,6 +30,7 @@ ActuatorConfig load_actuator(YamlMap& yaml) {
   constexpr Range<Duration> kSome{Duration::milliseconds(1), Duration::milliseconds(10'000)};
   ActuatorConfig c;
   c.dead_time = yaml.duration_or("dead_time", c.dead_time, {Duration::milliseconds(1), Duration::milliseconds(2'000)});
+  c.dead_time_line = yaml.line("dead_time");
   c.lag = yaml.duration_or("lag", c.lag, kLag);
   c.steering_lag = yaml.duration_or("steering_lag", c.lag, kLag);
   c.gain = yaml.number_or("gain", c.gain, {0.05, 5.0});
@@ -37,6 +38,7 @@ ActuatorConfig load_actuator(YamlMap& yaml) {
   c.largest_deceleration = yaml.number_or("largest_deceleration", c.largest_deceleration, {0.1, 30.0}, "m/s^2");
   c.largest_steering = yaml.number_or("largest_steering", c.largest_steering, {0.0, 1.5}, "rad");
   c.oldest = yaml.duration_or("oldest", c.oldest, kSome);
+  c.oldest_line = yaml.line("oldest");
   if (auto without = yaml.map_if("without_command")) {
     c.without = without->choice_or(
         "reaction", c.without,
