@@ -44,6 +44,7 @@ struct DrivingRow {
   bool (*has)(const DrivingFindings&) = [](const DrivingFindings&) { return true; };
 };
 bool keeps_lane(const DrivingFindings& f) { return f.lane.has_value(); }
+bool warns_ahead(const DrivingFindings& f) { return f.warns_ahead; }
 bool watches(const DrivingFindings& f) { return f.watches_blind_spot; }
 bool has_detections(const DrivingFindings& f) { return f.detections.has_value(); }
 const DrivingRow kDrivingRows[] = {
@@ -80,13 +81,13 @@ const DrivingRow kDrivingRows[] = {
     {"jerk, RMS / largest [m/s^3]",
      [](const DrivingFindings& f) { return fmt::format("{} / {}", cell(f.jerk_rms, 2), cell(f.largest_jerk, 1)); }},
     {"collision warnings right / wrong / missed / late",
-     [](const DrivingFindings& f) { return warnings_cell(f.warnings[kForwardCollision]); }},
+     [](const DrivingFindings& f) { return warnings_cell(f.warnings[kForwardCollision]); }, warns_ahead},
     {"  late by, mean / most [ms]",
-     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kForwardCollision]); }},
+     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kForwardCollision]); }, warns_ahead},
     {"emergency brakings right / wrong / missed / late",
-     [](const DrivingFindings& f) { return warnings_cell(f.warnings[kEmergencyBraking]); }},
+     [](const DrivingFindings& f) { return warnings_cell(f.warnings[kEmergencyBraking]); }, warns_ahead},
     {"  late by, mean / most [ms]",
-     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kEmergencyBraking]); }},
+     [](const DrivingFindings& f) { return lateness_of_warnings(f.warnings[kEmergencyBraking]); }, warns_ahead},
     {"offset from the lane's middle, RMS / largest [m]",
      [](const DrivingFindings& f) {
        return fmt::format("{} / {}", cell(f.lane->offset_rms_m, 3), cell(f.lane->largest_offset_m, 3));
@@ -145,6 +146,7 @@ void add_services(evaluation::driving::DrivingConfig& config, const drives::Scen
     for (const schedules::model::Task& task : node.tasks)
       if (task.step == "actuator") config.reads_every = cluster.cycle() * task.activation.at.repetition;
   config.lane = lane_kept(scenario, cluster);
+  config.warns_ahead = has_step(cluster, "emergency_braking");
   if (has_step(cluster, "blind_spot_warning")) {
     const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
     config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
@@ -187,8 +189,6 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
                               {"largest_deceleration_mps2", f.largest_deceleration},
                               {"jerk_rms_mps3", f.jerk_rms},
                               {"largest_jerk_mps3", f.largest_jerk},
-                              {"collision_warnings", warnings_json(f.warnings[kForwardCollision])},
-                              {"emergency_brakings", warnings_json(f.warnings[kEmergencyBraking])},
                               {"commands_issued", f.issued},
                               {"readings",
                                {{"applied", f.applied},
@@ -208,6 +208,10 @@ nlohmann::ordered_json driving_json(const DrivingFindings& f) {
                     {"largest_heading_rad", f.lane->largest_heading_rad},
                     {"beyond_a_mark", f.lane->outside}};
     json["lane_departure_warnings"] = warnings_json(f.warnings[recording::records::kLaneDeparture]);
+  }
+  if (f.warns_ahead) {
+    json["collision_warnings"] = warnings_json(f.warnings[kForwardCollision]);
+    json["emergency_brakings"] = warnings_json(f.warnings[kEmergencyBraking]);
   }
   if (f.watches_blind_spot) json["blind_spot_warnings"] = warnings_json(beside(f));
   if (f.reaction) json["reaction_s"] = f.reaction->seconds();

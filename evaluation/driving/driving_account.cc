@@ -220,6 +220,7 @@ DrivingFindings DrivingAccount::finish() {
   for (std::size_t service = 0; service < findings_.warnings.size(); ++service)
     findings_.warnings[service] = warnings_.finish(service, before_ ? before_->at : TrueTime{});
   if (lane_) findings_.lane = lane_->findings();
+  findings_.warns_ahead = config_.warns_ahead;
   findings_.watches_blind_spot = config_.blind_spot.has_value();
   findings_.detections = detections_.finish();
   return findings_;

@@ -35,6 +35,7 @@ struct DrivingConfig {
   std::array<double, 2> hazard_time_s{2.7, 1.6};  // by service: a hazard is a time to collision below this
   std::optional<LaneConfig> lane{};               // if a service keeps one
   std::optional<BlindSpotZone> blind_spot{};      // if a service watches it
+  bool warns_ahead = true;                        // a service warns of collisions, or brakes
   std::optional<Duration> reads_every{};          // the period of the actuator's task, if it is known
   // The smallest admissible gap [m] at a speed; null: none.
   double (*minimum_gap)(double speed) = nullptr;
@@ -62,7 +63,7 @@ struct DrivingFindings {
   std::uint64_t issued = 0, applied = 0, none_new = 0, invalid = 0, late = 0, nothing_asked = 0, weaker = 0;
   std::array<WarningFindings, recording::records::kWarningKinds> warnings;  // by service
   std::optional<LaneFindings> lane;
-  bool watches_blind_spot = false;
+  bool warns_ahead = false, watches_blind_spot = false;
   // How much later or earlier a reading of commands came than the one before it, against the cluster's time. In virtual
   // time only clocks differ. Readings between which the node lost the cluster's time are none.
   recording::records::BinnedDurations reading_jitter;
