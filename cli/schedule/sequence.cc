@@ -90,7 +90,7 @@ struct Asked {
 Asked asked_for(const SequenceOptions& options, const std::vector<int>& interest) {
   constexpr Duration kShortest = Duration::microseconds(1), kLongest = Duration::milliseconds(10'000);
   const Duration primary = duration("--primary", options.primary, {kShortest, kLongest});
-  const Duration secondary = duration("--secondary", options.secondary, {kShortest, kLongest});
+  const Duration secondary = duration("--secondary", options.secondary, {kShortest, primary});  // a part of the picture
   const Duration bound = duration("--beta", options.bound, {Duration{}, 10 * kLongest});
   const int sensors = static_cast<int>(options.sensors.size());
   FrameRequest request{sensors, interest, primary * sensors, secondary, bound};
