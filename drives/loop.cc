@@ -130,12 +130,7 @@ std::string following_warning(const Scenario& scenario) {
 std::string unused_sections(const Scenario& scenario, std::span<const Cluster> clusters) {
   std::string text;
   for (const StepSection& section : scenario.step_sections) {
-    const auto has = [&](const Cluster& cluster) {
-      return std::ranges::any_of(cluster.nodes, [&](const Node& node) {
-        return std::ranges::any_of(node.tasks, [&](const Task& task) { return task.step == section.step; });
-      });
-    };
-    if (std::ranges::any_of(clusters, has)) continue;
+    if (std::ranges::any_of(clusters, [&](const Cluster& one) { return has_step(one, section.step); })) continue;
     if (!text.empty()) text += '\n';
     text +=
         Finding{scenario.file, section.line, section.step, "", "has no effect: no task of the cluster has this step"}

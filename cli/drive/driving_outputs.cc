@@ -124,17 +124,11 @@ nlohmann::ordered_json warnings_json(const WarningFindings& w) {
   return json;
 }
 
-bool has_step(const schedules::model::Cluster& cluster, std::string_view step) {
-  return std::ranges::any_of(cluster.nodes, [&](const schedules::model::Node& node) {
-    return std::ranges::any_of(node.tasks, [&](const schedules::model::Task& task) { return task.step == step; });
-  });
-}
-
 // Returns the lane on which the vehicle starts, if a service keeps it.
 std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario& scenario,
                                                          const schedules::model::Cluster& cluster) {
   const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
-  if (!ego.on || !scenario.world.road || !has_step(cluster, "lane_keeping")) return std::nullopt;
+  if (!ego.on || !scenario.world.road || !schedules::model::has_step(cluster, "lane_keeping")) return std::nullopt;
   return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
 }
 
@@ -146,8 +140,8 @@ void add_services(evaluation::driving::DrivingConfig& config, const drives::Scen
     for (const schedules::model::Task& task : node.tasks)
       if (task.step == "actuator") config.reads_every = cluster.cycle() * task.activation.at.repetition;
   config.lane = lane_kept(scenario, cluster);
-  config.warns_ahead = has_step(cluster, "emergency_braking");
-  if (has_step(cluster, "blind_spot_warning")) {
+  config.warns_ahead = schedules::model::has_step(cluster, "emergency_braking");
+  if (schedules::model::has_step(cluster, "blind_spot_warning")) {
     const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
     config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
   }

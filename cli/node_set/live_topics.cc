@@ -27,8 +27,7 @@ Duration period_of(const NodeSet& set, std::string_view step, const nodes::runne
 }
 
 bool runs(const NodeSet& set, NodeId node, std::string_view step) {
-  const std::vector<schedules::model::Task>& tasks = set.cluster.node(node).tasks;
-  return std::any_of(tasks.begin(), tasks.end(), [&](const schedules::model::Task& task) { return task.step == step; });
+  return schedules::model::has_step(set.cluster.node(node), step);
 }
 
 Duration period_of(const NodeSet& set, const schedules::model::Sensor& sensor, const nodes::runner::DriveClock& clock) {

@@ -55,6 +55,13 @@ std::optional<SensorId> Cluster::find_sensor(std::string_view sensor_name) const
   return find_named<SensorId>(sensors, sensor_name);
 }
 
+bool has_step(const Node& node, std::string_view step) {
+  return std::ranges::any_of(node.tasks, [&](const Task& task) { return task.step == step; });
+}
+bool has_step(const Cluster& cluster, std::string_view step) {
+  return std::ranges::any_of(cluster.nodes, [&](const Node& node) { return has_step(node, step); });
+}
+
 bool is_on_can(const Node& node, std::size_t can_bus) {
   const MediumId medium = MediumId::can(can_bus);
   const auto leads_there = [medium](const PortBinding& port) { return port.medium == medium; };

@@ -236,6 +236,10 @@ struct Cluster {
   Duration round() const { return {kCycles * flexray.cycle_ps() / 1000}; }
 };
 
+// Return whether a task has this step.
+bool has_step(const Node& node, std::string_view step);
+bool has_step(const Cluster& cluster, std::string_view step);
+
 // Returns whether a task of the node reads or writes on this CAN.
 bool is_on_can(const Node& node, std::size_t can_bus);
 std::vector<NodeId> nodes_on_can(const Cluster& cluster, std::size_t can_bus);  // in the order of ids

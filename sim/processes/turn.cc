@@ -118,8 +118,7 @@ double read_number(TurnBytes& in, const char* what) {
 }
 
 nodes::host::Actuation read_actuation(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster) {
-  const auto& tasks = cluster.node(turn.node).tasks;
-  if (std::none_of(tasks.begin(), tasks.end(), [](const auto& task) { return task.step == "actuator"; }))
+  if (!schedules::model::has_step(cluster.node(turn.node), "actuator"))
     throw std::runtime_error("a turn with an actuation, of a node without an actuator");
   const auto from =
       static_cast<std::int64_t>(in.take<std::uint64_t>(static_cast<std::uint64_t>(kLastTick), "actuation"));
