@@ -14,8 +14,8 @@ struct ActuatorConfig {
   // From the actuator's reading of a command until something happens. It is longer than the actuator's task, so that all others
   // can know of an actuation before it begins.
   Duration dead_time = Duration::milliseconds(50);
-  Duration lag = Duration::milliseconds(200);  // of the acceleration
-  std::optional<Duration> steering_lag{};      // of the front wheels; absent: `lag`
+  Duration lag = Duration::milliseconds(200);  // the acceleration follows with it
+  std::optional<Duration> steering_lag{};      // the front wheels follow with it; absent: `lag`
   double gain = 1.0;                           // a share of the acceleration
   double largest_acceleration = 3.0;           // [m/s^2], that a command may ask for
   double largest_deceleration = 9.0;           // [m/s^2], positive
