@@ -1,0 +1,65 @@
+#include "schedules/timing/response/priorities.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ttf::schedules::timing::response {
+namespace {
+
+PriorityOrder ordered_by(std::span<const Task> tasks, std::int64_t Task::*key) {
+  PriorityOrder order(tasks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return tasks[a].*key < tasks[b].*key; });
+  return order;
+}
+
+std::vector<Task> chosen_tasks(std::span<const Task> tasks, std::span<const std::size_t> places) {
+  std::vector<Task> chosen;
+  for (const std::size_t place : places) chosen.push_back(tasks[place]);
+  return chosen;
+}
+
+}  // namespace
+
+PriorityOrder rate_monotonic(std::span<const Task> tasks) { return ordered_by(tasks, &Task::period); }
+PriorityOrder deadline_monotonic(std::span<const Task> tasks) { return ordered_by(tasks, &Task::deadline); }
+
+std::optional<PriorityOrder> audsley(std::size_t count, const Fits& fits) {
+  std::vector<std::size_t> open(count), placed;
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  PriorityOrder lowest_first;
+  while (!open.empty()) {
+    const std::size_t before = open.size();
+    for (std::size_t at = open.size(); at-- > 0;) {
+      const std::size_t task = open[at];
+      std::vector<std::size_t> higher = open;
+      higher.erase(higher.begin() + static_cast<std::ptrdiff_t>(at));
+      if (!fits(task, higher, placed)) continue;
+      open = std::move(higher);
+      placed.insert(std::upper_bound(placed.begin(), placed.end(), task), task);
+      lowest_first.push_back(task);
+      break;
+    }
+    if (open.size() == before) return std::nullopt;
+  }
+  std::reverse(lowest_first.begin(), lowest_first.end());
+  return lowest_first;
+}
+
+std::optional<PriorityOrder> audsley_preemptive(std::span<const Task> tasks) {
+  return audsley(tasks.size(), [&](std::size_t task, std::span<const std::size_t> higher, auto) {
+    return preemptive_response(chosen_tasks(tasks, higher), tasks[task]).meets(tasks[task].deadline);
+  });
+}
+
+std::optional<PriorityOrder> audsley_non_preemptive(std::span<const Task> tasks) {
+  return audsley(tasks.size(), [&](std::size_t task, std::span<const std::size_t> higher,
+                                   std::span<const std::size_t> lower) {
+    std::int64_t longest_lower = 0;
+    for (const std::size_t one : lower) longest_lower = std::max(longest_lower, tasks[one].work);
+    return non_preemptive_response(chosen_tasks(tasks, higher), tasks[task], longest_lower).meets(tasks[task].deadline);
+  });
+}
+
+}  // namespace ttf::schedules::timing::response
