@@ -1,161 +1,196 @@
 #include <algorithm>
 #include <map>
 
+#include "core/int128.h"
 #include "schedules/timing/response/dynamic_parts.h"
 
 namespace ttf::schedules::timing::response {
 namespace {
 
-constexpr std::size_t kMostWays = 8 * kMostSearchedStates;
+// The lower slots before a cycle's arrivals. Arrivals come an instant behind whole numbers, so one before the
+// segment's start is below zero.
+struct SegmentState {
+  std::vector<std::int64_t> waiting;  // frames, by message
+  std::vector<std::int64_t> next;     // earliest next arrival, relative to the segment's start, by message
+};
 
-// The lower slots before a cycle's arrivals: the cycle's number within the longest repetition, then for each message
-// the frames that wait, and the earliest next arrival relative to the segment's start. Arrivals come an instant
-// behind whole numbers, so one before the start is below zero.
-using SegmentState = std::vector<std::int64_t>;
+// Earlier arrivals allow all that later ones allow. So a state is dropped if another one has the same cycle, the same
+// waiting frames, and arrivals no later.
+class WorstStates {
+ public:
+  // The cycle within the longest repetition, and the waiting frames.
+  using Key = std::pair<std::int64_t, std::vector<std::int64_t>>;
 
-// One cycle's way to the next: whether the message in question gets its turn in it, and where.
-struct SegmentWay {
-  std::size_t next = 0;
-  std::int64_t turn = 0;  // minislot of the message's slot
+  // Returns whether the state is new: no other one has arrivals as early as its own.
+  bool add(std::int64_t cycle, const SegmentState& state) {
+    std::vector<std::vector<std::int64_t>>& all = by_key_[{cycle, state.waiting}];
+    if (covered(all, state.next)) return false;
+    const auto later =
+        std::remove_if(all.begin(), all.end(), [&](const auto& one) { return no_later(state.next, one); });
+    size_ -= static_cast<std::size_t>(all.end() - later);
+    all.erase(later, all.end());
+    all.push_back(state.next);
+    ++size_;
+    return true;
+  }
+
+  // Returns whether each state of `other` has one here that is as early.
+  bool cover(const WorstStates& other) const {
+    for (const auto& [key, nexts] : other.by_key_) {
+      const auto here = by_key_.find(key);
+      if (here == by_key_.end()) return false;
+      for (const auto& next : nexts)
+        if (!covered(here->second, next)) return false;
+    }
+    return true;
+  }
+
+  bool holds(std::int64_t cycle, const SegmentState& state) const {
+    const auto here = by_key_.find({cycle, state.waiting});
+    return here != by_key_.end() &&
+           std::find(here->second.begin(), here->second.end(), state.next) != here->second.end();
+  }
+
+  template <class See> void each(See see) const {
+    for (const auto& [key, nexts] : by_key_)
+      for (const auto& next : nexts) see(key.first, SegmentState{key.second, next});
+  }
+
+  std::size_t size() const { return size_; }
+
+ private:
+  static bool no_later(const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (a[i] > b[i]) return false;
+    return true;
+  }
+  static bool covered(const std::vector<std::vector<std::int64_t>>& all, const std::vector<std::int64_t>& next) {
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return no_later(one, next); });
+  }
+
+  std::map<Key, std::vector<std::vector<std::int64_t>>> by_key_;
+  std::size_t size_ = 0;
 };
 
 class SegmentSearch {
  public:
-  SegmentSearch(const DynamicSegment& segment, std::span<const DynamicMessage> by_slot, std::size_t which)
-      : segment_(segment), message_(by_slot[which]) {
-    for (const DynamicMessage& other : by_slot.first(which))
-      if (other.slot < message_.slot && other.minislots > 1) lower_.push_back(other);
-    for (const DynamicMessage& other : lower_) rounds_ = std::max<std::int64_t>(rounds_, other.repetition);
-    rounds_ = std::max<std::int64_t>(rounds_, message_.repetition);
-  }
-
-  // Returns false beyond kMostSearchedStates.
-  bool explore() {
-    for (std::int64_t cycle = 0; cycle < rounds_; ++cycle) {
-      SegmentState quiet{cycle};
-      for (const DynamicMessage& other : lower_) {
-        quiet.push_back(0);
-        quiet.push_back(-segment_.cycle - other.jitter);
-      }
-      place_of(quiet);
-    }
-    for (std::size_t at = 0; at < states_.size(); ++at) {
-      first_way_.push_back(ways_.size());
-      add_ways(SegmentState(*states_[at]), 0);
-      if (states_.size() > kMostSearchedStates || ways_.size() > kMostWays) return false;
-    }
-    first_way_.push_back(ways_.size());
-    return true;
-  }
-
   struct Worst {
-    std::int64_t lost = -1, turn = 0;
+    std::int64_t lost = 0, turn = 0;
     auto operator<=>(const Worst&) const = default;
   };
+  enum class End : std::uint8_t { kFound, kStarved, kTooLarge };
 
-  // Returns the most own cycles lost, and then the latest turn, of a message that came just too late for an own
-  // cycle. Returns nullopt if it may never get its turn.
-  std::optional<Worst> longest_wait() {
-    worst_.assign(states_.size(), {});
-    mark_.assign(states_.size(), Mark::kNew);
-    Worst longest;
-    for (std::size_t at = 0; at < states_.size(); ++at) {
-      if (!sends_in(message_, (*states_[at])[0])) continue;
-      for (std::size_t way = first_way_[at]; way < first_way_[at + 1]; ++way) {
-        if (!settle(ways_[way].next)) return std::nullopt;
-        longest = std::max(longest, worst_[ways_[way].next]);
-      }
+  SegmentSearch(const DynamicSegment& segment, std::span<const DynamicMessage> by_slot, std::size_t which)
+      : segment_(segment), message_(by_slot[which]), rounds_(message_.repetition) {
+    for (const DynamicMessage& other : by_slot.first(which)) {
+      if (other.slot == message_.slot || other.minislots == 1) continue;
+      lower_.push_back(other);
+      rounds_ = std::max<std::int64_t>(rounds_, other.repetition);
     }
-    return longest;
+  }
+
+  // Finds the most own cycles lost, and then the latest turn, of a message that came just too late for an own cycle.
+  End run(Worst& worst) {
+    WorstStates layer;
+    if (!explore(layer)) return End::kTooLarge;
+    WorstStates earlier = layer;  // a layer with the same cycles, to notice that there is no end
+    for (std::int64_t cycles = 1, renewed = 1; layer.size() > 0; ++cycles) {
+      WorstStates next;
+      const std::int64_t lost = (cycles - 1) / message_.repetition;
+      layer.each([&](std::int64_t cycle, const SegmentState& state) {
+        ways(cycle, state, [&](const SegmentState& after, std::int64_t turn) {
+          if (!sends_in(message_, cycle) || turn > message_.latest_tx)
+            next.add((cycle + 1) % rounds_, after);
+          else
+            worst = std::max(worst, {lost, turn});
+        });
+      });
+      if (effort_ > kMostWays || next.size() > kMostSearchedStates) return End::kTooLarge;
+      if (next.size() > 0 && cycles % rounds_ == 0) {
+        if (next.cover(earlier)) return End::kStarved;
+        if (cycles / rounds_ == 2 * renewed) renewed *= 2, earlier = next;
+      }
+      layer = std::move(next);
+    }
+    return End::kFound;
   }
 
  private:
-  enum class Mark : std::uint8_t { kNew, kOpen, kSettled };
+  static constexpr std::size_t kMostWays = 8 * kMostSearchedStates;
 
-  std::size_t place_of(const SegmentState& state) {
-    const auto [entry, fresh] = places_.try_emplace(state, states_.size());
-    if (fresh) states_.push_back(&entry->first);
-    return entry->second;
-  }
-
-  // Adds each choice of arrivals, from message `at` on.
-  void add_ways(const SegmentState& state, std::size_t at) {
-    if (ways_.size() > kMostWays) return;
-    if (at == lower_.size()) return send(state);
-    add_ways(state, at + 1);
-    SegmentState more = state;
-    while (more[2 + 2 * at] < 0 && ways_.size() <= kMostWays) {
-      ++more[1 + 2 * at];
-      more[2 + 2 * at] += lower_[at].period;
-      add_ways(more, at + 1);
-    }
-  }
-
-  void send(SegmentState state) {
-    std::int64_t more = 0;  // minislots beyond those of silent slots
-    for (std::size_t i = 0; i < lower_.size(); ++i) {
-      const DynamicMessage& other = lower_[i];
-      std::int64_t &waiting = state[1 + 2 * i], &next = state[2 + 2 * i];
-      if (waiting > 0 && sends_in(other, state[0]) && other.slot + more <= other.latest_tx) {
-        --waiting;
-        more += other.minislots - 1;
+  // Finds all states that lower slots may be in, and those behind an own cycle. Returns false beyond
+  // kMostSearchedStates.
+  bool explore(WorstStates& missed) {
+    WorstStates reached;
+    std::vector<std::pair<std::int64_t, SegmentState>> open;
+    for (std::int64_t cycle = 0; cycle < rounds_; ++cycle) {
+      SegmentState quiet;
+      for (const DynamicMessage& other : lower_) {
+        quiet.waiting.push_back(0);
+        quiet.next.push_back(-segment_.cycle - other.jitter);
       }
-      next = std::max(next - segment_.cycle, -segment_.cycle - other.jitter);
+      reached.add(cycle, quiet);
+      open.push_back({cycle, quiet});
     }
-    state[0] = (state[0] + 1) % rounds_;
-    ways_.push_back({place_of(state), message_.slot + more});
-  }
-
-  struct Open {
-    std::size_t state = 0, way = 0;
-  };
-
-  // Finds the worst of a state in which the message waits, depth first. Returns false if a round of states never
-  // sends it.
-  bool settle(std::size_t start) {
-    std::vector<Open> open;
-    if (mark_[start] == Mark::kNew) open.push_back(begin(start));
     while (!open.empty()) {
-      Open& top = open.back();
-      if (top.way == first_way_[top.state + 1]) {
-        mark_[top.state] = Mark::kSettled;
-        open.pop_back();
-        continue;
-      }
-      const SegmentWay& way = ways_[top.way];
-      const bool own = sends_in(message_, (*states_[top.state])[0]);
-      Worst& worst = worst_[top.state];
-      if (own && way.turn <= message_.latest_tx) {
-        worst = std::max(worst, {0, way.turn});
-      } else if (mark_[way.next] == Mark::kSettled) {
-        const Worst& next = worst_[way.next];
-        worst = std::max(worst, {next.lost + (own ? 1 : 0), next.turn});
-      } else if (mark_[way.next] == Mark::kOpen) {
-        return false;
-      } else {
-        open.push_back(begin(way.next));  // comes back to this way when the next state is settled
-        continue;
-      }
-      ++top.way;
+      const auto [cycle, state] = std::move(open.back());
+      open.pop_back();
+      if (!reached.holds(cycle, state)) continue;  // another one is worse by now
+      const std::int64_t next_cycle = (cycle + 1) % rounds_;
+      const bool own = sends_in(message_, cycle);
+      ways(cycle, state, [&](const SegmentState& after, std::int64_t) {
+        if (own) missed.add(next_cycle, after);
+        if (reached.add(next_cycle, after)) open.push_back({next_cycle, after});
+      });
+      if (effort_ > kMostWays || reached.size() > kMostSearchedStates) return false;
     }
     return true;
   }
 
-  Open begin(std::size_t state) {
-    mark_[state] = Mark::kOpen;
-    return {state, first_way_[state]};
+  // Calls `see` with the state behind each choice of arrivals, and the turn of the message's slot.
+  template <class See> void ways(std::int64_t cycle, const SegmentState& state, See see) {
+    SegmentState arrived = state;
+    choose(cycle, arrived, 0, see);
+  }
+
+  template <class See> void choose(std::int64_t cycle, SegmentState& arrived, std::size_t at, See& see) {
+    if (++effort_ > kMostWays) return;
+    if (at == lower_.size()) {
+      SegmentState after = arrived;
+      const std::int64_t turn = send(cycle, after);
+      see(after, turn);
+      return;
+    }
+    const std::int64_t waiting = arrived.waiting[at], next = arrived.next[at];
+    choose(cycle, arrived, at + 1, see);
+    while (arrived.next[at] < 0 && effort_ <= kMostWays) {
+      ++arrived.waiting[at];
+      arrived.next[at] += lower_[at].period;
+      choose(cycle, arrived, at + 1, see);
+    }
+    arrived.waiting[at] = waiting;
+    arrived.next[at] = next;
+  }
+
+  // Sends what is in time, and returns the turn of the message's slot.
+  std::int64_t send(std::int64_t cycle, SegmentState& state) const {
+    std::int64_t more = 0;  // minislots beyond those of silent slots
+    for (std::size_t i = 0; i < lower_.size(); ++i) {
+      const DynamicMessage& other = lower_[i];
+      if (state.waiting[i] > 0 && sends_in(other, cycle) && other.slot + more <= other.latest_tx) {
+        --state.waiting[i];
+        more += other.minislots - 1;
+      }
+      state.next[i] = std::max(state.next[i] - segment_.cycle, -segment_.cycle - other.jitter);
+    }
+    return message_.slot + more;
   }
 
   const DynamicSegment& segment_;
   const DynamicMessage& message_;
   std::vector<DynamicMessage> lower_;
-  std::int64_t rounds_ = 1;
-  std::map<SegmentState, std::size_t> places_;
-  std::vector<const SegmentState*> states_;
-  std::vector<SegmentWay> ways_;        // by state
-  std::vector<std::size_t> first_way_;  // by state
-  std::vector<Worst> worst_;
-  std::vector<Mark> mark_;
+  std::int64_t rounds_;  // cycles until the same messages may send
+  std::size_t effort_ = 0;
 };
 
 }  // namespace
@@ -166,14 +201,14 @@ std::optional<DynamicResponse> searched_response(const DynamicSegment& segment, 
   const DynamicMessage& message = by_slot[which];
   if (segment.decision != DynamicSegment::Decision::kAtSegmentStart || message.slot > message.latest_tx)
     return std::nullopt;
-  SegmentSearch search(segment, by_slot, which);
-  if (!search.explore()) return std::nullopt;
-  const auto worst = search.longest_wait();
-  if (!worst) return DynamicResponse{};
-  const std::int64_t cycles = worst->lost + 1;
-  if (cycles * message.repetition * segment.cycle > message.period - message.jitter) return std::nullopt;
-  return DynamicResponse{
-      {Quality::kExact, end_of_frame(segment, message, cycles, worst->turn)}, worst->lost, worst->turn};
+  SegmentSearch::Worst worst;
+  const SegmentSearch::End end = SegmentSearch(segment, by_slot, which).run(worst);
+  if (end == SegmentSearch::End::kTooLarge) return std::nullopt;
+  if (end == SegmentSearch::End::kStarved) return DynamicResponse{};
+  const std::int64_t cycles = worst.lost + 1;
+  if (static_cast<Int128>(cycles) * message.repetition * segment.cycle > message.period - message.jitter)
+    return std::nullopt;
+  return DynamicResponse{{Quality::kExact, end_of_frame(segment, message, cycles, worst.turn)}, worst.lost, worst.turn};
 }
 
 }  // namespace ttf::schedules::timing::response

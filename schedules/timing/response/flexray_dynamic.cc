@@ -1,5 +1,7 @@
 #include "schedules/timing/response/flexray_dynamic.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "schedules/timing/response/dynamic_parts.h"
 
@@ -69,7 +71,10 @@ std::vector<DynamicResponse> dynamic_responses(const DynamicSegment& segment, st
   std::vector<CycleDelay> delays;
   for (std::size_t i = 0; i < by_slot.size(); ++i) {
     DelayedResponse answer = covering_bound(segment, by_slot, i, delays);
-    if (const auto searched = searched_response(segment, by_slot, i)) {
+    // Behind a message without a bound, queues have no end, and no search has one.
+    const bool endless = std::any_of(delays.begin(), delays.end(), [](const CycleDelay& delay) { return !delay; });
+    const auto searched = endless ? std::nullopt : searched_response(segment, by_slot, i);
+    if (searched) {
       const Response& bound = answer.response.response;
       TTF_CHECK(!bound.bounded() || searched->response.meets(bound.longest), "searched {}, bound {}",
                 searched->response.longest, bound.longest);

@@ -29,8 +29,8 @@
 
 namespace ttf::schedules::timing::response {
 
-inline constexpr std::size_t kMostSearchedStates = 50'000;
-inline constexpr std::int64_t kMostOwnCycles = 65'536;  // a bound beyond them counts as unbounded
+inline constexpr std::size_t kMostSearchedStates = 10'000;
+inline constexpr std::int64_t kMostOwnCycles = 4'096;  // a bound beyond them counts as unbounded
 
 struct DynamicSegment {
   // When a controller looks whether a message waits. Only the first case has exact answers.

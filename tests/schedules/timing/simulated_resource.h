@@ -20,8 +20,8 @@ struct SimulatedJob {
 
 enum class Preemption : bool { kNever, kAlways };
 
-// Returns the end of each job, in the order of `jobs`. The resource is busy with something else until `begin`. A job that
-// comes at an instant of choice takes part in it.
+// Returns the end of each job, in the order of `jobs`. The resource is busy with something else until `begin`. A job
+// that comes at an instant of choice takes part in it.
 inline std::vector<std::int64_t> simulated_ends(const std::vector<SimulatedJob>& jobs, Preemption preemption,
                                                 std::int64_t begin = 0) {
   std::vector<std::size_t> order(jobs.size());

@@ -33,8 +33,8 @@ TEST(PublishedFixedPriority, FourTasksOfSchedcat) {
   for (const Response& one : responses) EXPECT_EQ(one.quality, Quality::kExact);
 }
 
-// N. Audsley et al., "Applying new scheduling theory to static priority pre-emptive scheduling", 1993: the generic avionics
-// platform, in microseconds. Their responses count from the release, ours from the arrival: J more.
+// N. Audsley et al., "Applying new scheduling theory to static priority pre-emptive scheduling", 1993: the generic
+// avionics platform, in microseconds. Their responses count from the release, ours from the arrival: J more.
 TEST(PublishedFixedPriority, GenericAvionicsPlatform) {
   const std::vector<Task> tasks{
       published_task(51, 1'000, 1'000),
@@ -83,8 +83,8 @@ TEST(PublishedCan, FrameLengths) {
   EXPECT_EQ(can_time_ns(1, 83'333), 12'001) << "rounded up";
 }
 
-// The same paper, section 3.2: three messages of 125 bits at 125 kbit/s. The second instance of C misses its deadline, though the
-// first one keeps it; the analysis of 1994 saw the first one alone. Here in microseconds.
+// The same paper, section 3.2: three messages of 125 bits at 125 kbit/s, in microseconds. The first instance of C
+// keeps its deadline, the second misses it. The analysis of 1994 saw the first one alone.
 //
 //   bus  |C of before|==A==|==B==|==C==|==A==|==B==|==C==|
 //        0          1000  2000  3000  ...
@@ -114,8 +114,8 @@ TEST(PublishedCan, CounterexampleSimulated) {
   EXPECT_EQ(ends[8] - 3'500, 3'500);
 }
 
-// A published simulation from a common start: 250 bits per millisecond, three messages of 8 bytes, periods 3, 5, 7 ms. Completions in
-// bits. Its frames have 132 bits, and 3 more of intermission before the next.
+// A published simulation from a common start: completions in bits, at 250 bits per millisecond. Three messages of 8
+// bytes have periods of 3, 5 and 7 ms. Frames have 132 bits, and 3 more of intermission.
 TEST(PublishedCan, CompletionsFromACommonStart) {
   const std::vector<std::int64_t> periods{750, 1'250, 1'750};
   std::vector<SimulatedJob> jobs;
