@@ -34,7 +34,7 @@ struct Task {
   std::int64_t deadline = 0;           // D, after the arrival; may exceed T. Only priorities.h reads it
   std::int64_t jitter = 0;             // J, from an arrival to its release
   std::int64_t blocking = 0;           // B, by lower priorities; preemptive only
-  std::optional<std::int64_t> offset;  // first arrival of a strictly periodic task; nullopt: any phase
+  std::optional<std::int64_t> offset;  // at least 0: first arrival of a strictly periodic task; nullopt: any phase
 };
 
 // Each function takes tasks by priority, the highest first, and returns the responses in the same order.

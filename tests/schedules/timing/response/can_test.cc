@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "schedules/analysis/can_load.h"
 #include "schedules/timing/response/can_faults.h"
 #include "tests/schedules/timing/simulated_resource.h"
 
@@ -44,6 +45,15 @@ std::int64_t critical_response(const std::vector<CanMessage>& messages, std::siz
     for (std::int64_t at = -messages[i].jitter; at < 2'000; at += messages[i].period)
       jobs.push_back({i, at, std::max<std::int64_t>(0, at), messages[i].transmission});
   return simulated_longest(jobs, which + 1, Preemption::kNever, longest_below(messages, which))[which];
+}
+
+// The formula of clusters adds up the same bits.
+TEST(CanMessages, FramesAreAsLongAsAClustersOwn) {
+  model::CanBus bus;
+  bus.nominal_bit_rate = bus.data_bit_rate = 500'000;
+  for (int bytes = 0; bytes <= 8; ++bytes)
+    EXPECT_EQ(can_time_ns(can_frame_bits(CanIdentifier::k11Bits, bytes), bus.nominal_bit_rate),
+              analysis::can_worst_case(bus, bytes).ns);
 }
 
 TEST(CanMessages, CriticalInstantsReachTheResponse) {
