@@ -55,8 +55,8 @@ std::optional<std::int64_t> response_with(const FaultedMessage& faulted, int fau
 FaultyResponses responses_with_faults(std::int64_t bit, double faults_per_unit, std::span<const CanMessage> higher,
                                       const CanMessage& message, std::int64_t longest_lower) {
   TTF_CHECK(faults_per_unit >= 0.0 && std::isfinite(faults_per_unit), "{} faults", faults_per_unit);
-  TTF_CHECK(bit >= 1 && message.transmission >= 1 && message.period >= 1, "bit {}, transmission {}, period {}", bit,
-            message.transmission, message.period);
+  TTF_CHECK(bit >= 1 && bit <= kLongestArgument / kCanErrorBits && message.transmission >= 1 && message.period >= 1,
+            "bit {}, transmission {}, period {}", bit, message.transmission, message.period);
   const FaultedMessage faulted = faulted_message(bit, higher, message, longest_lower);
   const std::int64_t most = std::min(message.deadline, message.period);
   FaultyResponses responses;

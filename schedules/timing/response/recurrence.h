@@ -38,7 +38,7 @@ Int128 work_in(std::span<const Source> sources, std::int64_t window);
 
 // Counts the terms that an answer has looked at.
 struct Effort {
-  std::int64_t left = 4'000'000;
+  std::int64_t left = 2'000'000;
 };
 
 // Returns the least w >= start with w = fixed + work_in(w); `start` must not exceed it. Returns nullopt if w exceeds

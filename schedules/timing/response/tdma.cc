@@ -9,7 +9,7 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-constexpr std::int64_t kMostSlotInstances = 4'000'000;
+constexpr std::int64_t kMostSlotInstances = 2'000'000;
 
 void check_slot(const TdmaSlot& slot) {
   TTF_CHECK(slot.length >= 1 && slot.length <= slot.cycle && slot.cycle <= kLongestArgument,

@@ -168,6 +168,29 @@ TEST(PreemptiveTasks, HugeNumbersDoNotOverflow) {
   EXPECT_EQ(preemptive(coprime)[3], Response{}) << "above one by less than 2^-50";
 }
 
+// Any times up to the longest: an answer, without overflow or endless loops.
+TEST(PreemptiveTasks, DrawnMagnitudesHaveAnAnswer) {
+  RandomStream stream({.seed = 14});
+  int bounded = 0;
+  for (int set = 0; set < 30; ++set) {
+    std::vector<Task> tasks;
+    for (int i = 0; i < 4; ++i) {
+      const std::int64_t period = std::int64_t{2} << stream.integer(0, 55);
+      Task task = small_task(stream.integer(1, std::max<std::int64_t>(1, period / 3)), period - stream.integer(0, 1));
+      task.jitter = stream.integer(0, std::int64_t{1} << stream.integer(0, 56));
+      task.blocking = stream.integer(0, std::int64_t{1} << stream.integer(0, 56));
+      tasks.push_back(task);
+    }
+    for (const std::vector<Response>& responses : {preemptive(tasks), non_preemptive(tasks)})
+      for (std::size_t i = 0; i < tasks.size(); ++i) {
+        if (!responses[i].bounded()) continue;
+        ++bounded;
+        ASSERT_GE(responses[i].longest, tasks[i].work + tasks[i].jitter);
+      }
+  }
+  EXPECT_GT(bounded, 60);
+}
+
 // One of three tasks has no offset. The task above it is exact. The task below has a bound.
 TEST(PreemptiveTasks, OffsetsOfSomeAreABoundForTheRest) {
   std::vector<Task> tasks{small_task(1, 4), small_task(1, 4), small_task(1, 4)};
