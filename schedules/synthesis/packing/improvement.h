@@ -1,0 +1,25 @@
+// A local improvement of first fit's order, for a packing that is above its bound.
+//
+// A step moves some of the signals that lie in the last bin to places further ahead in the order, and packs again. The step is kept
+// unless the packing got worse: more bins, or as many with more bits in the last one. ("Squeaky wheel" optimisation: Joslin,
+// Clements, Journal of Artificial Intelligence Research 10, 1999.) Steps are counted, and no clock decides.
+#pragma once
+
+#include <cstdint>
+
+#include "schedules/synthesis/packing/first_fit.h"
+#include "schedules/synthesis/packing/instance.h"
+
+namespace ttf::schedules::synthesis::packing {
+
+struct Effort {
+  int steps = 200;         // of the improvement, for each part that is above its bound
+  std::uint64_t seed = 1;  // of its draws
+};
+
+// Packs the order behind `fixed`, and improves it until it has at most `bound` bins or the steps are used up.
+// `part` tells the streams of several parts apart.
+Packed improved(const Instance& instance, Order order, Fit fit, const Packed& fixed, int bound, const Effort& effort,
+                int part);
+
+}  // namespace ttf::schedules::synthesis::packing

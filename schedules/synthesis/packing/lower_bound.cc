@@ -1,0 +1,115 @@
+#include "schedules/synthesis/packing/lower_bound.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <map>
+
+namespace ttf::schedules::synthesis::packing {
+namespace {
+
+using Cycles = std::uint64_t;  // a set: cycle c is bit c
+
+std::int64_t quotient_up(std::int64_t dividend, std::int64_t divisor) { return (dividend + divisor - 1) / divisor; }
+
+Cycles cycles_of(int repetition, Window window, int cycles) {
+  Cycles set = 0;
+  for (int cycle = 0; cycle < cycles; ++cycle)
+    if (cycle % repetition >= window.earliest && cycle % repetition <= window.latest) set |= Cycles{1} << cycle;
+  return set;
+}
+
+// Signals of one node with the same cycles and the same length.
+struct Kind {
+  Cycles cycles = 0;
+  int bits = 0;
+  std::int64_t sent = 0;  // frames that have such a signal, in all cycles
+};
+
+// Returns the kinds of each node, by ascending length.
+std::vector<std::vector<Kind>> kinds_by_node(const Instance& instance, const Order& signals) {
+  std::vector<std::map<std::pair<int, Cycles>, std::int64_t>> sent(instance.nodes.size());
+  std::map<std::array<int, 3>, Cycles> known;
+  for (const std::size_t index : signals) {
+    const Signal& signal = instance.signals[index];
+    Cycles& cycles = known[{signal.repetition, signal.window.earliest, signal.window.latest}];
+    if (cycles == 0) cycles = cycles_of(signal.repetition, signal.window, instance.cycles);
+    sent[static_cast<std::size_t>(signal.node)][{signal.bits, cycles}] += instance.cycles / signal.repetition;
+  }
+  std::vector<std::vector<Kind>> kinds(sent.size());
+  for (std::size_t node = 0; node < sent.size(); ++node)
+    for (const auto& [kind, times] : sent[node]) kinds[node].push_back({kind.second, kind.first, times});
+  return kinds;
+}
+
+// Sums of the kinds up to each length.
+struct Sums {
+  std::vector<int> bits{};
+  std::vector<std::int64_t> sent{}, load{};  // of all lengths up to this one
+
+  // Return the sums over lengths of low..high.
+  std::int64_t sent_in(int low, int high) const { return at(sent, high) - at(sent, low - 1); }
+  std::int64_t load_in(int low, int high) const { return at(load, high) - at(load, low - 1); }
+  std::int64_t at(const std::vector<std::int64_t>& sums, int length) const {
+    const auto past = std::upper_bound(bits.begin(), bits.end(), length) - bits.begin();
+    return past == 0 ? 0 : sums[static_cast<std::size_t>(past - 1)];
+  }
+};
+
+Sums sums_within(const std::vector<Kind>& kinds, Cycles set) {
+  Sums sums;
+  std::int64_t sent = 0, load = 0;
+  for (const Kind& kind : kinds) {
+    if ((kind.cycles & ~set) != 0) continue;
+    sent += kind.sent;
+    load += kind.sent * kind.bits;
+    if (sums.bits.empty() || sums.bits.back() != kind.bits) {
+      sums.bits.push_back(kind.bits);
+      sums.sent.push_back(0);
+      sums.load.push_back(0);
+    }
+    sums.sent.back() = sent;
+    sums.load.back() = load;
+  }
+  return sums;
+}
+
+// Returns the frames that the kinds need in the set of cycles.
+std::int64_t frames_within(const std::vector<Kind>& kinds, Cycles set, int payload) {
+  const Sums sums = sums_within(kinds, set);
+  const auto weight = [&](int threshold) {
+    return payload * sums.sent_in(payload - threshold + 1, payload) + sums.load_in(threshold, payload - threshold);
+  };
+  std::int64_t most = sums.load_in(1, payload);
+  for (const int bits : sums.bits)  // the thresholds at which the weight changes to the better
+    if (const int threshold = 2 * bits > payload ? payload - bits + 1 : bits; 2 * threshold <= payload)
+      most = std::max(most, weight(threshold));
+  return quotient_up(most, payload);
+}
+
+}  // namespace
+
+int least_bins(const Instance& instance, const Order& signals) {
+  const auto kinds = kinds_by_node(instance, signals);
+  std::int64_t bins = 0;
+  for (int repetition = 1; repetition <= instance.cycles; repetition *= 2)
+    for (int first = 0; first < repetition; ++first)
+      for (int last = first; last < repetition; ++last) {
+        const Cycles set = cycles_of(repetition, {first, last}, instance.cycles);
+        std::int64_t frames = 0;
+        for (const std::vector<Kind>& of_node : kinds) frames += frames_within(of_node, set, instance.payload_bits);
+        bins = std::max(bins, quotient_up(frames, std::popcount(set)));
+      }
+  return static_cast<int>(bins);
+}
+
+double load(const Instance& instance, const Order& signals) {
+  std::int64_t bits = 0;
+  for (const std::size_t index : signals)
+    bits += static_cast<std::int64_t>(instance.signals[index].bits) *
+            (instance.cycles / instance.signals[index].repetition);
+  return static_cast<double>(bits) / static_cast<double>(instance.cycles * instance.payload_bits);
+}
+
+}  // namespace ttf::schedules::synthesis::packing

@@ -1,0 +1,22 @@
+// The room that a packing leaves in its slots: how far it can grow without a new one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "schedules/synthesis/packing/instance.h"
+
+namespace ttf::schedules::synthesis::packing {
+
+struct Room {
+  int node = 0;
+  std::int64_t free_bits = 0;  // of all cycles, in the slots that the node has
+  // The signals of the asked length that have room besides, if all of them have this repetition: for 1, 2, 4, ..., cycles. Exact:
+  // signals of one repetition and one length do not hinder each other.
+  std::vector<int> signals;
+};
+
+// Returns the room of each node. Where slots are shared, frames that no node owns count for each.
+std::vector<Room> room_left(const Instance& instance, const Places& places, int bits);
+
+}  // namespace ttf::schedules::synthesis::packing
