@@ -12,6 +12,7 @@
 #include "cli/schedule/medium_check.h"
 #include "cli/schedule/schedule_input.h"
 #include "cli/schedule/sequence.h"
+#include "cli/schedule/synthesize.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/scenario.h"
@@ -285,6 +286,7 @@ void add_schedule(CLI::App& app, Action& action) {
   exporting->add_option("-o,--out", options->out, "File to write; else standard output")->check(named());
   call_on_file(*exporting, options, action, export_cluster);
   add_sequence(*command, action);
+  add_synthesize(*command, action);
 }
 
 }  // namespace ttf::cli::schedule

@@ -12,6 +12,7 @@ def make(folder: pathlib.Path, repository: pathlib.Path, program: pathlib.Path) 
             copy = folder / file.relative_to(repository)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(file, copy)
+    shutil.copytree(repository / "examples/packing", folder / "examples/packing")
     if (repository / ".gitignore").exists():
         shutil.copy(repository / ".gitignore", folder)
     (folder / "build/release").mkdir(parents=True)

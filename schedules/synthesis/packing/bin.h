@@ -13,7 +13,7 @@
 
 namespace ttf::schedules::synthesis::packing {
 
-// Which of the places in a bin is the first: that of the lowest cycle, or that of the lowest bit.
+// The first place in a bin is that of the lowest cycle, or that of the lowest bit.
 enum class Fit : std::uint8_t { kLowestCycle, kLowestBit };
 
 class Bin {
@@ -51,7 +51,7 @@ class Bin {
   int cycles_, payload_bits_;
   std::size_t words_;
   std::vector<Word> used_;  // the unions, each of words_
-  std::vector<int> owner_;  // of the same unions: a node, kFree or kMixed
+  std::vector<int> owner_;  // for the same unions: a node, kFree or kMixed
   std::int64_t used_bits_ = 0;
 };
 

@@ -13,8 +13,8 @@
 namespace ttf::schedules::synthesis::packing {
 
 struct Effort {
-  int steps = 200;         // of the improvement, for each part that is above its bound
-  std::uint64_t seed = 1;  // of its draws
+  int steps = 200;         // for each part that is above its bound
+  std::uint64_t seed = 1;  // for its draws
 };
 
 // Packs the order behind `fixed`, and improves it until it has at most `bound` bins or the steps are used up.

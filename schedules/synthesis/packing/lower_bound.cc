@@ -20,33 +20,33 @@ Cycles cycles_of(int repetition, Window window, int cycles) {
   return set;
 }
 
-// Signals of one node with the same cycles and the same length.
+// Signals of one node with the same repetition, window and length.
 struct Kind {
   Cycles cycles = 0;
   int bits = 0;
-  std::int64_t sent = 0;  // frames that have such a signal, in all cycles
+  int repetition = 1;
+  std::int64_t signals = 0;
 };
 
 // Returns the kinds of each node, by ascending length.
 std::vector<std::vector<Kind>> kinds_by_node(const Instance& instance, const Order& signals) {
-  std::vector<std::map<std::pair<int, Cycles>, std::int64_t>> sent(instance.nodes.size());
-  std::map<std::array<int, 3>, Cycles> known;
+  std::vector<std::map<std::array<int, 4>, std::int64_t>> counts(instance.nodes.size());
   for (const std::size_t index : signals) {
     const Signal& signal = instance.signals[index];
-    Cycles& cycles = known[{signal.repetition, signal.window.earliest, signal.window.latest}];
-    if (cycles == 0) cycles = cycles_of(signal.repetition, signal.window, instance.cycles);
-    sent[static_cast<std::size_t>(signal.node)][{signal.bits, cycles}] += instance.cycles / signal.repetition;
+    ++counts[static_cast<std::size_t>(signal.node)]
+            [{signal.bits, signal.repetition, signal.window.earliest, signal.window.latest}];
   }
-  std::vector<std::vector<Kind>> kinds(sent.size());
-  for (std::size_t node = 0; node < sent.size(); ++node)
-    for (const auto& [kind, times] : sent[node]) kinds[node].push_back({kind.second, kind.first, times});
+  std::vector<std::vector<Kind>> kinds(counts.size());
+  for (std::size_t node = 0; node < counts.size(); ++node)
+    for (const auto& [kind, count] : counts[node])
+      kinds[node].push_back({cycles_of(kind[1], {kind[2], kind[3]}, instance.cycles), kind[0], kind[1], count});
   return kinds;
 }
 
 // Sums of the kinds up to each length.
 struct Sums {
   std::vector<int> bits{};
-  std::vector<std::int64_t> sent{}, load{};  // of all lengths up to this one
+  std::vector<std::int64_t> sent{}, load{};  // over all lengths up to this one
 
   // Return the sums over lengths of low..high.
   std::int64_t sent_in(int low, int high) const { return at(sent, high) - at(sent, low - 1); }
@@ -57,13 +57,15 @@ struct Sums {
   }
 };
 
-Sums sums_within(const std::vector<Kind>& kinds, Cycles set) {
+// The kinds that are sent in cycles of the set alone, and at least every `modulus` cycles; `sent` counts in classes of cycles.
+Sums sums_within(const std::vector<Kind>& kinds, Cycles set, int modulus) {
   Sums sums;
   std::int64_t sent = 0, load = 0;
   for (const Kind& kind : kinds) {
-    if ((kind.cycles & ~set) != 0) continue;
-    sent += kind.sent;
-    load += kind.sent * kind.bits;
+    if ((kind.cycles & ~set) != 0 || kind.repetition > modulus) continue;
+    const std::int64_t classes = kind.signals * (modulus / kind.repetition);
+    sent += classes;
+    load += classes * kind.bits;
     if (sums.bits.empty() || sums.bits.back() != kind.bits) {
       sums.bits.push_back(kind.bits);
       sums.sent.push_back(0);
@@ -75,9 +77,8 @@ Sums sums_within(const std::vector<Kind>& kinds, Cycles set) {
   return sums;
 }
 
-// Returns the frames that the kinds need in the set of cycles.
-std::int64_t frames_within(const std::vector<Kind>& kinds, Cycles set, int payload) {
-  const Sums sums = sums_within(kinds, set);
+// Returns the classes of cycles that the sums need.
+std::int64_t classes_needed(const Sums& sums, int payload) {
   const auto weight = [&](int threshold) {
     return payload * sums.sent_in(payload - threshold + 1, payload) + sums.load_in(threshold, payload - threshold);
   };
@@ -86,6 +87,15 @@ std::int64_t frames_within(const std::vector<Kind>& kinds, Cycles set, int paylo
     if (const int threshold = 2 * bits > payload ? payload - bits + 1 : bits; 2 * threshold <= payload)
       most = std::max(most, weight(threshold));
   return quotient_up(most, payload);
+}
+
+// Returns the frames that the kinds of a node need in the set of cycles.
+std::int64_t frames_within(const std::vector<Kind>& kinds, Cycles set, const Instance& instance) {
+  std::int64_t frames = 0;
+  for (int modulus = 1; modulus <= instance.cycles; modulus *= 2)
+    frames = std::max(
+        frames, classes_needed(sums_within(kinds, set, modulus), instance.payload_bits) * (instance.cycles / modulus));
+  return frames;
 }
 
 }  // namespace
@@ -98,7 +108,7 @@ int least_bins(const Instance& instance, const Order& signals) {
       for (int last = first; last < repetition; ++last) {
         const Cycles set = cycles_of(repetition, {first, last}, instance.cycles);
         std::int64_t frames = 0;
-        for (const std::vector<Kind>& of_node : kinds) frames += frames_within(of_node, set, instance.payload_bits);
+        for (const std::vector<Kind>& of_node : kinds) frames += frames_within(of_node, set, instance);
         bins = std::max(bins, quotient_up(frames, std::popcount(set)));
       }
   return static_cast<int>(bins);

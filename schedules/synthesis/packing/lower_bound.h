@@ -1,7 +1,9 @@
 // A number of bins that no packing can do without.
 //
-// Let S be a set of cycles, and consider the signals that can be sent in cycles of S alone. Each frame of S has W bits. So
-//   bins >= ceil(frames / |S|),   frames = ceil(sum over these signals of (times sent in S) * weight(bits) / W).
+// Let S be a set of cycles, M = 1, 2, 4, ... a modulus, and consider the signals of a node that can be sent in cycles of S alone and
+// have a repetition R of at most M. A class is the cycles c of a bin with one c mod M. Such a signal lies in M / R whole classes, and
+// those in a class have at most W bits. So
+//   classes >= ceil(sum over these signals of M / R * weight(bits) / W),  frames = classes * cycles / M,  bins >= ceil(frames / |S|).
 // With S all cycles and weight(b) = b this is the load, ceil(sum bits / R / W). Windows make other sets S matter: all sets of
 // cycles c with first <= c mod R <= last are tried.
 //
@@ -10,7 +12,7 @@
 // signals shorter than k do not count. For a frame with such a long signal has less than k bits left. All k are tried. So the bound
 // is exact for whole frames.
 //
-// Where slots are shared, each node needs frames of its own: the frames of all nodes are summed up, each rounded up.
+// Where slots are shared, each node needs frames of its own: the frames of all nodes are summed up.
 #pragma once
 
 #include "schedules/synthesis/packing/instance.h"

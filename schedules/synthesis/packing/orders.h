@@ -1,4 +1,4 @@
-// The orders in which first fit tries the signals. None is best for all instances, so all are tried.
+// The orders in which first fit tries the signals. No order is best for all instances, so all are tried.
 #pragma once
 
 #include <string_view>

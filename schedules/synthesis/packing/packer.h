@@ -18,7 +18,7 @@ struct Part {
   double load = 0.0;        // lower_bound.h
   int bound = 0;            // the bins that any packing needs, beside those that stand
   int bins = 0;
-  std::int64_t used_bits = 0;  // of all cycles
+  std::int64_t used_bits = 0;  // in all cycles
   std::string how;             // the order that was best
 
   bool proven() const { return bins == bound; }

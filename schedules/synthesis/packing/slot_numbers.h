@@ -2,8 +2,8 @@
 //
 // On two channels with the same content each slot is sent on both, so a packing of one channel serves. Independent channels: a slot
 // number on A and the same one on B are two bins, which may belong to different nodes. All nodes are attached to both channels. So
-// the bins of one channel are dealt out in turn, and the fuller channel has half of them, rounded up. That is the fewest if
-// the bins are.
+// the bins of one channel are dealt out in turn, and the fuller channel has half of them, rounded up. These are the fewest
+// if the bins are.
 #pragma once
 
 #include <cstdint>

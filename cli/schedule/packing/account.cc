@@ -1,0 +1,137 @@
+#include "cli/schedule/packing/account.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/decimal.h"
+
+namespace ttf::cli::schedule::packing {
+namespace {
+
+namespace table = schedules::synthesis::packing;
+using schedules::model::Channel;
+
+std::string milliseconds_text(Duration time) { return scaled_text(time.ns, 1'000'000); }
+
+std::string part_name(const Account& account, const table::Part& part) {
+  return part.nodes.size() == 1 && !account.file.instance.shared_slots
+             ? account.file.instance.nodes[static_cast<std::size_t>(part.nodes.front())]
+             : "all";
+}
+
+// The free bits of a part's bins, in percent of all their bits.
+double free_percent(const Account& account, const table::Part& part) {
+  const double bits = static_cast<double>(account.file.shape.cycles * account.file.shape.payload_bits) * part.bins;
+  return part.bins == 0 ? 0.0 : 100.0 * (1.0 - static_cast<double>(part.used_bits) / bits);
+}
+
+std::string parts_text(const Account& account) {
+  std::size_t width = 4;
+  for (const table::Part& part : account.solution.parts) width = std::max(width, part_name(account, part).size());
+  std::string text = fmt::format("{:<{}}  signals     load  at least  slots  free [%]  order\n", "node", width);
+  for (const table::Part& part : account.solution.parts)
+    text += fmt::format("{:<{}}  {:>7}  {:>7.3f}  {:>8}  {:>5}  {:>8.1f}  {}\n", part_name(account, part), width,
+                        part.signals, part.load, part.bound, part.bins, free_percent(account, part), part.how);
+  return text;
+}
+
+std::string verdict_text(const Account& account) {
+  const int slots = account.slots_needed(), least = account.least_slots();
+  const std::string where = account.use == table::ChannelUse::kOne    ? "static slots"
+                            : account.use == table::ChannelUse::kSame ? "static slots, on both channels"
+                                                                      : "static slots on the fuller channel";
+  if (slots == least)
+    return fmt::format("{} {}: proven to be the fewest, {}\n", slots, where,
+                       account.standing > 0 ? "beside the places that stand" : "the bound is as many");
+  return fmt::format("{} {}: at most {} more than needed, as no packing has fewer than {}\n", slots, where,
+                     slots - least, least);
+}
+
+std::string room_text(const Account& account) {
+  std::size_t width = 4;
+  for (const std::string& node : account.file.instance.nodes) width = std::max(width, node.size());
+  std::string text = fmt::format("room for further signals of {} bits in these slots, all of one period [ms]:\n{:<{}}",
+                                 account.room_bits, "node", width);
+  for (int times = 1; times <= account.file.shape.cycles; times *= 2)
+    text += fmt::format("  {:>7}", milliseconds_text(account.file.shape.cycle * times));
+  text += '\n';
+  for (const table::Room& room : account.rooms) {
+    text += fmt::format("{:<{}}", account.file.instance.nodes[static_cast<std::size_t>(room.node)], width);
+    for (const int signals : room.signals) text += fmt::format("  {:>7}", signals);
+    text += '\n';
+  }
+  return text;
+}
+
+nlohmann::ordered_json parts_json(const Account& account) {
+  auto json = nlohmann::ordered_json::array();
+  for (const table::Part& part : account.solution.parts) {
+    nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
+    for (const int node : part.nodes) nodes.push_back(account.file.instance.nodes[static_cast<std::size_t>(node)]);
+    json.push_back({{"nodes", std::move(nodes)},
+                    {"signals", part.signals},
+                    {"load", part.load},
+                    {"least_slots", part.bound},
+                    {"slots", part.bins},
+                    {"proven", part.proven()},
+                    {"free_percent", free_percent(account, part)},
+                    {"order", part.how}});
+  }
+  return json;
+}
+
+}  // namespace
+
+int Account::slots_needed() const { return std::max(slots_on(numbers, Channel::kA), slots_on(numbers, Channel::kB)); }
+
+int Account::least_slots() const {
+  const int bins = solution.bound();
+  if (use != table::ChannelUse::kIndependent) return bins;
+  // Places that stand may fill one channel more than the other.
+  std::vector<table::SlotNumber> fewest = numbers;
+  fewest.resize(static_cast<std::size_t>(std::min<int>(bins, static_cast<int>(numbers.size()))));
+  return std::max(slots_on(fewest, Channel::kA), slots_on(fewest, Channel::kB));
+}
+
+std::string account_text(const Account& account) {
+  const TableShape& shape = account.file.shape;
+  std::string text =
+      fmt::format("{} signals of {} {} in frames of {} bits, {} {} of {} ms{}\n", account.file.instance.signals.size(),
+                  account.file.instance.nodes.size(), account.file.instance.nodes.size() == 1 ? "node" : "nodes",
+                  shape.payload_bits, shape.cycles, shape.cycles == 1 ? "cycle" : "cycles",
+                  milliseconds_text(shape.cycle), shape.shared_slots ? ", slots shared among nodes" : "");
+  if (account.standing > 0)
+    text += fmt::format("{} signals stand at their places, {} are new\n", account.standing,
+                        std::count_if(account.solution.places.begin(), account.solution.places.end(),
+                                      [](const auto& place) { return place.has_value(); }) -
+                            account.standing);
+  text += parts_text(account) + verdict_text(account);
+  if (account.slots && *account.slots >= account.slots_needed())
+    text += fmt::format("{} of the {} static slots given are free\n", *account.slots - account.slots_needed(),
+                        *account.slots);
+  return text + room_text(account);
+}
+
+std::string account_json(const Account& account) {
+  nlohmann::ordered_json json{{"signals", account.file.instance.signals.size()},
+                              {"standing", account.standing},
+                              {"slots", account.slots_needed()},
+                              {"least_slots", account.least_slots()},
+                              {"proven", account.slots_needed() == account.least_slots()},
+                              {"without_place", nlohmann::ordered_json::array()},
+                              {"parts", parts_json(account)},
+                              {"room", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : account.file.impossible)
+    json["without_place"].push_back({{"signal", finding.value}, {"line", finding.line}, {"why", finding.expected}});
+  for (const table::Room& room : account.rooms)
+    json["room"].push_back({{"node", account.file.instance.nodes[static_cast<std::size_t>(room.node)]},
+                            {"free_bits", room.free_bits},
+                            {"bits", account.room_bits},
+                            {"signals_by_repetition", room.signals}});
+  if (account.slots) json["slots_free"] = std::max(0, *account.slots - account.slots_needed());
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace ttf::cli::schedule::packing

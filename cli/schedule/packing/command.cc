@@ -1,0 +1,141 @@
+#include "cli/schedule/packing/command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+
+#include "cli/argument_checks.h"
+#include "cli/output.h"
+#include "cli/schedule/packing/account.h"
+#include "cli/schedule/packing/signal_file.h"
+#include "core/check.h"
+#include "core/decimal.h"
+#include "core/errors.h"
+
+namespace ttf::cli::schedule::packing {
+namespace {
+
+namespace table = schedules::synthesis::packing;
+
+constexpr Duration kShortestCycle = Duration::microseconds(10), kLongestCycle = Duration::milliseconds(16);
+
+[[noreturn]] void refuse_option(const char* option, const std::string& text, std::string expected) {
+  throw InputError({"command line", 0, option, text, std::move(expected)});
+}
+
+// Reads "32bit" or "4byte".
+int payload_of(const std::string& text) {
+  for (const auto& [unit, bits] : {std::pair{"bit", 1}, {"byte", 8}})
+    if (text.ends_with(unit))
+      if (const auto value = parse_scaled(text.substr(0, text.size() - std::string_view(unit).size()), 1);
+          value && *value >= 1 && *value <= table::kMostPayloadBits / bits)
+        return static_cast<int>(*value) * bits;
+  refuse_option("--payload", text,
+                fmt::format("must be 1..{}bit or 1..{}byte", table::kMostPayloadBits, table::kMostPayloadBits / 8));
+}
+
+TableShape shape_of(const PackingOptions& options) {
+  const auto cycle = parse_duration(options.cycle);
+  if (!cycle || *cycle < kShortestCycle || *cycle > kLongestCycle)
+    refuse_option("--cycle", options.cycle, "must be 0.01..16 ms with its unit, as in 5ms");
+  if (!std::has_single_bit(static_cast<unsigned>(options.cycles)))
+    refuse_option("--cycles", std::to_string(options.cycles), "must be 1, 2, 4, 8, 16, 32 or 64");
+  return {*cycle, payload_of(options.payload), options.cycles, options.slot_multiplexing};
+}
+
+table::ChannelUse use_of(const PackingOptions& options) {
+  if (options.channels == "same") return table::ChannelUse::kSame;
+  return options.channels == "independent" ? table::ChannelUse::kIndependent : table::ChannelUse::kOne;
+}
+
+// Returns 1 with a sentence for each signal without a place.
+int print_impossible(const SignalFile& file) {
+  for (const Finding& finding : file.impossible)
+    fmt::print(stderr, "error: {}:{}: signal {} {}\n", finding.file, finding.line, finding.value, finding.expected);
+  return file.impossible.empty() ? 0 : 1;
+}
+
+// Returns the reason why the slots do not suffice, or an empty text.
+std::string shortage(const Account& account, int first_slot) {
+  const int last = first_slot + account.slots.value_or(table::kLastStaticSlot + 1) - 1;
+  int highest = 0;
+  for (const table::SlotNumber& number : account.numbers) highest = std::max(highest, number.slot);
+  if (highest <= std::min(last, table::kLastStaticSlot)) return {};
+  return fmt::format(
+      "need {} static slots with numbers up to {}: slots must be {}..{}, and no packing has fewer than {}",
+      account.slots_needed(), highest, first_slot, std::min(last, table::kLastStaticSlot), account.least_slots());
+}
+
+}  // namespace
+
+void add_packing_options(CLI::App& command, PackingOptions& options) {
+  const auto group = [&](CLI::Option* option) { return option->group("Signals"); };
+  CLI::Option* signals = group(command.add_option("--signals", options.signals, "Signals to pack into frames: CSV"));
+  signals->check(named());
+  std::vector<CLI::Option*> others{
+      command.add_option("--fixed", options.fixed, "Packing to keep: its signals do not move, new ones are added")
+          ->check(named()),
+      command.add_option("--cycle", options.cycle, "Communication cycle")->capture_default_str(),
+      command.add_option("--payload", options.payload, "Payload of a frame, in bit or byte")->capture_default_str(),
+      command.add_option("--cycles", options.cycles, "Cycles after which the schedule repeats: a power of two")
+          ->check(whole_number({1, table::kMostCycles}))
+          ->capture_default_str(),
+      command.add_flag("--slot-multiplexing", options.slot_multiplexing,
+                       "Share slots among nodes, in different cycles (FlexRay 3.0)"),
+      command
+          .add_option("--channels", options.channels,
+                      "one; same: both channels with the same content; independent: each with its own")
+          ->check(one_of({"one", "same", "independent"}))
+          ->capture_default_str(),
+      command.add_option("--first-slot", options.first_slot, "Number of the first slot to use")
+          ->check(whole_number({0, table::kLastStaticSlot}))
+          ->capture_default_str(),
+      command.add_option("--slots", options.slots, "Static slots that are there (default: as many as needed)")
+          ->check(whole_number({1, table::kLastStaticSlot})),
+      command.add_option("--steps", options.steps, "Steps of improvement for a node above its bound")
+          ->check(whole_number({0, 1'000'000}))
+          ->capture_default_str(),
+      command.add_option("--seed", options.seed, "Seed of the improvement")
+          ->check(whole_number({0, 4'294'967'295}))
+          ->capture_default_str(),
+      command.add_option("--room-for", options.room_bits, "Length of the further signals that the room is told for")
+          ->check(whole_number({1, table::kMostPayloadBits}))
+          ->capture_default_str()};
+  for (CLI::Option* option : others) group(option)->needs(signals);
+}
+
+int pack_signals(const PackingOptions& options, const std::string& out, bool json) {
+  if (!out.empty()) {
+    refuse_overwriting(options.signals, out, "--out");
+    if (!options.fixed.empty()) refuse_overwriting(options.fixed, out, "--out");
+  }
+  const table::ChannelUse use = use_of(options);
+  const SignalFile file = read_signals(options.signals, shape_of(options));
+  StandingPlaces standing;
+  if (!options.fixed.empty()) standing = read_standing(options.fixed, file, use);
+  print_warnings(standing.notes);
+  const table::Solution solution = pack(file.instance, standing.places, {options.steps, options.seed});
+  const auto numbers = slot_numbers(standing.numbers, solution.bins, options.first_slot, use);
+  const table::Assignment assignment = assigned(solution.places, numbers);
+  const auto rooms = room_left(file.instance, solution.places, options.room_bits);
+  const auto kept = std::count_if(standing.places.begin(), standing.places.end(),
+                                  [](const auto& place) { return place.has_value(); });
+  const Account account{file, solution, numbers, rooms, use, static_cast<int>(kept), options.room_bits, options.slots};
+  fmt::print("{}", json ? account_json(account) : account_text(account));
+  int code = print_impossible(file);
+  if (const std::string why = shortage(account, options.first_slot); !why.empty()) {
+    fmt::print(stderr, "error: {}: the signals {}\n", options.signals, why);
+    return 1;
+  }
+  const auto broken = violations(file.instance, assignment);
+  TTF_CHECK(broken.empty(), "signal {} {}", file.instance.signals[broken.front().signal].name, broken.front().text);
+  if (!out.empty()) {
+    write_file(out, packing_csv(file, assignment));
+    say_written(out, fmt::format("{} slots", account.slots_needed()));
+  }
+  return code;
+}
+
+}  // namespace ttf::cli::schedule::packing

@@ -1,0 +1,57 @@
+// Reads the signals that are to be packed, and places that stand, from CSV (docs/packing.md lists the columns).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/time.h"
+#include "schedules/synthesis/packing/check.h"
+#include "schedules/synthesis/packing/instance.h"
+#include "schedules/synthesis/packing/slot_numbers.h"
+
+namespace ttf::cli::schedule::packing {
+
+// The times of a signal as they stand in the file.
+struct SignalTimes {
+  Duration period, release, deadline;
+  int line = 0;
+};
+
+// The table that signals are packed into.
+struct TableShape {
+  Duration cycle = Duration::milliseconds(5);
+  int payload_bits = 32;
+  int cycles = schedules::synthesis::packing::kMostCycles;
+  bool shared_slots = false;
+};
+
+struct SignalFile {
+  std::string name;
+  TableShape shape;
+  schedules::synthesis::packing::Instance instance;  // nodes in the order of the file
+  std::vector<SignalTimes> times;                    // by signal
+  std::vector<Finding> impossible;                   // the signals that no packing can have a place for
+};
+
+// Throws InputError with all mistakes of the file.
+SignalFile read_signals(const std::string& path, const TableShape& shape);
+SignalFile parse_signals(const std::string& text, const std::string& name, const TableShape& shape);
+
+// Places that stand. Their bins are numbered from 0 without a gap.
+struct StandingPlaces {
+  schedules::synthesis::packing::Places places;  // by signal of the signal file
+  std::vector<schedules::synthesis::packing::SlotNumber> numbers;
+  std::vector<std::string> notes;  // places that are not kept, and why
+};
+
+// Throws InputError with all mistakes: a signal that changed its node, period or length, and places that break a rule.
+StandingPlaces read_standing(const std::string& path, const SignalFile& signals,
+                             schedules::synthesis::packing::ChannelUse use);
+StandingPlaces parse_standing(const std::string& text, const std::string& name, const SignalFile& signals,
+                              schedules::synthesis::packing::ChannelUse use);
+
+// Returns the packing as a file that read_signals() and read_standing() take.
+std::string packing_csv(const SignalFile& signals, const schedules::synthesis::packing::Assignment& assignment);
+
+}  // namespace ttf::cli::schedule::packing

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# `ttfusion schedule synthesize --signals`: packings, their files, what stands, and one sentence for each mistake.
+#   schedule_packing_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+signals=$source/examples/packing/signals.csv
+grown=$source/examples/packing/grown_signals.csv
+packed=(schedule synthesize --payload 8byte)
+expect 0 '^5 static slots: proven to be the fewest' "${packed[@]}" --signals "$signals" -o "$work/packing.csv"
+says '^chassis +15 +1\.598 +2 +2 +20\.1 ' '^wrote .*packing.csv: 5 slots$' '^body +1 +9 +25 +56 +118 +241 +486$'
+[[ $(wc -l <"$work/packing.csv") -eq 45 ]] || fail "packing.csv has not a line for each signal"
+
+# The same bytes again, from a packing as signals, too. Signals that stand do not move.
+"$program" "${packed[@]}" --signals "$work/packing.csv" -o "$work/again.csv" >/dev/null 2>&1
+cmp -s "$work/packing.csv" "$work/again.csv" || fail "a packing packed again is another one"
+expect 0 '^44 signals stand at their places, 5 are new$' "${packed[@]}" --signals "$grown" --fixed "$work/packing.csv" \
+  -o "$work/grown.csv"
+head -45 "$work/grown.csv" | cmp -s - "$work/packing.csv" || fail "a signal that stands moved"
+expect 0 'signal slip_warning is not among the signals .*; its place is free' "${packed[@]}" --signals "$signals" \
+  --fixed "$work/grown.csv"
+
+expect 0 '^3 static slots: proven' "${packed[@]}" --signals "$signals" --slot-multiplexing
+expect 0 '^5 static slots, on both channels: proven' "${packed[@]}" --signals "$signals" --channels same -o "$work/same.csv"
+grep -q '^rain,.*,AB$' "$work/same.csv" || fail "no signal is on both channels"
+expect 0 '^3 static slots on the fuller channel: proven' "${packed[@]}" --signals "$signals" --channels independent
+expect 0 '^2 of the 7 static slots given are free$' "${packed[@]}" --signals "$signals" --slots 7
+expect 1 'need 5 static slots with numbers up to 5: slots must be 1..4, and no packing has fewer than 5$' \
+  "${packed[@]}" --signals "$signals" --slots 4 -o "$work/none.csv"
+[[ ! -e $work/none.csv ]] || fail "a packing without enough slots is written"
+"$program" "${packed[@]}" --signals "$signals" --json >"$work/packing.json" || fail "a packing as JSON fails"
+python3 - "$work/packing.json" <<'PY' || fail "a packing is no JSON"
+import json, sys
+found = json.load(open(sys.argv[1]))
+assert (found["slots"], found["least_slots"], found["proven"]) == (5, 5, True), found
+assert [part["slots"] for part in found["parts"]] == [2, 1, 1, 1], found
+assert found["room"][3]["signals_by_repetition"][-1] == 486, found
+PY
+
+# Signals without a place are named, and the others are packed.
+expect 1 'signals.csv:20: signal tyre_pressure has no place: its 32 bits must fit a frame of 16 bits$' \
+  schedule synthesize --signals "$signals" --payload 16bit -o "$work/narrow.csv"
+grep -q '^tyre_pressure,chassis,320,0,320,32,,,,$' "$work/narrow.csv" || fail "a signal without a place has one"
+printf 'signal,node,period_ms,release_ms,deadline_ms,bits\nlate,a,5,5,5,1\n' >"$work/late.csv"
+expect 1 'late.csv:2: signal late has no place: a cycle of 5 ms must begin' schedule synthesize --signals "$work/late.csv"
+
+mistake() {  # WORDS ARGS...
+  expect 2 "$1" schedule synthesize "${@:2}"
+}
+mistake '--signals: must name the signals to pack'
+mistake '--payload = 3 words: must be 1..2032bit or 1..254byte' --signals "$signals" --payload '3 words'
+mistake '--payload = 255byte: must be' --signals "$signals" --payload 255byte
+mistake '--cycle = 5: must be 0.01..16 ms with its unit' --signals "$signals" --cycle 5
+mistake '--cycles = 48: must be 1, 2, 4, 8, 16, 32 or 64' --signals "$signals" --cycles 48
+mistake 'period_ms = 320: must be a decimal number 5..160 ms' --signals "$signals" --cycles 32
+mistake '--channels' --signals "$signals" --channels two
+mistake '--fixed' --fixed "$work/packing.csv"
+mistake '--out' --signals "$signals" -o "$signals"
+sed 's/^rain,\(.*\),[0-9]*,A$/rain,\1,63,A/' "$work/packing.csv" >"$work/moved.csv"
+mistake 'moved.csv:4[0-9]: signal = rain: must have its 4 bits within the 64 of a frame' --signals "$signals" \
+  --payload 8byte --fixed "$work/moved.csv"
+mistake 'absent.csv' --signals "$work/absent.csv"
+expect_full schedule synthesize --signals "$signals" --payload 8byte
+
+[[ $failures -eq 0 ]] && echo "schedule synthesize --signals: all as documented"
+exit $((failures > 0))

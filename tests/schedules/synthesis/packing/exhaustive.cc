@@ -1,0 +1,60 @@
+#include "tests/schedules/synthesis/packing/exhaustive.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace ttf::schedules::synthesis::packing {
+namespace {
+
+// A bin is a word: bit `offset` of cycle c is bit 8 c + offset. Its owners, by cycle, are -1 or a node.
+struct TinyBin {
+  std::uint64_t used = 0;
+  std::vector<int> owner = std::vector<int>(8, -1);
+};
+
+bool owners_allow(const Instance& instance, const TinyBin& bin, const Signal& signal, int first) {
+  for (int c = 0; c < instance.cycles; ++c) {
+    const bool counts = !instance.shared_slots || c % signal.repetition == first;
+    const int owner = bin.owner[static_cast<std::size_t>(c)];
+    if (counts && owner != -1 && owner != signal.node) return false;
+  }
+  return true;
+}
+
+bool fits(const Instance& instance, std::vector<TinyBin>& bins, std::size_t index, std::size_t most) {
+  if (index == instance.signals.size()) return true;
+  const Signal& signal = instance.signals[index];
+  for (std::size_t b = 0; b < most; ++b) {
+    if (b > bins.size()) break;  // one empty bin is like the other
+    if (b == bins.size()) bins.emplace_back();
+    for (int first = signal.window.earliest; first <= signal.window.latest; ++first) {
+      if (!owners_allow(instance, bins[b], signal, first)) continue;
+      for (int offset = 0; offset + signal.bits <= instance.payload_bits; ++offset) {
+        std::uint64_t wanted = 0;
+        for (int c = first; c < instance.cycles; c += signal.repetition)
+          wanted |= ((std::uint64_t{1} << signal.bits) - 1) << (8 * c + offset);
+        if ((bins[b].used & wanted) != 0) continue;
+        const TinyBin before = bins[b];
+        bins[b].used |= wanted;
+        for (int c = first; c < instance.cycles; c += signal.repetition)
+          bins[b].owner[static_cast<std::size_t>(c)] = signal.node;
+        const std::size_t open = bins.size();
+        if (fits(instance, bins, index + 1, most)) return true;
+        bins.resize(open);
+        bins[b] = before;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+int fewest_bins(const Instance& instance) {
+  for (std::size_t most = 0;; ++most) {
+    std::vector<TinyBin> bins;
+    if (fits(instance, bins, 0, most)) return static_cast<int>(most);
+  }
+}
+
+}  // namespace ttf::schedules::synthesis::packing

@@ -1,0 +1,11 @@
+// The fewest bins of a small instance, by trying all places of all signals.
+#pragma once
+
+#include "schedules/synthesis/packing/instance.h"
+
+namespace ttf::schedules::synthesis::packing {
+
+// Returns the fewest bins for the signals, at most 8 cycles of at most 8 bits; all bins have one node, or shared slots.
+int fewest_bins(const Instance& instance);
+
+}  // namespace ttf::schedules::synthesis::packing
