@@ -39,12 +39,20 @@ assert [part["slots"] for part in found["parts"]] == [2, 1, 1, 1], found
 assert found["room"][3]["signals_by_repetition"][-1] == 486, found
 PY
 
+# A bus of it is consistent, and has the packing's slots.
+expect 0 'bus.xml: 35 frames with signals, and 4 slots more: key slots, without signals$' "${packed[@]}" \
+  --signals "$signals" --channels same --fibex "$work/bus.xml"
+expect 0 '^signals: consistent$' schedule check "$work/bus.xml"
+expect 0 '^signals: cycle of 5 ms, 5000 macroticks: static 9 x 35' schedule show "$work/bus.xml"
+
 # Signals without a place are named, and the others are packed.
-expect 1 'signals.csv:20: signal tyre_pressure has no place: its 32 bits must fit a frame of 16 bits$' \
+expect 1 'signals.csv:17: signal tyre_pressure has no place: its 32 bits must fit a frame of 16 bits$' \
   schedule synthesize --signals "$signals" --payload 16bit -o "$work/narrow.csv"
 grep -q '^tyre_pressure,chassis,320,0,320,32,,,,$' "$work/narrow.csv" || fail "a signal without a place has one"
 printf 'signal,node,period_ms,release_ms,deadline_ms,bits\nlate,a,5,5,5,1\n' >"$work/late.csv"
 expect 1 'late.csv:2: signal late has no place: a cycle of 5 ms must begin' schedule synthesize --signals "$work/late.csv"
+
+printf 'signal,node,period_ms,bits\na,a,0.08,32\nb,b,0.08,32\nc,c,0.08,32\n' >"$work/fast.csv"
 
 mistake() {  # WORDS ARGS...
   expect 2 "$1" schedule synthesize "${@:2}"
@@ -55,6 +63,11 @@ mistake '--payload = 255byte: must be' --signals "$signals" --payload 255byte
 mistake '--cycle = 5: must be 0.01..16 ms with its unit' --signals "$signals" --cycle 5
 mistake '--cycles = 48: must be 1, 2, 4, 8, 16, 32 or 64' --signals "$signals" --cycles 48
 mistake 'period_ms = 320: must be a decimal number 5..160 ms' --signals "$signals" --cycles 32
+mistake '--fibex = .*bus.xml: goes without --slot-multiplexing' --signals "$signals" --fibex "$work/bus.xml" \
+  --payload 8byte --slot-multiplexing
+mistake '--fibex = .*: goes with --channels one or same' --signals "$signals" --fibex "$work/bus.xml" --payload 8byte \
+  --channels independent
+mistake 'slots = [0-9]*: must fit the cycle of 80 macroticks' --signals "$work/fast.csv" --cycle 0.08ms --fibex "$work/bus.xml"
 mistake '--channels' --signals "$signals" --channels two
 mistake '--fixed' --fixed "$work/packing.csv"
 mistake '--out' --signals "$signals" -o "$signals"

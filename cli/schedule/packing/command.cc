@@ -9,6 +9,7 @@
 #include "cli/argument_checks.h"
 #include "cli/output.h"
 #include "cli/schedule/packing/account.h"
+#include "cli/schedule/packing/bus_file.h"
 #include "cli/schedule/packing/signal_file.h"
 #include "core/check.h"
 #include "core/decimal.h"
@@ -50,6 +51,19 @@ table::ChannelUse use_of(const PackingOptions& options) {
   return options.channels == "independent" ? table::ChannelUse::kIndependent : table::ChannelUse::kOne;
 }
 
+void check_outputs(const PackingOptions& options, const std::string& out) {
+  for (const auto& [option, path] : {std::pair{"--out", out}, {"--fibex", options.fibex}})
+    for (const std::string& input : {options.signals, options.fixed})
+      if (!path.empty() && !input.empty()) refuse_overwriting(input, path, option);
+  if (options.fibex.empty()) return;
+  if (options.slot_multiplexing)
+    refuse_option("--fibex", options.fibex, "goes without --slot-multiplexing: the file is for FlexRay 2.1");
+  if (options.channels == "independent")
+    refuse_option("--fibex", options.fibex,
+                  "goes with --channels one or same: a key slot has all channels of its node");
+  if (options.first_slot == 0) refuse_option("--first-slot", "0", "must be 1 or more with --fibex");
+}
+
 // Returns 1 with a sentence for each signal without a place.
 int print_impossible(const SignalFile& file) {
   for (const Finding& finding : file.impossible)
@@ -77,6 +91,7 @@ void add_packing_options(CLI::App& command, PackingOptions& options) {
   std::vector<CLI::Option*> others{
       command.add_option("--fixed", options.fixed, "Packing to keep: its signals do not move, new ones are added")
           ->check(named()),
+      command.add_option("--fibex", options.fibex, "Bus description to write: FIBEX 3.1")->check(named()),
       command.add_option("--cycle", options.cycle, "Communication cycle")->capture_default_str(),
       command.add_option("--payload", options.payload, "Payload of a frame, in bit or byte")->capture_default_str(),
       command.add_option("--cycles", options.cycles, "Cycles after which the schedule repeats: a power of two")
@@ -107,10 +122,7 @@ void add_packing_options(CLI::App& command, PackingOptions& options) {
 }
 
 int pack_signals(const PackingOptions& options, const std::string& out, bool json) {
-  if (!out.empty()) {
-    refuse_overwriting(options.signals, out, "--out");
-    if (!options.fixed.empty()) refuse_overwriting(options.fixed, out, "--out");
-  }
+  check_outputs(options, out);
   const table::ChannelUse use = use_of(options);
   const SignalFile file = read_signals(options.signals, shape_of(options));
   StandingPlaces standing;
@@ -131,6 +143,11 @@ int pack_signals(const PackingOptions& options, const std::string& out, bool jso
   }
   const auto broken = violations(file.instance, assignment);
   TTF_CHECK(broken.empty(), "signal {} {}", file.instance.signals[broken.front().signal].name, broken.front().text);
+  if (!options.fibex.empty()) {
+    const BusFile bus = bus_file(file, assignment);
+    write_file(options.fibex, bus.text);
+    say_written(options.fibex, bus.content);
+  }
   if (!out.empty()) {
     write_file(out, packing_csv(file, assignment));
     say_written(out, fmt::format("{} slots", account.slots_needed()));

@@ -11,6 +11,7 @@ namespace ttf::cli::schedule::packing {
 struct PackingOptions {
   std::string signals;  // empty: not given
   std::string fixed;
+  std::string fibex;
   std::string cycle = "5ms", payload = "32bit", channels = "one";
   int cycles = 64;
   bool slot_multiplexing = false;
@@ -24,7 +25,7 @@ struct PackingOptions {
 // Adds --signals and the options that go with it alone.
 void add_packing_options(CLI::App& command, PackingOptions& options);
 
-// Writes the packing to `out`, or only sums it up if that is empty. Returns 1 if a signal has no place, or if the slots do not
+// Writes the packing to `out` and the bus to `options.fibex`, if they are not empty, and sums it up. Returns 1 if a signal has no place, or if the slots do not
 // suffice, in which case nothing is written.
 int pack_signals(const PackingOptions& options, const std::string& out, bool json);
 
