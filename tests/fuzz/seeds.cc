@@ -145,6 +145,16 @@ void observation_seeds(const fs::path& folder) {
        "gt_",    "e308",         "nan",    "-",           "\\x0d\\x0a", "#",      "\\x22"});
 }
 
+// The first byte chooses the table's shape (signals_fuzz.cc).
+void signal_seeds(const fs::path& folder) {
+  write(folder / "signals/nodes", "2" + fuzz::shipped("examples/packing/signals.csv"));
+  write(folder / "signals/places",
+        "2signal,node,period_ms,release_ms,deadline_ms,bits,slot,first_cycle,bit_offset,channel\n"
+        "a,n,5,0,5,15,1,0,2,A\n\"b, c\",n,40,10,29.5,8,1,2,17,A\nd,m,320,,,4,2,60,0,A\n");
+  write_dictionary(folder / "signals.dict", {"signal", "node", "period_ms", "release_ms", "deadline_ms", "bits", "slot",
+                                             "first_cycle", "bit_offset", "channel", "160", "AB", "\\x22"});
+}
+
 void frame_seeds(const fs::path& folder) {
   for (const std::size_t payload : {0u, 16u, 254u}) {
     bus::wire::FrameHeader header;
@@ -492,6 +502,7 @@ int main(int argc, char** argv) {
   recorded_seeds(folder);
   osi_seeds(folder);
   observation_seeds(folder);
+  signal_seeds(folder);
   frame_seeds(folder);
   turn_seeds(folder);
   flexray_on_can_seeds(folder);

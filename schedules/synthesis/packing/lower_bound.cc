@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace ttf::schedules::synthesis::packing {
 namespace {
@@ -41,6 +43,22 @@ std::vector<std::vector<Kind>> kinds_by_node(const Instance& instance, const Ord
     for (const auto& [kind, count] : counts[node])
       kinds[node].push_back({cycles_of(kind[1], {kind[2], kind[3]}, instance.cycles), kind[0], kind[1], count});
   return kinds;
+}
+
+// Returns all cycles, and for each repetition the cycles between the beginning of a signal's window and the end of one.
+std::set<Cycles> sets_of(const Instance& instance, const Order& signals) {
+  std::map<int, std::pair<std::set<int>, std::set<int>>> edges;
+  for (const std::size_t index : signals) {
+    const Signal& signal = instance.signals[index];
+    edges[signal.repetition].first.insert(signal.window.earliest);
+    edges[signal.repetition].second.insert(signal.window.latest);
+  }
+  std::set<Cycles> sets{cycles_of(1, {0, 0}, instance.cycles)};
+  for (const auto& [repetition, of_windows] : edges)
+    for (const int first : of_windows.first)
+      for (const int last : of_windows.second)
+        if (first <= last) sets.insert(cycles_of(repetition, {first, last}, instance.cycles));
+  return sets;
 }
 
 // Sums of the kinds up to each length.
@@ -103,14 +121,11 @@ std::int64_t frames_within(const std::vector<Kind>& kinds, Cycles set, const Ins
 int least_bins(const Instance& instance, const Order& signals) {
   const auto kinds = kinds_by_node(instance, signals);
   std::int64_t bins = 0;
-  for (int repetition = 1; repetition <= instance.cycles; repetition *= 2)
-    for (int first = 0; first < repetition; ++first)
-      for (int last = first; last < repetition; ++last) {
-        const Cycles set = cycles_of(repetition, {first, last}, instance.cycles);
-        std::int64_t frames = 0;
-        for (const std::vector<Kind>& of_node : kinds) frames += frames_within(of_node, set, instance);
-        bins = std::max(bins, quotient_up(frames, std::popcount(set)));
-      }
+  for (const Cycles set : sets_of(instance, signals)) {
+    std::int64_t frames = 0;
+    for (const std::vector<Kind>& of_node : kinds) frames += frames_within(of_node, set, instance);
+    bins = std::max(bins, quotient_up(frames, std::popcount(set)));
+  }
   return static_cast<int>(bins);
 }
 

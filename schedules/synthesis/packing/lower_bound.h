@@ -4,8 +4,8 @@
 // have a repetition R of at most M. A class is the cycles c of a bin with one c mod M. Such a signal lies in M / R whole classes, and
 // those in a class have at most W bits. So
 //   classes >= ceil(sum over these signals of M / R * weight(bits) / W),  frames = classes * cycles / M,  bins >= ceil(frames / |S|).
-// With S all cycles and weight(b) = b this is the load, ceil(sum bits / R / W). Windows make other sets S matter: all sets of
-// cycles c with first <= c mod R <= last are tried.
+// With S all cycles and weight(b) = b this is the load, ceil(sum bits / R / W). Windows make other sets S matter: the sets of
+// cycles c with first <= c mod R <= last are tried, from the beginning of a window to the end of one.
 //
 // weight() is a dual feasible function (Fekete, Schepers, "New classes of fast lower bounds for bin packing problems",
 // Mathematical Programming 91, 2001, u^(eps)): with a threshold k of 1..W/2, signals longer than W - k count as a whole frame, and

@@ -1,0 +1,68 @@
+// Any text as signals to pack, and as places that stand. Laws: each mistake is a finding with the file's name. Accepted signals
+// have a place unless they are named as impossible, the packing passes the checker and is not below its bound, and its file is read
+// again as the same packing. Places that stand do not move, and a bus of the packing has each signal in its cycles.
+#include <algorithm>
+#include <string>
+
+#include "cli/schedule/packing/signal_file.h"
+#include "core/check.h"
+#include "schedules/synthesis/packing/frames.h"
+#include "schedules/synthesis/packing/packer.h"
+#include "tests/fuzz/harness.h"
+
+namespace {
+
+using namespace ttf;
+using namespace ttf::schedules::synthesis::packing;
+using cli::schedule::packing::SignalFile;
+using cli::schedule::packing::StandingPlaces;
+using cli::schedule::packing::TableShape;
+
+constexpr char kFile[] = "s.csv";
+
+std::int64_t placed(const Places& places) {
+  return std::count_if(places.begin(), places.end(), [](const auto& place) { return place.has_value(); });
+}
+
+void check_frames(const SignalFile& file, const Assignment& assignment) {
+  std::int64_t sent = 0, expected = 0;
+  for (const PackedFrame& frame : frames_of(file.instance, assignment))
+    sent += static_cast<std::int64_t>(frame.signals.size()) * (file.shape.cycles / frame.repetition);
+  for (std::size_t i = 0; i < assignment.size(); ++i)
+    if (assignment[i]) expected += file.shape.cycles / file.instance.signals[i].repetition;
+  TTF_CHECK(sent == expected, "{} signals in frames, not {}", sent, expected);
+}
+
+void check_packing(const std::string& text, const TableShape& shape, ChannelUse use) {
+  SignalFile file;
+  if (!fuzz::accepted(kFile, [&] { file = cli::schedule::packing::parse_signals(text, kFile, shape); })) return;
+  StandingPlaces standing;
+  if (!fuzz::accepted(kFile, [&] { standing = parse_standing(text, kFile, file, use); })) standing = {};
+  const Solution solution = pack(file.instance, standing.places, {3, 1});
+  const auto impossible = static_cast<std::int64_t>(file.impossible.size());
+  TTF_CHECK(placed(solution.places) + impossible == static_cast<std::int64_t>(file.times.size()), "{} have a place",
+            placed(solution.places));
+  TTF_CHECK(solution.bins >= solution.bound(), "{} bins, at least {}", solution.bins, solution.bound());
+  for (std::size_t i = 0; i < standing.places.size(); ++i)
+    TTF_CHECK(!standing.places[i] || standing.places[i] == solution.places[i], "signal {} moved", i);
+  const auto numbers = slot_numbers(standing.numbers, solution.bins, 1, use);
+  const Assignment assignment = assigned(solution.places, numbers);
+  for (const Violation& violation : violations(file.instance, assignment))
+    TTF_CHECK(std::any_of(numbers.begin(), numbers.end(), [](const auto& one) { return one.slot > kLastStaticSlot; }),
+              "signal {} {}", violation.signal, violation.text);
+  check_frames(file, assignment);
+  const std::string once = packing_csv(file, assignment);
+  const SignalFile again = cli::schedule::packing::parse_signals(once, kFile, shape);
+  TTF_CHECK(packing_csv(again, assignment) == once, "a packing changes when written again: {}", once);
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string text = fuzz::text_of(data + 1, size - 1);
+  const int how = data[0];
+  const TableShape shape{Duration::milliseconds(5), how % 2 == 0 ? 64 : 20, how % 3 == 0 ? 64 : 8, how % 5 == 0};
+  check_packing(text, shape, static_cast<ChannelUse>(how % 7 % 3));
+  return 0;
+}
