@@ -30,11 +30,11 @@ for command in '' run launch node diagram export report track experiment keys 's
   [[ -z $wide ]] || fail "the help of '$command' has lines of more than 100 characters: $wide"
 done
 one_sentence 'scenario: must be given to `ttfusion run`: Scenario file or a shipped one'"'"'s name, or several to compare' run
-one_sentence 'ttfusion schedule: must be followed by check, show, export or sequence' schedule
+one_sentence 'ttfusion schedule: must be followed by check, show, export, sequence or synthesize' schedule
 commands='run, diagram, export, schedule, experiment, keys, launch, node, report, track or manual'
 one_sentence "foo: is no command of \`ttfusion\`: must be $commands" foo --help
 one_sentence 'rnu: is no command of `ttfusion`: did you mean run?' rnu "$paper"
-one_sentence 'draw: is no command of `ttfusion schedule`: must be check, show, export or sequence' schedule draw x.yaml
+one_sentence 'draw: is no command of `ttfusion schedule`: must be check, show, export, sequence or synthesize' schedule draw x.yaml
 one_sentence '--fast: is no option of `ttfusion run`, whose --help lists them' run "$paper" --fast
 one_sentence '-s: is no option of `ttfusion run`, whose --help lists them' run "$paper" -s
 one_sentence '--startegy: is no option of `ttfusion run`: did you mean --strategy?' run "$paper" --startegy tt

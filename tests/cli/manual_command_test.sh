@@ -40,7 +40,7 @@ completes() {  # EXPECTED WORDS...: the completions, in one line
 }
 cd "$work" || exit 1
 completes 'schedule' ttfusion sch
-completes 'check show export sequence' ttfusion schedule ''
+completes 'check show export sequence synthesize' ttfusion schedule ''
 completes 'buff adva tt' ttfusion run x.yaml --strategy ''
 completes 'paper_scenario1 paper_scenario2' ttfusion run paper_s
 completes 'paper_synchronised' ttfusion schedule check paper_sy
