@@ -1,6 +1,7 @@
-// Any text as signals to pack, and as places that stand. Laws: each mistake is a finding with the file's name. Accepted signals
-// have a place unless they are named as impossible, the packing passes the checker and is not below its bound, and its file is read
-// again as the same packing. Places that stand do not move, and a bus of the packing has each signal in its cycles.
+// Any text as signals to pack, and as places that stand. Laws: each mistake is a finding with the file's name. Accepted
+// signals have a place unless they are named as impossible, the packing passes the checker and is not below its bound,
+// and its file is read again as the same packing. Places that stand do not move, and a bus of the packing has each
+// signal in its cycles.
 #include <algorithm>
 #include <string>
 

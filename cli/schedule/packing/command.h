@@ -25,8 +25,8 @@ struct PackingOptions {
 // Adds --signals and the options that go with it alone.
 void add_packing_options(CLI::App& command, PackingOptions& options);
 
-// Writes the packing to `out` and the bus to `options.fibex`, if they are not empty, and sums it up. Returns 1 if a signal has no place, or if the slots do not
-// suffice, in which case nothing is written.
+// Writes the packing to `out` and the bus to `options.fibex`, if they are not empty, and sums it up. Returns 1 if a
+// signal has no place, or if the slots do not suffice, in which case nothing is written.
 int pack_signals(const PackingOptions& options, const std::string& out, bool json);
 
 }  // namespace ttf::cli::schedule::packing

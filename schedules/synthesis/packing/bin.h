@@ -1,8 +1,8 @@
 // The use of one slot over all cycles, with a quick search for free bits.
 //
-// A signal of repetition R and first cycle f needs bits that are free in each cycle c with c mod R == f. The unions of the used
-// bits over these cycles are kept for every R and f, as a binary tree: the union of (R, f) is that of (2R, f) and (2R, f + R).
-// So a search looks at one union, whatever R is.
+// A signal of repetition R and first cycle f needs bits that are free in each cycle c with c mod R == f. The unions of
+// the used bits over these cycles are kept for every R and f, as a binary tree: the union of (R, f) is that of (2R, f)
+// and (2R, f + R). So a search looks at one union, whatever R is.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,8 @@ class Bin {
   // All bits are free, and no node owns a frame.
   Bin(int cycles, int payload_bits);
 
-  // Returns the first run of `bits` free bits in the cycles of (repetition, first_cycle), if these frames have no other owner.
+  // Returns the first run of `bits` free bits in the cycles of (repetition, first_cycle), if these frames have no other
+  // owner.
   std::optional<int> free_offset(int node, int repetition, int first_cycle, int bits) const;
   // Returns the first place in the signal's window; `bin` of it is not set.
   std::optional<Place> first_place(const Signal& signal, Fit fit) const;

@@ -1,8 +1,8 @@
 // A packing as a FlexRay bus: a cluster without tasks, and its FIBEX file with the signals in their frames.
 //
-// The static slots are as short as the payload allows. A dynamic segment without frames fills the rest of the cycle. The parameters of
-// controllers follow from the largest drifts that FlexRay allows (schedules/exchange/fibex/assumptions.h). The first three nodes
-// start the cluster up and synchronise it.
+// The static slots are as short as the payload allows. A dynamic segment without frames fills the rest of the cycle.
+// The parameters of controllers follow from the largest drifts that FlexRay allows
+// (schedules/exchange/fibex/assumptions.h). The first three nodes start the cluster up and synchronise it.
 #pragma once
 
 #include <string>
@@ -19,11 +19,13 @@ struct BusRequest {
   Duration cycle;
 };
 
-// Returns the bus of these frames, in their order. Each of their nodes needs a key slot (frames.h). All slots are on the same
-// channels, and numbered from 1. Throws InputError if the slots do not fit the cycle, or the cycle is no whole number of microseconds.
+// Returns the bus of these frames, in their order. Each of their nodes needs a key slot (frames.h). All slots are on
+// the same channels, and numbered from 1. Throws InputError if the slots do not fit the cycle, or the cycle is no whole
+// number of microseconds.
 model::Cluster bus_of(const Instance& instance, const std::vector<PackedFrame>& frames, const BusRequest& request);
 
-// Returns the FIBEX 3.1 file of that bus. Each frame with signals is a PDU, and bit 0 of it is the most significant one of byte 0.
+// Returns the FIBEX 3.1 file of that bus. Each frame with signals is a PDU, and bit 0 of it is the most significant one
+// of byte 0.
 std::string bus_fibex(const Instance& instance, const Assignment& assignment, const std::vector<PackedFrame>& frames,
                       const model::Cluster& bus);
 

@@ -1,5 +1,5 @@
-// Checks a packing, by rules alone: it shares no code with the search. Every packing passes it before it is written, and so do the
-// places that stand.
+// Checks a packing, by rules alone: it shares no code with the search. Every packing passes it before it is written,
+// and so do the places that stand.
 #pragma once
 
 #include <cstddef>

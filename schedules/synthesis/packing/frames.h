@@ -19,12 +19,13 @@ struct PackedFrame {
   std::vector<std::size_t> signals;  // in the order of their bits
 };
 
-// Returns the fewest frames whose repetitions are powers of two, by slot, channel and base cycle. The packing must pass check.h. A
-// slot with one owner has a frame in every cycle, some of them without signals: its owner sends it all the same.
+// Returns the fewest frames whose repetitions are powers of two, by slot, channel and base cycle. The packing must pass
+// check.h. A slot with one owner has a frame in every cycle, some of them without signals: its owner sends it all the
+// same.
 std::vector<PackedFrame> frames_of(const Instance& instance, const Assignment& assignment);
 
-// Adds a slot without signals for each node with no slot that has the same frame in every cycle: a controller needs one, its key slot.
-// The new slots take the lowest numbers that are free on all channels.
+// Adds a slot without signals for each node with no slot that has the same frame in every cycle: a controller needs
+// one, its key slot. The new slots take the lowest numbers that are free on all channels.
 std::vector<PackedFrame> with_key_slots(std::vector<PackedFrame> frames);
 
 // Returns the slot of a node that has the same frame in every cycle: the lowest one. None without such a slot.

@@ -1,8 +1,9 @@
 // A local improvement of first fit's order, for a packing that is above its bound.
 //
-// A step moves some of the signals that lie in the last bin to places further ahead in the order, and packs again. The step is kept
-// unless the packing got worse: more bins, or as many with more bits in the last one. ("Squeaky wheel" optimisation: Joslin,
-// Clements, Journal of Artificial Intelligence Research 10, 1999.) Steps are counted, and no clock decides.
+// A step moves some of the signals that lie in the last bin to places further ahead in the order, and packs again. The
+// step is kept unless the packing got worse: more bins, or as many with more bits in the last one. ("Squeaky wheel"
+// optimisation: Joslin, Clements, Journal of Artificial Intelligence Research 10, 1999.) Steps are counted, and no
+// clock decides.
 #pragma once
 
 #include <cstdint>

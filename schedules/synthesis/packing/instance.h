@@ -1,12 +1,13 @@
 // Signals to be packed into frames of FlexRay's static segment, and the places they get.
 //
-// The static segment is a table with a column for each slot and a row for each of 1, 2, 4, ... or 64 cycles, which repeat. A field
-// of the table is a frame of `payload_bits` bits. A signal of repetition R lies at the same bits of one slot in each cycle c with
-// c mod R == first_cycle. In FlexRay 2.1 all frames of a slot belong to one node. In 3.0 they may belong to different nodes in
-// different cycles (slot multiplexing).
+// The static segment is a table with a column for each slot and a row for each of 1, 2, 4, ... or 64 cycles, which
+// repeat. A field of the table is a frame of `payload_bits` bits. A signal of repetition R lies at the same bits of one
+// slot in each cycle c with c mod R == first_cycle. In FlexRay 2.1 all frames of a slot belong to one node. In 3.0 they
+// may belong to different nodes in different cycles (slot multiplexing).
 //
-// Source of the problem: Dvorak, Hanzalek, "FlexRay static segment scheduling on two independent channels with gateway", WFCS
-// 2015; Lukasiewycz, Glass, Teich, Milbredt, "FlexRay schedule optimization of the static segment", CODES+ISSS 2009.
+// Source of the problem: Dvorak, Hanzalek, IEEE Transactions on Vehicular Technology, 2018,
+// doi:10.1109/TVT.2018.2879920; Lukasiewycz, Glass, Teich, Milbredt, "FlexRay schedule optimization of the static
+// segment", CODES+ISSS 2009.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,8 @@ inline constexpr int kMostCycles = 64;
 inline constexpr int kMostPayloadBits = 254 * 8;
 inline constexpr int kLastStaticSlot = 1023;  // cStaticSlotIDMax
 
-// The first cycles that a signal may have: earliest..latest, within 0..repetition - 1. There is none if latest < earliest.
+// The first cycles that a signal may have: earliest..latest, within 0..repetition - 1. There is none if latest <
+// earliest.
 struct Window {
   int earliest = 0;
   int latest = 0;
@@ -31,8 +33,8 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
-// Returns the cycles that begin at or after the release and before the deadline, both from a period's beginning. So times are kept
-// to the cycle: a deadline of 4 ms lets a cycle of 5 ms begin. `release` is not negative.
+// Returns the cycles that begin at or after the release and before the deadline, both from a period's beginning. So
+// times are kept to the cycle: a deadline of 4 ms lets a cycle of 5 ms begin. `release` is not negative.
 Window window_of(Duration cycle, Duration release, Duration deadline, int repetition);
 
 struct Signal {

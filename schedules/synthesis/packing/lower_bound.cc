@@ -75,7 +75,8 @@ struct Sums {
   }
 };
 
-// The kinds that are sent in cycles of the set alone, and at least every `modulus` cycles; `sent` counts in classes of cycles.
+// The kinds that are sent in cycles of the set alone, and at least every `modulus` cycles; `sent` counts in classes of
+// cycles.
 Sums sums_within(const std::vector<Kind>& kinds, Cycles set, int modulus) {
   Sums sums;
   std::int64_t sent = 0, load = 0;

@@ -1,7 +1,9 @@
-// Packs an instance: every order with every kind of first fit (orders.h, bin.h), then the improvement (improvement.h), part by part.
+// Packs an instance: every order with every kind of first fit (orders.h, bin.h), then the improvement (improvement.h),
+// part by part.
 //
-// A part is a set of signals that share bins: those of one node, or all of them where slots are shared. The bins of a part are
-// compared with its bound (lower_bound.h). A part that reaches its bound is optimal, and needs no solver for a proof.
+// A part is a set of signals that share bins: those of one node, or all of them where slots are shared. The bins of a
+// part are compared with its bound (lower_bound.h). A part that reaches its bound is optimal, and needs no solver for a
+// proof.
 #pragma once
 
 #include <string>
@@ -33,8 +35,9 @@ struct Solution {
   bool proven() const;
 };
 
-// Keeps the places of `fixed` (by signal; empty, or with an entry for each). They must have passed check.h. Their bins are numbered
-// from 0 without a gap. With places that stand, a part's bound counts its standing bins, even if a packing anew needed fewer.
+// Keeps the places of `fixed` (by signal; empty, or with an entry for each). They must have passed check.h. Their bins
+// are numbered from 0 without a gap. With places that stand, a part's bound counts its standing bins, even if a packing
+// anew needed fewer.
 Solution pack(const Instance& instance, const Places& fixed = {}, const Effort& effort = {});
 
 }  // namespace ttf::schedules::synthesis::packing

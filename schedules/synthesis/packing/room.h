@@ -11,8 +11,8 @@ namespace ttf::schedules::synthesis::packing {
 struct Room {
   int node = 0;
   std::int64_t free_bits = 0;  // in all cycles, in the slots that the node has
-  // The signals of the asked length that have room besides, if all of them have this repetition: for 1, 2, 4, ..., cycles. Exact:
-  // signals of one repetition and one length do not hinder each other.
+  // The signals of the asked length that have room besides, if all of them have this repetition: for 1, 2, 4, ...,
+  // cycles. Exact: signals of one repetition and one length do not hinder each other.
   std::vector<int> signals;
 };
 

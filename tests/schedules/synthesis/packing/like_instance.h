@@ -1,5 +1,5 @@
-// Draws signals like those of a published packing problem: shares of periods, lengths, windows and nodes as in `HW_Verification` of
-// Dvorak and Hanzalek (docs/packing.md), which this repository does not contain.
+// Draws signals like those of a published packing problem: shares of periods, lengths, windows and nodes as in
+// `HW_Verification` of Dvorak and Hanzalek (docs/packing.md), which this repository does not contain.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,8 @@ template <std::size_t kCount> int drawn_index(const std::array<int, kCount>& wei
   return static_cast<int>(kCount) - 1;
 }
 
-// 6 nodes, frames of 32 bits, 64 cycles. `windows` is the percentage of signals with a window among those of longer periods.
+// 6 nodes, frames of 32 bits, 64 cycles. `windows` is the percentage of signals with a window among those of longer
+// periods.
 inline Instance like_instance(int signals, std::uint64_t seed, int windows = 12) {
   constexpr std::array kPeriods{583, 491, 297, 1619, 606, 250, 250};     // 1, 2, 4, ..., 64 cycles
   constexpr std::array kLengths{1409, 807, 501, 77, 78, 425, 160, 639};  // 1..8 bits

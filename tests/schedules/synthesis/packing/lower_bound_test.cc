@@ -45,8 +45,8 @@ TEST(LowerBound, WindowsNeedBinsInTheirCyclesAlone) {
 }
 
 TEST(LowerBound, AClassOfCyclesIsAWhole) {
-  // Five half frames of every 2nd cycle lie in three classes of even or odd cycles, six frames in all. Two shared slots of 4 cycles
-  // have two frames more. The other node sends three whole frames in every 4th cycle.
+  // Five half frames of every 2nd cycle lie in three classes of even or odd cycles, six frames in all. Two shared slots
+  // of 4 cycles have two frames more. The other node sends three whole frames in every 4th cycle.
   std::vector<Signal> signals(5, free_signal(2, 4, 0));
   for (int i = 0; i < 3; ++i) signals.push_back(free_signal(4, 8, 1));
   EXPECT_EQ(bound_of(instance_of(8, 4, signals, 2, true)), 3);
