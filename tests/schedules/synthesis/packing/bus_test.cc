@@ -17,7 +17,7 @@ namespace {
 
 namespace fibex = exchange::fibex;
 
-constexpr BusRequest kRequest{"drawn", "drawn.csv", Duration::milliseconds(5)};
+const BusRequest kRequest{"drawn", "drawn.csv", Duration::milliseconds(5)};
 
 struct PackedBus {
   Instance instance;
