@@ -27,11 +27,10 @@ void add_synthesize(CLI::App& schedule, Action& action) {
   auto options = std::make_shared<SynthesizeOptions>();
   CLI::App* command = schedule.add_subcommand("synthesize", "Pack signals into the fewest slots of the static segment");
   command->footer(
-      "Examples: ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o "
-      "out/packing.csv\n"
-      "          ttfusion schedule synthesize --signals examples/packing/grown_signals.csv --fixed out/packing.csv "
+      "Examples: ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o packing.csv\n"
+      "          ttfusion schedule synthesize --signals examples/packing/grown_signals.csv --fixed packing.csv "
       "--payload "
-      "8byte -o out/grown.csv");
+      "8byte -o grown.csv");
   packing::add_packing_options(*command, options->packing);
   command->add_option("-o,--out", options->out, "File to write: CSV (docs/packing.md)")->check(named());
   command->add_flag("--json", options->json, "Result as JSON on standard output");
