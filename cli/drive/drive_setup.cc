@@ -162,9 +162,7 @@ DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model:
               drives::evaluation_start(scenario)),
       startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {
   if (scenario.world.ego && scenario.world.ego->actuator) {
-    evaluation::driving::DrivingConfig config = experiments::sweep::driving_config(scenario);
-    add_services(config, scenario, cluster);
-    driving_.emplace(config, drives::evaluation_start(scenario));
+    driving_.emplace(experiments::sweep::driving_config(scenario, cluster), drives::evaluation_start(scenario));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "experiments/sweep/driving.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {
@@ -124,34 +125,13 @@ nlohmann::ordered_json warnings_json(const WarningFindings& w) {
   return json;
 }
 
-// Returns the lane on which the vehicle starts, if a service keeps it.
-std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario& scenario,
-                                                         const schedules::model::Cluster& cluster) {
-  const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
-  if (!ego.on || !scenario.world.road || !schedules::model::has_step(cluster, "lane_keeping")) return std::nullopt;
-  return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
-}
-
 }  // namespace
-
-void add_services(evaluation::driving::DrivingConfig& config, const drives::Scenario& scenario,
-                  const schedules::model::Cluster& cluster) {
-  for (const schedules::model::Node& node : cluster.nodes)
-    for (const schedules::model::Task& task : node.tasks)
-      if (task.step == "actuator") config.reads_every = cluster.cycle() * task.activation.at.repetition;
-  config.lane = lane_kept(scenario, cluster);
-  config.warns_ahead = schedules::model::has_step(cluster, "emergency_braking");
-  if (schedules::model::has_step(cluster, "blind_spot_warning")) {
-    const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
-    config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
-  }
-}
 
 report::plots::DrivingOptions driving_options(const drives::Scenario& scenario,
                                               const schedules::model::Cluster& cluster, const std::string& title) {
   report::plots::DrivingOptions options{title, drives::evaluation_start(scenario), drives::drive_end(scenario),
                                         scenario.world.ego->front, scenario.world.ego->width};
-  if (const auto lane = lane_kept(scenario, cluster))
+  if (const auto lane = experiments::sweep::lane_kept(scenario, cluster))
     options.lane = [lane = evaluation::driving::TrueLane(*lane)](const recording::records::EgoTruth& ego) {
       const evaluation::driving::InLane place = lane.place_of(ego);
       return report::plots::PlaceInLane{place.offset, place.heading};

@@ -10,9 +10,6 @@
 
 namespace ttf::cli::drive {
 
-// Adds the services of the cluster that keep the lane or watch the blind spot, and the period of its actuator.
-void add_services(evaluation::driving::DrivingConfig& config, const drives::Scenario& scenario,
-                  const schedules::model::Cluster& cluster);
 // Returns rows of the comparison table, with a cell for each result; none, if no vehicle was driven.
 std::vector<std::vector<std::string>> driving_rows(const std::vector<const StrategyResult*>& results);
 // Returns the picture's settings for such a scenario.

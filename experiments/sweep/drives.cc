@@ -235,7 +235,8 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
       sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
     std::optional<evaluation::driving::DrivingAccount> driving;
     if (is_driven(drive.scenario))
-      sinks.push_back(&driving.emplace(driving_config(drive.scenario), drives::evaluation_start(drive.scenario)));
+      sinks.push_back(
+          &driving.emplace(driving_config(drive.scenario, drive.cluster), drives::evaluation_start(drive.scenario)));
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);
     drives::DriveConfig config{

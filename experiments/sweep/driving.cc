@@ -1,10 +1,30 @@
 #include "experiments/sweep/driving.h"
 
+#include <string_view>
+
 #include "nodes/control/r157.h"
 
 namespace ttf::experiments::sweep {
+namespace {
 
-evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario) {
+const schedules::model::Task* task_of(const schedules::model::Cluster& cluster, std::string_view step) {
+  for (const schedules::model::Node& node : cluster.nodes)
+    for (const schedules::model::Task& task : node.tasks)
+      if (task.step == step) return &task;
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario& scenario,
+                                                         const schedules::model::Cluster& cluster) {
+  const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
+  if (!ego.on || !scenario.world.road || task_of(cluster, "lane_keeping") == nullptr) return std::nullopt;
+  return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
+}
+
+evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario,
+                                                  const schedules::model::Cluster& cluster) {
   evaluation::driving::DrivingConfig config;
   config.front_m = scenario.world.ego->front;
   config.width_m = scenario.world.ego->width;
@@ -13,6 +33,13 @@ evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenar
   config.hazard_time_s = {scenario.emergency.warning_time_s, scenario.emergency.braking_time_s};
   config.reaction_speed_mps = scenario.reaction_speed_mps;
   config.minimum_gap = &nodes::control::minimum_following_distance;
+  config.lane = lane_kept(scenario, cluster);
+  if (const schedules::model::Task* actuator = task_of(cluster, "actuator"))
+    config.reads_every = cluster.cycle() * actuator->activation.at.repetition;
+  if (task_of(cluster, "blind_spot_warning") != nullptr) {
+    const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
+    config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
+  }
   return config;
 }
 

@@ -57,10 +57,29 @@ inline double warnings(const MeasuredDrive& drive, std::size_t service,
   return driven(drive, [&](const auto& f) { return static_cast<double>(f.warnings[service].*count); });
 }
 
+inline evaluation::driving::WarningFindings beside(const evaluation::driving::DrivingFindings& f) {
+  return evaluation::driving::together(f.warnings[recording::records::kBlindSpotLeft],
+                                       f.warnings[recording::records::kBlindSpotRight]);
+}
+// Measures of services that only some drives have.
+template <class Of> double in_lane(const MeasuredDrive& drive, const Of& of) {
+  return driven(drive, [&](const auto& f) { return f.lane ? of(*f.lane) : kNone; });
+}
+template <class Of> double departure(const MeasuredDrive& drive, const Of& of) {
+  return driven(drive,
+                [&](const auto& f) { return f.lane ? of(f.warnings[recording::records::kLaneDeparture]) : kNone; });
+}
+template <class Of> double blind_spot(const MeasuredDrive& drive, const Of& of) {
+  return driven(drive, [&](const auto& f) { return f.watches_blind_spot ? of(beside(f)) : kNone; });
+}
+inline double lateness_ms(const evaluation::driving::WarningFindings& w) {
+  return w.late == 0 ? kNone : static_cast<double>(w.lateness_sum.ns) / static_cast<double>(w.late) * 1e-6;
+}
+
 }  // namespace measure
 
 // clang-format off
-inline constexpr std::array<Measure, 71> kMeasures{{
+inline constexpr std::array<Measure, 88> kMeasures{{
   {"position_rmse_truth", "m", "root mean square of the position error against the truth, when the image is used",
    [](const MeasuredDrive& d) { return d.summary.position_rmse_truth; }},
   {"position_mse_truth", "m^2", "mean square of the position error against the truth, unbiased when averaged over drives",
@@ -211,6 +230,40 @@ inline constexpr std::array<Measure, 71> kMeasures{{
    [](const MeasuredDrive& d) { return measure::detected(d, [](const auto& f) { return f.intervals.mean(); }); }},
   {"detection_interval_sigma", "s", "standard deviation of these times in a drive",
    [](const MeasuredDrive& d) { return measure::detected(d, [](const auto& f) { return f.intervals.deviation(); }); }},
+  {"lane_offset_rms", "m", "root mean square of the true offset from the middle of the lane that a service keeps",
+   [](const MeasuredDrive& d) { return measure::in_lane(d, [](const auto& l) { return l.offset_rms_m; }); }},
+  {"lane_offset_largest", "m", "largest true offset from the lane's middle",
+   [](const MeasuredDrive& d) { return measure::in_lane(d, [](const auto& l) { return l.largest_offset_m; }); }},
+  {"lane_heading_rms", "rad", "root mean square of the true heading from the lane's direction",
+   [](const MeasuredDrive& d) { return measure::in_lane(d, [](const auto& l) { return l.heading_rms_rad; }); }},
+  {"lane_heading_largest", "rad", "largest true heading from the lane's direction",
+   [](const MeasuredDrive& d) { return measure::in_lane(d, [](const auto& l) { return l.largest_heading_rad; }); }},
+  {"beyond_mark", "", "share of the time in which a side of the vehicle is beyond its mark",
+   [](const MeasuredDrive& d) { return measure::in_lane(d, [](const auto& l) { return l.outside; }); }},
+  {"departures", "", "times of 100 ms or longer in which a side is beyond its mark, in a drive",
+   [](const MeasuredDrive& d) { return measure::departure(d, [](const auto& w) { return static_cast<double>(w.hazards); }); }},
+  {"departure_warnings_right", "", "lane departure warnings within 300 ms of a departure, in a drive",
+   [](const MeasuredDrive& d) { return measure::departure(d, [](const auto& w) { return static_cast<double>(w.right); }); }},
+  {"departure_warnings_wrong", "", "all other lane departure warnings, in a drive",
+   [](const MeasuredDrive& d) { return measure::departure(d, [](const auto& w) { return static_cast<double>(w.wrong); }); }},
+  {"departure_warnings_missed", "", "departures without a warning, in a drive",
+   [](const MeasuredDrive& d) { return measure::departure(d, [](const auto& w) { return static_cast<double>(w.missed); }); }},
+  {"departure_warnings_late", "", "departures whose warning began after them, in a drive",
+   [](const MeasuredDrive& d) { return measure::departure(d, [](const auto& w) { return static_cast<double>(w.late); }); }},
+  {"departure_lateness", "ms", "mean delay of the late lane departure warnings; absent in a drive without one",
+   [](const MeasuredDrive& d) { return measure::departure(d, &measure::lateness_ms); }},
+  {"blind_spot_hazards", "", "times of 100 ms or longer in which an object is in the blind spot of a side, in a drive",
+   [](const MeasuredDrive& d) { return measure::blind_spot(d, [](const auto& w) { return static_cast<double>(w.hazards); }); }},
+  {"blind_spot_warnings_right", "", "blind spot warnings within 300 ms of a hazard of their side, in a drive",
+   [](const MeasuredDrive& d) { return measure::blind_spot(d, [](const auto& w) { return static_cast<double>(w.right); }); }},
+  {"blind_spot_warnings_wrong", "", "all other blind spot warnings, in a drive",
+   [](const MeasuredDrive& d) { return measure::blind_spot(d, [](const auto& w) { return static_cast<double>(w.wrong); }); }},
+  {"blind_spot_warnings_missed", "", "hazards without a blind spot warning, in a drive",
+   [](const MeasuredDrive& d) { return measure::blind_spot(d, [](const auto& w) { return static_cast<double>(w.missed); }); }},
+  {"blind_spot_warnings_late", "", "hazards whose blind spot warning began after them, in a drive",
+   [](const MeasuredDrive& d) { return measure::blind_spot(d, [](const auto& w) { return static_cast<double>(w.late); }); }},
+  {"blind_spot_lateness", "ms", "mean delay of the late blind spot warnings; absent in a drive without one",
+   [](const MeasuredDrive& d) { return measure::blind_spot(d, &measure::lateness_ms); }},
 }};
 // clang-format on
 

@@ -1,5 +1,6 @@
 #include "experiments/sweep/engine.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,6 +113,34 @@ TEST_F(SweepEngine, AClosedLoopHasItsMeasures) {
   EXPECT_GT(row.values[3], 1.0);
   EXPECT_EQ(row.values[4], 0.0);
   EXPECT_TRUE(std::isnan(row.values[5]));
+}
+
+// A drive along a lane has its place there. One without the services has none of their measures.
+TEST_F(SweepEngine, ServicesThatKeepALaneAndWatchABlindSpotHaveTheirs) {
+  const auto values = [](const char* scenario) {
+    const SweepFile sweep = parse_sweep(
+        fmt::format(
+            "kind: sweep\nname: lane\nquestion: Does it stay?\nscenario: ../scenarios/{}.yaml\nseed: 1\n"
+            "replications: 1\nparadigms:\n  tt: {{strategy: tt, set: {{duration: 4500 ms}}}}\n"
+            "axes:\n  noise: {{keys: [world.acceleration_noise], values: [0, 1]}}\n"
+            "measures: [lane_offset_rms, lane_offset_largest, beyond_mark, departures, departure_warnings_wrong, "
+            "departure_lateness, blind_spot_hazards, blind_spot_warnings_right, blind_spot_warnings_missed]\n",
+            scenario),
+        TTF_SOURCE_DIR "/experiments/lane.yaml");
+    const results::Row row = SweepDrives(sweep).run({0, 0, 0});
+    EXPECT_EQ(row.status, results::kDone);
+    return row.values;
+  };
+  // A car overtakes from 3 s on.
+  const std::vector<double> with = values("blind_spot"), without = values("acc_braking_lead");
+  for (const double value : without) EXPECT_TRUE(std::isnan(value));
+  EXPECT_GT(with[0], 0.0);
+  EXPECT_GE(with[1], with[0]);
+  EXPECT_LT(with[1], 0.85) << "no side reaches its mark";
+  for (const std::size_t none : {2, 3, 4}) EXPECT_EQ(with[none], 0.0) << none;
+  EXPECT_TRUE(std::isnan(with[5])) << "no warning is late";
+  EXPECT_EQ(with[6], 1.0);
+  EXPECT_EQ(with[7] + with[8], 1.0) << "it is warned of, or missed";
 }
 
 TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
