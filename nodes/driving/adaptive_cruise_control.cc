@@ -33,7 +33,7 @@ void AdaptiveCruiseControl::run(host::StepContext& context) {
   const LocalTime now = context.stamp.local;
   if (issued_ && now - *issued_ > config_.memory) {
     issued_.reset();
-    before_ = 0.0;
+    before_ = std::min(before_, 0.0);
   }
   // Executions may not have happened for any time, as without global time.
   const Duration since = std::min(now - issued_.value_or(last_), config_.memory);

@@ -25,8 +25,9 @@ struct CruiseConfig {
 CruiseConfig load_cruise(YamlMap& yaml);
 
 // Ports `image` and `odometry` -> `command`. Each execution issues a command; it is invalid without a view of the way
-// ahead. After a gap within the last command's life the acceleration goes on from there, and after a longer one from
-// zero, with the jerk of one execution, or of `memory` at most.
+// ahead. After a gap within the last command's life the acceleration goes on from there, with the jerk of one execution, or of
+// `memory` at most. After a longer one a deceleration does so, too: giving up the brakes at once would be a jerk beyond all limits,
+// and the vehicle brakes meanwhile. An acceleration begins anew with zero.
 class AdaptiveCruiseControl final : public host::Step {
  public:
   AdaptiveCruiseControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
@@ -37,7 +38,7 @@ class AdaptiveCruiseControl final : public host::Step {
   CruiseConfig config_;
   WayAhead way_;
   CommandOutput out_;
-  double before_ = 0.0;              // [m/s^2], the last valid command; 0 without one to go on from
+  double before_ = 0.0;              // [m/s^2], the last valid command from which the next one goes on
   std::optional<LocalTime> issued_;  // when it was issued
   LocalTime last_{};                 // the last execution
 };

@@ -28,6 +28,7 @@ EmergencyConfig load_emergency(YamlMap& yaml) {
   if (c.braking_time_s > c.warning_time_s)
     yaml.fail("braking_time", fmt::format("must be from 0.05 s to warning_time, which is {:g} s", c.warning_time_s));
   c.deceleration = yaml.number_or("deceleration", c.deceleration, {0.5, 15.0}, "m/s^2");
+  c.known_for = yaml.duration_or("known_for", c.known_for, {Duration::milliseconds(0), Duration::milliseconds(10'000)});
   load_path(yaml, c.path);
   return c;
 }
@@ -44,7 +45,9 @@ void EmergencyBraking::tell(host::StepContext& context, std::uint8_t service, bo
 }
 
 void EmergencyBraking::run(host::StepContext& context) {
-  const std::optional<View> view = way_.look(context);
+  // A warning goes on with any track: that of the object ahead may be lost and born again meanwhile.
+  const std::optional<View> view =
+      way_.look(context, on_[recording::records::kForwardCollision] ? Duration{} : config_.known_for);
   recording::records::CommandIssued record;
   record.gap = kNone;
   record.track = kNoTrack;

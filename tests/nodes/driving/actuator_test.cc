@@ -295,18 +295,31 @@ TEST(AdaptiveCruiseControl, RemembersItsCommandInAGapAsShortAsTheCommandsLife) {
   EXPECT_NEAR(cruising.issued->acceleration, -3.5, 2e-3);
   for (int i = 0; i < 3; ++i) cruising.look_away();
   cruising.look(15.0, 0.0, 20.0);
-  EXPECT_NEAR(cruising.issued->acceleration, -0.1, 2e-3) << "after 160 ms it begins anew";
+  EXPECT_NEAR(cruising.issued->acceleration, -3.5, 2e-3) << "the brakes are not given up after 160 ms either";
+}
+
+TEST(AdaptiveCruiseControl, BeginsAnewWithoutAnAccelerationAfterALongerGap) {
+  Cruising cruising;
+  for (int i = 0; i < 60; ++i) cruising.look(200.0, 20.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, 2.0, 2e-3);
+  for (int i = 0; i < 3; ++i) cruising.look_away();
+  cruising.look(200.0, 20.0, 20.0);
+  EXPECT_NEAR(cruising.issued->acceleration, 0.1, 2e-3);
 }
 
 // The node had no global time for two seconds, in which its tasks did not execute.
 TEST(AdaptiveCruiseControl, BeginsAnewAfterExecutionsThatDidNotHappen) {
-  Cruising cruising;
-  for (int i = 0; i < 60; ++i) cruising.look(15.0, 0.0, 20.0);
-  cruising.skipped += Duration::milliseconds(2'000);
-  cruising.look(15.0, 0.0, 20.0);
-  EXPECT_NEAR(cruising.issued->acceleration, -0.25, 2e-3) << "the jerk of 100 ms, the memory";
-  cruising.look(15.0, 0.0, 20.0);
-  EXPECT_NEAR(cruising.issued->acceleration, -0.35, 2e-3);
+  Cruising accelerates, brakes;
+  for (int i = 0; i < 60; ++i) accelerates.look(200.0, 20.0, 20.0);
+  for (int i = 0; i < 60; ++i) brakes.look(15.0, 0.0, 20.0);
+  for (Cruising* const one : {&accelerates, &brakes}) {
+    one->skipped += Duration::milliseconds(2'000);
+    one->look(200.0, 20.0, 20.0);
+  }
+  EXPECT_NEAR(accelerates.issued->acceleration, 0.25, 2e-3) << "the jerk of 100 ms, the memory";
+  EXPECT_NEAR(brakes.issued->acceleration, -3.25, 2e-3) << "the brakes are released by that jerk";
+  accelerates.look(200.0, 20.0, 20.0);
+  EXPECT_NEAR(accelerates.issued->acceleration, 0.35, 2e-3);
 }
 
 // A vehicle that stands holds its brakes until the law asks for 0.3 m/s^2.
