@@ -19,7 +19,7 @@ const schedules::model::Task* task_of(const schedules::model::Cluster& cluster, 
 std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario& scenario,
                                                          const schedules::model::Cluster& cluster) {
   const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
-  if (!ego.on || !scenario.world.road || task_of(cluster, "lane_keeping") == nullptr) return std::nullopt;
+  if (!ego.on || !scenario.world.road || !schedules::model::has_step(cluster, "lane_keeping")) return std::nullopt;
   return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
 }
 
@@ -36,7 +36,8 @@ evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenar
   config.lane = lane_kept(scenario, cluster);
   if (const schedules::model::Task* actuator = task_of(cluster, "actuator"))
     config.reads_every = cluster.cycle() * actuator->activation.at.repetition;
-  if (task_of(cluster, "blind_spot_warning") != nullptr) {
+  config.warns_ahead = schedules::model::has_step(cluster, "emergency_braking");
+  if (schedules::model::has_step(cluster, "blind_spot_warning")) {
     const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
     config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
   }
