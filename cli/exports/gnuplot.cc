@@ -14,13 +14,13 @@
 #include "cli/logs/log_inputs.h"
 #include "cli/output.h"
 #include "core/counted.h"
+#include "core/csv.h"
 #include "core/errors.h"
 #include "evaluation/accuracy/drive_rows.h"
 #include "experiments/sweep/measures.h"
 #include "recording/merge/merge.h"
 #include "recording/merge/stored_log.h"
 #include "recording/records/tee.h"
-#include "recording/rows/csv.h"
 #include "report/paper/drive.h"
 #include "report/paper/experiment.h"
 #include "report/plots/position_plot.h"
@@ -81,8 +81,8 @@ class DriveTables {
       if (samples.empty()) return;
       has_.kinds.push_back(kind);
       for (const auto& sample : samples)
-        text += fmt::format("{},{},{},{}\n", recording::rows::csv_field(kind), table_number(sample.t),
-                            table_number(sample.x), table_number(sample.y));
+        text += fmt::format("{},{},{},{}\n", csv_field(kind), table_number(sample.t), table_number(sample.x),
+                            table_number(sample.y));
     };
     add("truth", selection_.truth);
     add("reference", selection_.reference);
@@ -128,8 +128,8 @@ class DriveTables {
       has_.least_age_ms = std::min(has_.least_age_ms, bin_ms * static_cast<double>(histogram.begin()->first));
       has_.most_age_ms = std::max(has_.most_age_ms, bin_ms * static_cast<double>(histogram.rbegin()->first + 1));
       for (const auto& [bin, count] : histogram)
-        text += fmt::format("{},{},{},{},{}\n", of, recording::rows::csv_field(sensor),
-                            static_cast<double>(bin) * bin_ms, static_cast<double>(bin + 1) * bin_ms, count);
+        text += fmt::format("{},{},{},{},{}\n", of, csv_field(sensor), static_cast<double>(bin) * bin_ms,
+                            static_cast<double>(bin + 1) * bin_ms, count);
     }
     return text;
   }

@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/csv.h"
 #include "core/file_bytes.h"
-#include "recording/rows/csv.h"
 #include "recording/rows/seconds.h"
 
 namespace ttf::recording::rows {

@@ -8,9 +8,9 @@
 #include <map>
 #include <string_view>
 
+#include "core/csv.h"
 #include "core/decimal.h"
 #include "core/file_bytes.h"
-#include "recording/rows/csv.h"
 #include "recording/rows/leaping_stamps.h"
 #include "recording/rows/seconds.h"
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <utility>
 
+#include "core/csv.h"
 #include "core/decimal.h"
 #include "core/file_bytes.h"
-#include "recording/rows/csv.h"
 #include "recording/rows/leaping_stamps.h"
 #include "recording/rows/seconds.h"
 

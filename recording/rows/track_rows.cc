@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/csv.h"
 #include "core/decimal.h"
-#include "recording/rows/csv.h"
 
 namespace ttf::recording::rows {
 namespace {

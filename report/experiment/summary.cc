@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/csv.h"
 #include "core/errors.h"
-#include "recording/rows/csv.h"
 
 namespace ttf::report::experiment {
 namespace {
@@ -38,7 +38,7 @@ std::size_t NameList::place_of(const std::string& name) {
 ExperimentSummary read_summary(std::string_view text, const std::string& file) {
   const std::vector<std::string> values{
       "paradigm", "measure", "count", "mean", "half_width", "difference", "difference_half_width"};
-  recording::rows::CsvLines lines(text);
+  CsvLines lines(text);
   const auto refuse = [&](const std::string& why) -> InputError {
     return InputError({file, lines.line(), "", "", why});
   };

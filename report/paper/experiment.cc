@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "recording/rows/csv.h"
+#include "core/csv.h"
 #include "report/experiment/summary.h"
 
 namespace ttf::report::paper {
@@ -76,18 +76,18 @@ class MeasureFigure {
 
   std::string table() const {
     std::string text = "case";
-    for (const std::string& axis : summary_.axes) text += ',' + recording::rows::csv_field(axis);
+    for (const std::string& axis : summary_.axes) text += ',' + csv_field(axis);
     text += ",x";
     for (const std::string& paradigm : summary_.paradigms)
       for (const char* what : {"mean", "half_width", "difference", "difference_half_width"})
-        text += ',' + recording::rows::csv_field(paradigm + "_" + what);
+        text += ',' + csv_field(paradigm + "_" + what);
     text += '\n';
     for (std::size_t k = 0; k < cases_.size(); ++k) {
       std::size_t nth = 0;
       for (const experiment::SummaryPoint& point : summary_.points) {
         if (others(point) != cases_.names()[k]) continue;
         text += std::to_string(k);
-        for (const std::string& label : point.labels) text += ',' + recording::rows::csv_field(label);
+        for (const std::string& label : point.labels) text += ',' + csv_field(label);
         const double x =
             x_.by_number ? experiment::number_with_unit(point.labels[*x_.axis])->first : static_cast<double>(nth++);
         text += ',' + table_number(x);

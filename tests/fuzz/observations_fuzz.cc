@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/check.h"
+#include "core/csv.h"
 #include "core/decimal.h"
-#include "recording/rows/csv.h"
 #include "recording/rows/observation_rows.h"
 #include "replay/recorded_lists.h"
 #include "replay/replay.h"
@@ -37,7 +37,7 @@ std::string written(const std::vector<ObservationRow>& rows) {
     const bool position = row.kind == ObservationRow::Kind::kPosition;
     const bool three = recording::rows::dimension_of(row.kind) == 3;
     text += scaled_text(row.time_ns, 1'000'000'000) + ',' + scaled_text(row.arrival_ns, 1'000'000'000) + ',' +
-            recording::rows::csv_field(row.sensor) + ',';
+            csv_field(row.sensor) + ',';
     text += position ? fmt::format("{},{},,,", row.z[0], row.z[1]) : fmt::format(",,{},{},", row.z[0], row.z[1]);
     text += three ? fmt::to_string(row.z[2]) : "";
     for (std::size_t i = 0; i < 6; ++i) {
@@ -48,8 +48,7 @@ std::string written(const std::vector<ObservationRow>& rows) {
     for (const auto& value : {row.heading, row.sigma_heading, row.length, row.sigma_length, row.width, row.sigma_width,
                               row.elevation, row.height})
       text += ',' + cell(value);
-    text += ',' + recording::rows::csv_field(row.class_name) + ',' +
-            (row.class_name.empty() ? "" : fmt::to_string(row.score)) + '\n';
+    text += ',' + csv_field(row.class_name) + ',' + (row.class_name.empty() ? "" : fmt::to_string(row.score)) + '\n';
   }
   return text;
 }

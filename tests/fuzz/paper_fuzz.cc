@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "recording/rows/csv.h"
+#include "core/csv.h"
 #include "report/paper/experiment.h"
 #include "tests/fuzz/harness.h"
 
@@ -12,7 +12,7 @@ namespace {
 using namespace ttf;
 
 void check_table(const std::string& text) {
-  recording::rows::CsvLines lines(text);
+  CsvLines lines(text);
   std::size_t fields = 0;
   while (lines.next()) {
     TTF_CHECK(lines.broken().empty(), "line {}: {}", lines.line(), lines.broken());

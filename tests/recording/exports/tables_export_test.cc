@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 
+#include "core/csv.h"
 #include "recording/exports/captures.h"
 #include "recording/exports/tables.h"
-#include "recording/rows/csv.h"
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/record_text.h"
 
@@ -119,7 +119,7 @@ TEST(TableExport, AnyRecordsGiveTablesThatReadBack) {
     for (std::uint32_t i = 0; i < 4 * records::kKindCount; ++i)
       emit(tables.out, log::kind_of(i), values, i, i * 10'000'000);
   for (const auto& [table, text] : tables.text) {
-    rows::CsvLines lines(text);
+    CsvLines lines(text);
     ASSERT_TRUE(lines.next());
     const std::size_t columns = lines.fields().size();
     std::uint64_t count = 0;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "recording/rows/csv.h"
+#include "core/csv.h"
 #include "recording/rows/track_rows.h"
 
 namespace ttf::recording::rows {

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "recording/rows/csv.h"
+#include "core/csv.h"
 
-namespace ttf::recording::rows {
+namespace ttf {
 namespace {
 
 using testing::ElementsAre;
@@ -59,4 +59,4 @@ TEST(Csv, AFieldIsReadAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace ttf::recording::rows
+}  // namespace ttf

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ttf::recording::rows {
+namespace ttf {
 
 class CsvLines {
  public:
@@ -35,4 +35,4 @@ class CsvLines {
 // Writes a field, with quotes if it could not be read back without.
 std::string csv_field(std::string_view text);
 
-}  // namespace ttf::recording::rows
+}  // namespace ttf

@@ -1,11 +1,10 @@
-#include "recording/rows/csv.h"
+#include "core/csv.h"
 
 #include <algorithm>
 
-namespace ttf::recording::rows {
+namespace ttf {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr std::string_view kBlanks = " \t";
 
 std::string_view without_blanks(std::string_view text) {
@@ -33,6 +32,7 @@ bool take_quoted(std::string_view& line, std::string& field) {
 }  // namespace
 
 CsvLines::CsvLines(std::string_view text) : rest_(text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) rest_.remove_prefix(kByteOrderMark.size());
 }
 
@@ -88,4 +88,4 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-}  // namespace ttf::recording::rows
+}  // namespace ttf
