@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kEnd = ".yaml";
+// The end of the names of files in a folder.
+std::string_view end_of(std::string_view folder) { return folder == kTaskSets ? ".csv" : ".yaml"; }
 
 // Returns the folder of the shipped files: beside the program in a build, where it was installed, or in the prefix that it was
 // built for. An installed tree may be moved.
@@ -35,15 +36,21 @@ bool is_file(const fs::path& path) {
 }
 
 std::string_view without_end(std::string_view name) {
-  if (name.ends_with(kEnd)) name.remove_suffix(kEnd.size());
+  for (const std::string_view end : {".yaml", ".csv"})
+    if (name.ends_with(end)) name.remove_suffix(end.size());
   return name;
+}
+
+// Returns the word for one file of a folder: "scenarios" are scenarios.
+std::string one_of_folder(std::string_view folder) {
+  return folder == kTaskSets ? "task set" : std::string(folder.substr(0, folder.size() - 1));
 }
 
 [[noreturn]] void refuse(const std::string& typed, const std::vector<std::string_view>& folders) {
   std::vector<std::string> names, kinds;
   for (const std::string_view folder : folders) {
     for (std::string& name : shipped_names(folder)) names.push_back(std::move(name));
-    kinds.emplace_back(folder.substr(0, folder.size() - 1));  // "scenarios" are scenarios
+    kinds.push_back(one_of_folder(folder));
   }
   const std::string name = fs::path(typed).filename().string();
   throw InputError({typed, 0, "", "",
@@ -58,7 +65,8 @@ std::string file_named(const std::string& typed, std::initializer_list<std::stri
   const fs::path path = typed;
   const bool is_own = fs::exists(path, none) && !fs::is_directory(path, none);  // a folder has results
   if (typed.empty() || path.is_absolute() || is_own) return typed;
-  if (const std::string own = typed + std::string(kEnd); is_file(own)) return own;
+  for (const std::string_view folder : folders)
+    if (const std::string own = typed + std::string(end_of(folder)); is_file(own)) return own;
   std::vector<std::string_view> searched;
   for (const std::string_view folder : folders)
     if (!path.has_parent_path() || path.parent_path() == folder) searched.push_back(folder);
@@ -66,7 +74,7 @@ std::string file_named(const std::string& typed, std::initializer_list<std::stri
   const std::string name = path.filename().string();
   if (const auto data = data_folder())
     for (const std::string_view folder : searched)
-      for (const std::string& file : {name, name + std::string(kEnd)})
+      for (const std::string& file : {name, name + std::string(end_of(folder))})
         if (const fs::path shipped = *data / folder / file; is_file(shipped)) return shipped.string();
   refuse(typed, searched);
 }
@@ -76,7 +84,8 @@ std::vector<std::string> shipped_names(std::string_view folder) {
   std::error_code none;
   if (const auto data = data_folder())
     for (const fs::directory_entry& entry : fs::directory_iterator(*data / folder, none))
-      if (is_file(entry.path()) && entry.path().extension() == kEnd) names.push_back(entry.path().stem().string());
+      if (is_file(entry.path()) && entry.path().extension() == end_of(folder))
+        names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -13,6 +13,7 @@
 #include "cli/schedule/schedule_input.h"
 #include "cli/schedule/sequence.h"
 #include "cli/schedule/synthesize.h"
+#include "cli/schedule/task_set_check.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/scenario.h"
@@ -40,6 +41,7 @@ struct ScheduleOptions {
   std::string can;
   std::string scenario;
   bool json = false;
+  bool task_set = false;
   PaperSizeOptions paper;
   CaptureArguments capture;
   MediumArguments medium;
@@ -138,6 +140,7 @@ nlohmann::ordered_json chain_json(const schedules::model::Cluster& cluster,
 }
 
 int check(const ScheduleOptions& options) {
+  if (options.task_set) return check_task_set(options.file, options.json);
   const schedules::model::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
@@ -250,8 +253,12 @@ void add_schedule(CLI::App& app, Action& action) {
       "Examples: ttfusion schedule check schedules/paper_synchronised.yaml\n"
       "          ttfusion schedule check schedules/paper_synchronised.yaml --against out/drive.pcapng\n"
       "          ttfusion schedule check closed_loop_synchronised --scenario acc_braking_lead\n"
-      "          ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
-  checking->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();
+      "          ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3\n"
+      "          ttfusion schedule check --task-set schedules/task_sets/braking.csv");
+  checking
+      ->add_option("file", options->file,
+                   "Cluster file or FIBEX file, or a shipped cluster's name; with --task-set a CSV file")
+      ->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
   checking
       ->add_option("--scenario", options->scenario,
@@ -261,7 +268,16 @@ void add_schedule(CLI::App& app, Action& action) {
   add_medium_arguments(*checking, options->medium);
   checking->get_option("--medium")->excludes("--against");
   for (const char* other : {"--medium", "--against"}) checking->get_option("--scenario")->excludes(other);
-  call_on_file(*checking, options, action, check);
+  checking
+      ->add_flag("--task-set", options->task_set,
+                 "The file has bare tasks, messages and chains: their responses, reaction times and data ages")
+      ->excludes("--medium", "--against", "--scenario");
+  checking->callback([options, &action] {
+    action = [options] {
+      options->file = file_named(options->file, {options->task_set ? kTaskSets : kSchedules});
+      return check(*options);
+    };
+  });
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
   showing->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();

@@ -18,15 +18,15 @@
 // so that the sums of their times bound the chain:
 //   MRT  <= sum MRT(s)     MRRT <= MRRT(first) + sum MRT(others)      MDA <= sum MDA(s)     MRDA likewise, at the last
 // (Guenzel, Chen, Ueter, von der Brueggen, Duerr, Chen: "Timing analysis of asynchronized distributed cause-effect
-// chains", RTAS 2021, section VI). For sampled stages of unknown phase alone the bound is sum(T + R) (Davare, Zhu, Di
-// Natale, Pinello, Kanajan, Sangiovanni-Vincentelli: "Period optimization for hard real-time distributed automotive
-// systems", DAC 2007). A segment of a stage behind its sender (Stage::behind_sender) needs no R of a sender that is
-// a segment of its own: jobs released by then have written when the reader starts. The idea is that of Duerr, von der Brueggen,
-// Chen, Chen: "End-to-end timing analysis of sporadic cause-effect chains in distributed systems", TECS 18(5s), 2019.
+// chains", RTAS 2021). For sampled stages of unknown phase alone the bound is sum(T + R) (Davare, Zhu, Di Natale,
+// Pinello, Kanajan, Sangiovanni-Vincentelli: "Period optimization for hard real-time distributed automotive systems",
+// DAC 2007). A stage behind its sender (Stage::behind_sender) needs no R of a sender that is a segment of its own: jobs
+// released by then have written when the reader starts. The idea is that of Duerr, von der Brueggen, Chen, Chen:
+// "End-to-end timing analysis of sporadic cause-effect chains in distributed systems", TECS 18(5s), 2019.
 //
-// A first stage that is activated takes each event as it comes, and nobody knows when the next one comes. So its reaction
-// needs no sampling, and data of unknown age stay in force behind it: the ages are none, except for the reduced one of a
-// chain whose stages are all activated.
+// A first stage that is activated takes each event as it comes, and nobody knows when the next one comes. So its
+// reaction needs no sampling, and data of unknown age stay in force behind it: the ages are none, except for the
+// reduced one of a chain whose stages are all activated.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // A second opinion on chains: data themselves go through registers, in the order of time. No job is looked up.
 //
-// Each stage's jobs are listed over a long window. All readings and writings go through one sorted list, at one instant
-// in the order of the stages. A register of each stage holds the instant of the sample on which its value rests.
+// All readings and writings of all jobs go through one sorted list, at one instant in the order of the stages. A
+// register of each stage holds the instant of the sample on which its value rests.
 #pragma once
 
 #include <algorithm>
@@ -20,26 +20,54 @@ struct FlowTimes {
   bool operator==(const FlowTimes&) const = default;
 };
 
+// All jobs of one stage, in order. Each job of an activated stage takes the value of the same job of the stage before.
+struct FlowStage {
+  bool activated = false;
+  std::vector<Job> jobs;
+};
+
+// The jobs of a chain's stages from -2 * window to 2 * window. The window is a multiple of all cycles.
+inline std::vector<FlowStage> listed(const std::vector<Stage>& stages, std::int64_t window) {
+  std::vector<FlowStage> flow;
+  for (const Stage& stage : stages) {
+    FlowStage one{.activated = stage.activated, .jobs = {}};
+    if (stage.activated) {  // a job for each of the one before
+      for (const Job& before : flow.back().jobs)
+        one.jobs.push_back({.reads = before.writes, .writes = before.writes + stage.longest});
+    } else {
+      for (Duration from{-2 * window}; from.ns < 2 * window; from += stage.cycle)
+        for (const Job& job : stage.jobs) one.jobs.push_back({.reads = from + job.reads, .writes = from + job.writes});
+    }
+    flow.push_back(one);
+  }
+  return flow;
+}
+
 class DataFlow {
  public:
-  // Follows the data from -window to 2 * window, and judges outputs of samples within [0, window). The window is a
-  // multiple of all cycles, and longer than any age and any offset.
-  DataFlow(const std::vector<Stage>& stages, std::int64_t window) : stages_(stages), window_(window) {
-    for (std::size_t s = 0; s < stages.size(); ++s) list_jobs(s);
+  // Judges the samples within [from, to). Jobs must be there for longer than any age before and behind.
+  DataFlow(const std::vector<FlowStage>& stages, std::int64_t from, std::int64_t to)
+      : stages_(stages), from_(from), to_(to), registers_(stages.size()) {
+    for (std::size_t s = 0; s < stages.size(); ++s) {
+      values_.emplace_back(stages[s].jobs.size());
+      for (std::size_t j = 0; j < stages[s].jobs.size(); ++j) {
+        if (!stages[s].activated) happenings_.push_back({stages[s].jobs[j].reads.ns, s, kRead, j});
+        happenings_.push_back({stages[s].jobs[j].writes.ns, s, kWrite, j});
+      }
+    }
     std::ranges::sort(happenings_);
-    registers_.resize(stages.size());
     for (const Happening& one : happenings_) happen(one);
   }
 
   FlowTimes times() const {
     FlowTimes found;
     for (std::size_t o = 0; o + 1 < outputs_.size(); ++o) {
-      if (outputs_[o].sample < 0 || outputs_[o].sample >= window_) continue;
+      if (outputs_[o].sample < from_ || outputs_[o].sample >= to_) continue;
       found.reduced_age = std::max(found.reduced_age, outputs_[o].at - outputs_[o].sample);
       found.age = std::max(found.age, outputs_[o + 1].at - outputs_[o].sample);
     }
     for (std::size_t k = 0; k + 1 < samples_.size(); ++k) {
-      if (samples_[k] < 0 || samples_[k] >= window_) continue;
+      if (samples_[k] < from_ || samples_[k] >= to_) continue;
       found.reduced_reaction = std::max(found.reduced_reaction, output_that_knows(samples_[k]) - samples_[k]);
       found.reaction = std::max(found.reaction, output_that_knows(samples_[k + 1]) - samples_[k]);
     }
@@ -59,28 +87,6 @@ class DataFlow {
     std::int64_t at, sample;
   };
 
-  void list_jobs(std::size_t s) {
-    std::vector<std::optional<std::int64_t>>& values = values_.emplace_back();
-    const Stage& stage = stages_[s];
-    if (stage.activated) {  // a job for each of the one before
-      values.resize(values_[s - 1].size());
-      writes_.emplace_back();
-      for (std::size_t j = 0; j < values.size(); ++j) {
-        writes_[s].push_back(writes_[s - 1][j] + stage.longest.ns);
-        happenings_.push_back({writes_[s][j], s, kWrite, j});
-      }
-      return;
-    }
-    writes_.emplace_back();
-    for (std::int64_t from = -2 * window_; from < 2 * window_; from += stage.cycle.ns)
-      for (const Job& job : stage.jobs) {
-        happenings_.push_back({from + job.reads.ns, s, kRead, values.size()});
-        happenings_.push_back({from + job.writes.ns, s, kWrite, values.size()});
-        writes_[s].push_back(from + job.writes.ns);
-        values.emplace_back();
-      }
-  }
-
   void happen(const Happening& one) {
     std::optional<std::int64_t>& value = values_[one.stage][one.job];
     if (one.kind == kRead) {
@@ -99,12 +105,11 @@ class DataFlow {
     return -1;
   }
 
-  const std::vector<Stage>& stages_;
-  std::int64_t window_;
+  const std::vector<FlowStage>& stages_;
+  std::int64_t from_, to_;
+  std::vector<std::optional<std::int64_t>> registers_;
   std::vector<Happening> happenings_;
   std::vector<std::vector<std::optional<std::int64_t>>> values_;  // the sample that a job rests on
-  std::vector<std::vector<std::int64_t>> writes_;
-  std::vector<std::optional<std::int64_t>> registers_;
   std::vector<std::int64_t> samples_;
   std::vector<Output> outputs_;
 };

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# `ttfusion schedule check --task-set`: responses and chains of bare tasks, as text and as JSON, and mistakes of its file.
+#   task_set_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+shipped=$source/schedules/task_sets/braking.csv
+expect 0 'braking.csv: all deadlines and ages are kept$' schedule check --task-set "$shipped"
+says '^processor camera_ecu \(preemptive\), load 55.0 %, priorities as given$' '^bus camera_can \(can\), load ' \
+  '^chain braking: exposure > detection > objects > planner > command > brake \(bound\)$' \
+  '^chain command alone: planner > command > brake \(exact\)$' \
+  '^  together +42.500 +22.500 +42.500 +32.500$'
+(cd "$work" && "$program" schedule check --task-set braking) >"$work/by_name" || fail "a shipped task set is not found by its name"
+grep -q '^chain braking' "$work/by_name" || fail "a shipped task set has no chain"
+expect 2 '^error: brakin: is neither a file nor the name of a shipped task set; did you mean braking\?$' \
+  schedule check --task-set brakin
+"$program" schedule check --task-set "$shipped" --json >"$work/set.json" || fail "a task set as JSON fails"
+python3 - "$work/set.json" <<'PY' || fail "a task set is wrong as JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["holds"] is True and check["misses"] == [], check
+assert [r["name"] for r in check["resources"]] == ["camera_ecu", "drive_ecu", "brake_ecu", "camera_can", "backbone"], check
+tasks = {t["name"]: t for r in check["resources"] for t in r["tasks"]}
+assert len(tasks) == 10 and all(t["met"] for t in tasks.values()), tasks
+assert (tasks["planner"]["response_ms"], tasks["planner"]["quality"]) == (4, "exact"), tasks["planner"]
+assert tasks["objects"]["jitter_ms"] == 10 and tasks["objects"]["quality"] == "bound", tasks["objects"]
+figures = ["reaction_time", "reduced_reaction_time", "data_age", "reduced_data_age"]
+assert [c["exact"] for c in check["chains"]] == [False, True], check["chains"]
+for c in check["chains"]:
+    assert c["met"] and c["reaction_time"]["ms"] == c["data_age"]["ms"] <= c["largest_age_ms"], c
+    for figure in figures:
+        parts = sum(s[p] for s in c[figure]["shares"] for p in ("waits_ms", "runs_ms", "stays_ms"))
+        assert abs(parts - c[figure]["ms"]) < 1e-6, (c["name"], figure)
+        assert c[figure]["ms"] <= c["reaction_time"]["ms"], c
+PY
+
+# A limit that is not kept, an overload, and a mistake.
+sed 's/brake, 70 ms/brake, 42 ms/' "$shipped" >"$work/late.csv"
+expect 1 '^  command alone: data may be 42500 us old, more than 42 ms$' schedule check --task-set "$work/late.csv"
+says '^  largest age allowed +42.000  missed$' 'late.csv: not kept:$'
+"$program" schedule check --task-set "$work/late.csv" --json >"$work/late.json"
+[[ $? -eq 1 ]] || fail "an age that is not kept, as JSON, does not exit with 1"
+grep -q '"holds": false' "$work/late.json" || fail "an age that is not kept holds as JSON"
+sed 's/1 ms, 1 ms$/6 ms, 6 ms/' "$shipped" >"$work/overload.csv"
+expect 1 '^  planner: no bound found for its response$' schedule check --task-set "$work/overload.csv"
+says '^  braking: no times: no bound found for the response of planner$'
+sed 's/21 ms, , 2/21 ms, , 1/' "$shipped" >"$work/wrong.csv"
+expect 2 '^error: .*/wrong.csv:[0-9]+: detection.priority = 1: must be another one than that of exposure$' \
+  schedule check --task-set "$work/wrong.csv"
+expect 2 'csv: cannot be read' schedule check --task-set "$work/absent.csv"
+expect 2 '--task-set: must not be given with --medium' schedule check --task-set "$shipped" --medium can-fd:1M/5M
+expect_full schedule check --task-set "$shipped"
+[[ $failures -eq 0 ]] && echo "task sets: all as documented"
+exit $((failures > 0))

@@ -1,0 +1,160 @@
+// Verdicts on task sets: published responses, tables, priorities, jitters of activations, and misses.
+#include "schedules/timing/task_set/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "schedules/timing/task_set/reader.h"
+#include "schedules/timing/task_set/table.h"
+
+namespace ttf::schedules::timing::task_set {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct Judged {
+  TaskSet set;
+  Verdict verdict;
+
+  explicit Judged(const std::string& text) : set(parse_task_set(text, "set.csv")), verdict(verdict_on(set)) {}
+  std::int64_t response_us(std::size_t task) const { return verdict.responses.tasks[task].response.longest / 1000; }
+};
+
+// R. Davis, A. Burns, R. Bril, J. Lukkien, Real-Time Systems 35, 2007: 125 bits of 7 bytes at 125 kbit/s.
+TEST(TaskSetVerdict, CounterExampleOfCan) {
+  const Judged judged(
+      "bus,can,can,125000\n"
+      "message,A,can,2.5 ms,,,,7,2.5 ms,1\nmessage,B,can,3.5 ms,,,,7,3.25 ms,2\n"
+      "message,C,can,3.5 ms,,,,7,3.25 ms,3\nchain,of C,C\n");
+  EXPECT_EQ(judged.response_us(0), 2000);
+  EXPECT_EQ(judged.response_us(1), 3000);
+  EXPECT_EQ(judged.response_us(2), 3500);
+  EXPECT_THAT(judged.verdict.misses, ElementsAre("C: a response of 3500 us misses its deadline of 3250 us"));
+  EXPECT_EQ(judged.verdict.chains[0].times->reaction.time, Duration::milliseconds(7));
+  EXPECT_FALSE(judged.verdict.chains[0].times->exact);
+}
+
+// (C, T) = (1, 4) (1, 5) (3, 9) (3, 18): R = 1, 2, 7, 18
+TEST(TaskSetVerdict, AssignedPriorities) {
+  const Judged judged(
+      "processor,p,preemptive\ntask,d,p,18 ms,,,,3 ms\ntask,c,p,9 ms,,,,3 ms\ntask,b,p,5 ms,,,,1 ms\ntask,a,p,4 "
+      "ms,,,,1 ms\n");
+  EXPECT_THAT(judged.verdict.responses.resources[0].by_priority, ElementsAre(3, 2, 1, 0));
+  EXPECT_EQ(judged.verdict.responses.resources[0].assignment, Assignment::kDeadlineMonotonic);
+  EXPECT_THAT((std::vector{judged.response_us(3), judged.response_us(2), judged.response_us(1), judged.response_us(0)}),
+              ElementsAre(1000, 2000, 7000, 18000));
+  EXPECT_TRUE(judged.verdict.holds());
+}
+
+// Jitter in place of slack: deadline monotonic fails, and Audsley's algorithm exchanges the two.
+TEST(TaskSetVerdict, AudsleysAlgorithm) {
+  const Judged judged("processor,p,preemptive\ntask,a,p,20 ms,,,,3 ms,8 ms\ntask,b,p,20 ms,,6 ms,,3 ms,9 ms\n");
+  EXPECT_EQ(judged.verdict.responses.resources[0].assignment, Assignment::kAudsley);
+  EXPECT_THAT(judged.verdict.responses.resources[0].by_priority, ElementsAre(1, 0));
+  EXPECT_TRUE(judged.verdict.holds()) << verdict_text(judged.set, judged.verdict);
+  const Judged none("processor,p,preemptive\ntask,a,p,20 ms,,,,3 ms,5 ms\ntask,b,p,20 ms,,6 ms,,3 ms,9 ms\n");
+  EXPECT_EQ(none.verdict.responses.resources[0].assignment, Assignment::kNone);
+  EXPECT_EQ(none.verdict.misses.size(), 1U);
+}
+
+// a on one processor activates b on another: b's jitter is R_a - best_a = 5 - 2, and c sees it.
+TEST(TaskSetVerdict, JittersOfActivations) {
+  const Judged judged(
+      "processor,p,preemptive\nprocessor,q,preemptive\n"
+      "task,x,p,10 ms,,,1 ms,1 ms,,1\ntask,a,p,20 ms,,,2 ms,4 ms,,2\n"
+      "task,b,q,,,,1 ms,3 ms,15 ms,1,event\ntask,c,q,19 ms,,,1 ms,2 ms,,2\n"
+      "chain,ab,a > b,60 ms\n");
+  const std::vector<TaskTiming>& tasks = judged.verdict.responses.tasks;
+  EXPECT_EQ(tasks[2].jitter, Duration::milliseconds(3));
+  EXPECT_EQ(tasks[2].response.longest, Duration::milliseconds(6).ns);
+  EXPECT_EQ(tasks[2].longest, Duration::milliseconds(8));  // 2 + 6 = 5 + 3
+  EXPECT_EQ(tasks[3].response.longest, Duration::milliseconds(5).ns);
+  EXPECT_EQ(tasks[2].response.quality, response::Quality::kBound);
+  const chain::EndToEnd& ends = *judged.verdict.chains[0].times;
+  EXPECT_EQ(ends.reaction.time, Duration::milliseconds(20 + 5 + 3));
+  EXPECT_EQ(ends.reduced_age->time, Duration::milliseconds(5 + 3));
+}
+
+TEST(TaskSetVerdict, LogicalExecutionTime) {
+  const std::string tasks =
+      "processor,p,preemptive\ntask,a,p,10 ms,0 ms,,,2 ms,,,let\ntask,b,p,20 ms,0 ms,,,WORK,,,let\nchain,ab,a > "
+      "b,AGE\n";
+  const auto with = [&](const std::string& work, const std::string& age) {
+    std::string text = tasks;
+    text.replace(text.find("WORK"), 4, work);
+    return text.replace(text.find("AGE"), 3, age);
+  };
+  const Judged held(with("9 ms", "50 ms"));
+  EXPECT_TRUE(held.verdict.holds());
+  EXPECT_TRUE(held.verdict.chains[0].times->exact);
+  EXPECT_EQ(held.verdict.chains[0].times->age->time, Duration::milliseconds(50));
+  EXPECT_THAT(Judged(with("9 ms", "49 ms")).verdict.misses, ElementsAre("ab: data may be 50 ms old, more than 49 ms"));
+  EXPECT_THAT(Judged(with("17 ms", "50 ms")).verdict.misses,
+              ElementsAre("b: no bound found for its response", "ab: no times: no bound found for the response of b"));
+}
+
+TEST(TaskSetVerdict, EventsFromOutsideHaveNoLargestAge) {
+  const Judged judged(
+      "processor,p,preemptive\ntask,a,p,10 ms,,,1 ms,1 ms,,,event\ntask,b,p,,,,1 ms,1 ms,,,event\nchain,ab,a > b,9 "
+      "ms\n");
+  EXPECT_THAT(judged.verdict.misses,
+              ElementsAre("ab: data have no largest age, as events begin it; the limit is 9 ms"));
+  EXPECT_THAT(verdict_text(judged.set, judged.verdict), HasSubstr("none"));
+}
+
+// Clocks that differ make phases unknown, and the chain a bound.
+TEST(TaskSetVerdict, ClocksOfResources) {
+  const auto text = [](const std::string& clock) {
+    return "processor,p,table,one\nprocessor,q,table," + clock +
+           "\ntask,a,p,10 ms,0 ms,,1 ms,1 ms\ntask,b,q,10 ms,1 ms,,1 ms,1 ms\nchain,ab,a > b\n";
+  };
+  const chain::EndToEnd same = *Judged(text("one")).verdict.chains[0].times;
+  EXPECT_TRUE(same.exact);
+  EXPECT_EQ(same.reaction.time, Duration::milliseconds(12));
+  const chain::EndToEnd other = *Judged(text("two")).verdict.chains[0].times;
+  EXPECT_FALSE(other.exact);
+  EXPECT_EQ(other.reaction.time, Duration::milliseconds(22));
+}
+
+TEST(TaskSetVerdict, TablesOverlap) {
+  const std::string text =
+      "processor,p,table\ntask,a,p,10 ms,0 ms,,,2 ms\ntask,b,p,15 ms,OFFSET,,,2 ms\nchain,ab,a > b\n";
+  const auto at = [&](const std::string& offset) {
+    return Judged(std::string(text).replace(text.find("OFFSET"), 6, offset)).verdict;
+  };
+  EXPECT_TRUE(at("2 ms").holds());
+  EXPECT_TRUE(at("8 ms").holds());
+  EXPECT_THAT(at("9 ms").misses, ElementsAre("p: a and b overlap", "ab: no times: jobs overlap on p"));
+}
+
+// Every tick of the hyperperiod has at most one entry, or the closed form says that two overlap.
+TEST(TaskSetVerdict, OverlapsOfDrawnTables) {
+  RandomStream stream({.seed = 10, .purpose = Purpose::kTest});
+  std::size_t overlaps = 0;
+  for (int draw = 0; draw < 2000; ++draw) {
+    std::vector<TableEntry> table;
+    constexpr std::int64_t kPeriods[] = {4, 6, 8, 12};
+    for (std::int64_t entry = stream.integer(1, 3); entry > 0; --entry)
+      table.push_back({.period = Duration{kPeriods[stream.integer(0, 3)]},
+                       .offset = Duration{stream.integer(0, 11)},
+                       .worst = Duration{stream.integer(1, 5)}});
+    std::vector<int> users(200);
+    for (const TableEntry& entry : table)
+      for (std::int64_t start = entry.offset.ns; start < 100; start += entry.period.ns)
+        for (std::int64_t tick = start; tick < start + entry.worst.ns; ++tick) ++users[static_cast<std::size_t>(tick)];
+    const bool shared = std::ranges::any_of(users, [](int count) { return count > 1; });
+    ASSERT_EQ(overlap_in(table).has_value(), shared) << "draw " << draw;
+    overlaps += shared ? 1 : 0;
+  }
+  EXPECT_GT(overlaps, 500U);
+  EXPECT_LT(overlaps, 1800U);
+}
+
+}  // namespace
+}  // namespace ttf::schedules::timing::task_set
