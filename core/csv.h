@@ -1,7 +1,7 @@
 // Reads comma-separated text line by line (RFC 4180, but no line ends within quotes).
 //
-// A byte order mark, Windows line ends and a last line without an end are accepted. Empty lines, lines that
-// begin with # and blanks around an unquoted field are ignored.
+// A byte order mark and Windows line ends are accepted. The last line needs no end. Empty lines and lines that begin
+// with # are ignored. So are blanks around an unquoted field.
 #pragma once
 
 #include <cstddef>

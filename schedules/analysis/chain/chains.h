@@ -13,6 +13,7 @@
 //   reaction time           from the event itself: it may just have missed the picture before
 //   reduced data age        the age of the newest picture that a command rests on, when the command is read
 //   data age                the same at the last instant before the next command is read
+// These are the four times of schedules/timing/chain/end_to_end.h, with the reading of a command as the output.
 // The largest reaction time equals the largest data age: until the picture after next has an effect, the one before
 // counts (Guenzel et al., "On the equivalence of maximum reaction time and maximum data age for cause-effect chains",
 // ECRTS 2023). The reduced times leave out what lies before the picture, or after the reading.

@@ -24,9 +24,9 @@
 // released by then have written when the reader starts. The idea is that of Duerr, von der Brueggen, Chen, Chen:
 // "End-to-end timing analysis of sporadic cause-effect chains in distributed systems", TECS 18(5s), 2019.
 //
-// A first stage that is activated takes each event as it comes, and nobody knows when the next one comes. So its
-// reaction needs no sampling, and data of unknown age stay in force behind it: the ages are none, except for the
-// reduced one of a chain whose stages are all activated.
+// A first stage that is activated takes each event as it comes. Its reaction needs no sampling. The next event may come
+// at any later time, so that data stay in force for an unknown time: there are no ages. Only a chain whose stages are
+// all activated has a reduced age.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@
 
 namespace ttf::schedules::timing::chain {
 
-// What one stage adds to a chain, on a way that takes longest.
+// The share of one stage, on a way that takes longest.
 struct Share {
   Duration waits{};  // a value waits for the stage's reading; of a first stage: the event does
   Duration runs{};   // from the reading to the writing

@@ -27,9 +27,9 @@ struct Job {
 struct Stage {
   std::string name;
   bool activated = false;
-  Duration longest{};  // of an activated stage: from the write before to its own
-  // Of the others: the jobs of one cycle, in order. All readings lie within one cycle, and no job writes before an
-  // earlier one.
+  Duration longest{};  // from the write before to its own; only an activated stage has it
+  // Only the others have jobs: those of one cycle, in order. All readings lie within a cycle, and no job writes before
+  // an earlier one.
   Duration cycle{};
   std::vector<Job> jobs;
   // Stages of one origin know each other's phase: their cycles begin together at the origin's zero. None: any phase.

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <span>
@@ -40,7 +40,7 @@ class SetReader {
   SetReader(std::string_view text, const std::string& name) : name_(name) { sort_lines(text); }
 
   TaskSet read() {
-    set_.name = name_;
+    set_.name = std::filesystem::path(name_).stem().string();
     findings_.throw_if_any();  // each step needs the one before: one mistake has one sentence
     for (Fields& fields : resources_) resource(fields);
     findings_.throw_if_any();

@@ -121,7 +121,7 @@ class Analysis {
       bounded = bounded && !unknown_[order[p]];
       activated = activated || set_.tasks[order[p]].activator;
       timing.response = bounded ? responses[p] : Response{};
-      // Nobody knows whether the activators' worst cases come together.
+      // The activators' worst cases may never come together.
       if (activated && timing.bounded()) timing.response.quality = Quality::kBound;
     }
   }

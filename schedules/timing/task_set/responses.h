@@ -22,7 +22,7 @@ namespace ttf::schedules::timing::task_set {
 
 struct TaskTiming {
   response::Response response;  // from the release before its jitter
-  Duration jitter{};            // its own, or what its activator leaves; of no meaning without a bound
+  Duration jitter{};            // its own or that of its activation; without a meaning where there is no bound
   // From the first release of its activators, if any, to the end of its shortest and its longest job.
   Duration shortest{}, longest{};
 
@@ -54,7 +54,7 @@ Responses responses_of(const TaskSet& set);
 // Returns whether the task's deadline, if it has one, is met.
 bool meets_deadline(const TaskSet& set, const Responses& responses, std::size_t task);
 
-// Returns "given", "deadline monotonic", "Audsley's", or what stands in their place.
+// Returns words for people: "as given", "deadline monotonic".
 std::string words(Assignment assignment);
 
 }  // namespace ttf::schedules::timing::task_set

@@ -24,7 +24,7 @@ struct PeriodicTask {
 
 struct SimulatedJobs {
   Duration hyperperiod{};
-  std::vector<std::vector<chain::Job>> jobs;  // of each task, in one hyperperiod
+  std::vector<std::vector<chain::Job>> jobs;  // for each task those of one hyperperiod
 };
 
 inline constexpr std::int64_t kMostSimulated = 400'000;  // jobs in two hyperperiods

@@ -42,11 +42,11 @@ struct Task {
   std::string name;
   bool is_message = false;
   std::size_t resource = 0;
-  // Of an activated task: none. Of events from outside: the least time between two.
+  // An activated task has none. For events from outside it is the least time between two.
   std::optional<Duration> period;
   std::optional<Duration> offset;  // none: any phase
   Duration jitter{};               // a release is late by so much at most
-  // The resource is taken for so long. Of a frame: without stuff bits, and with the most.
+  // The resource is taken for so long. A frame has no stuff bits at best, and the most at worst.
   Duration best{}, worst{};
   std::optional<Duration> deadline;      // from the release before its jitter; none for activated ones that have none
   std::optional<std::int64_t> priority;  // the smallest first
@@ -64,7 +64,7 @@ struct Chain {
 
 // Names are unique: of resources, of tasks and messages, of chains. All tasks of a resource have a priority, or none.
 struct TaskSet {
-  std::string name;
+  std::string name;  // the file's, without folder and end
   std::vector<Resource> resources;
   std::vector<Task> tasks;
   std::vector<Chain> chains;

@@ -44,7 +44,7 @@ std::string chain_row(const std::string& name, const chain::EndToEnd& times, std
     any = any || share != Duration{};
     text += fmt::format("{:>14}", share != Duration{} ? milliseconds(share) : "");
   }
-  return any ? text + "\n" : "";
+  return any ? text.substr(0, text.find_last_not_of(' ') + 1) + "\n" : "";
 }
 
 std::string chain_text(const TaskSet& set, const Chain& chain, const ChainTiming& timing) {

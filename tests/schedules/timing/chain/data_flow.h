@@ -1,4 +1,4 @@
-// A second opinion on chains: data themselves go through registers, in the order of time. No job is looked up.
+// A second opinion on chains. Data themselves go through registers, in the order of time. No job is looked up.
 //
 // All readings and writings of all jobs go through one sorted list, at one instant in the order of the stages. A
 // register of each stage holds the instant of the sample on which its value rests.

@@ -1,4 +1,4 @@
-// Reaction time and data age of chains: a published table, drawn chains against data that flow, and bounds.
+// Reaction time and data age of chains. A table is computed anew, and drawn chains are compared with data that flow.
 #include "schedules/timing/chain/end_to_end.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(EndToEnd, TableOfLogicalExecutionTime) {
   }
 }
 
-// 10 -> 20:   event just after 0 | read 10 | written 20, read 20 | written 40; at the worst phase of the second
+// The event comes just after 10. It is read at 20 and written at 30. The second stage reads at 40 and writes at 60.
 TEST(EndToEnd, SharesOfTheStages) {
   const EndToEnd found = end_to_end(let_chain({10, 20}, {0, 0}));
   const Share& first = found.reaction.shares[0];
@@ -81,7 +81,7 @@ TEST(EndToEnd, SharesOfTheStages) {
   EXPECT_EQ(found.age->shares[0].waits.ns, 0);
 }
 
-// Chains of known phases: periods, offsets, times of jobs and kinds of stages are drawn.
+// Chains of known phases. Periods, offsets, times of jobs and kinds of stages are drawn.
 class Drawn {
  public:
   explicit Drawn(std::uint32_t index) : stream_({.seed = 7, .purpose = Purpose::kTest, .index = index}) {
@@ -145,7 +145,7 @@ std::vector<Stage> of_any_phase(std::vector<Stage> stages) {
   return stages;
 }
 
-// The stage's jobs over a longer cycle, each between its earliest reading and its latest writing, in order.
+// The stage's jobs over a longer cycle, in order. Each lies between its earliest reading and its latest writing.
 Stage varied(const Stage& stage, std::int64_t cycle, RandomStream& stream) {
   Stage result = stage;
   if (stage.activated) {
@@ -192,7 +192,7 @@ TEST(EndToEnd, JobsThatVaryStayBelow) {
   EXPECT_GT(judged, 1500U);
 }
 
-// Davare's sum(T + R) for stages of one job a cycle; an activated one adds its own time.
+// Davare's sum(T + R), for stages of one job a cycle. An activated one adds its own time.
 std::int64_t davare(const std::vector<Stage>& stages) {
   std::int64_t sum = 0;
   for (const Stage& stage : stages)
@@ -253,7 +253,7 @@ TEST(EndToEnd, ActivatedFromTheBeginning) {
   EXPECT_FALSE(found.exact);
 }
 
-// Hyperperiods without a limit: periods of large primes are cut into segments, and stay below the sum.
+// Periods of large primes have a long hyperperiod. It is cut into segments.
 TEST(EndToEnd, LongHyperperiodsAreCut) {
   const std::vector<std::int64_t> periods{999983, 999979, 10, 20};
   const EndToEnd found = end_to_end(let_chain(periods, {0, 0, 0, 0}));

@@ -1,4 +1,4 @@
-// Drawn task sets against processors that work tick by tick: responses and chains.
+// Drawn task sets are compared with processors that work tick by tick.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ class DrawnSet {
 
 using Jobs = std::vector<std::vector<TickJob>>;
 
-// What data of the chain see in ticks, as nanoseconds.
+// The times of data that go through the chain in ticks, as nanoseconds.
 chain::FlowTimes ticked(const DrawnSet& set, const Jobs& jobs) {
   std::vector<chain::FlowStage> flow;
   for (std::size_t s = 0; s < set.stages.size(); ++s) {
@@ -129,7 +129,7 @@ Duration davare(const DrawnSet& set, const Verdict& verdict) {
   return sum;
 }
 
-// Offsets and equal best and worst cases: the times are those of the ticks.
+// All offsets are known, and the best case is the worst. So the times are those of the ticks.
 TEST(DrawnSets, KnownOffsetsAreExact) {
   std::size_t judged = 0;
   for (std::uint32_t index = 0; index < 1000; ++index) {
@@ -151,8 +151,8 @@ TEST(DrawnSets, KnownOffsetsAreExact) {
   EXPECT_GT(judged, 500U);
 }
 
-// Drawn work, first at the offsets of the file, then at others.
-// index % 2: stages activate each other. index % 4 >= 2: one processor does not preempt.
+// Work is drawn, first at the offsets of the file, then at others. Stages activate each other in odd sets. One
+// processor does not preempt where index % 4 >= 2.
 TEST(DrawnSets, VaryingWorkStaysBelow) {
   std::size_t judged = 0;
   for (std::uint32_t index = 0; index < 1000; ++index) {

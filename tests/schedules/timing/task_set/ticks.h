@@ -1,6 +1,6 @@
 // A second opinion on processors: whole ticks, one after the other, on all processors at once.
 //
-// In each tick a processor works on the pending task of the highest priority; without preemption it ends a begun job
+// In each tick a processor works on the pending task of the highest priority. Without preemption it ends a begun job
 // first. The end of a job releases a job of each task that it activates, which a processor may begin at once.
 #pragma once
 

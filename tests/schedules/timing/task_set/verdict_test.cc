@@ -1,4 +1,4 @@
-// Verdicts on task sets: published responses, tables, priorities, jitters of activations, and misses.
+// Verdicts on task sets. Responses are published ones, or computed by hand.
 #include "schedules/timing/task_set/verdict.h"
 
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ TEST(TaskSetVerdict, AssignedPriorities) {
   EXPECT_TRUE(judged.verdict.holds());
 }
 
-// Jitter in place of slack: deadline monotonic fails, and Audsley's algorithm exchanges the two.
+// Jitter takes the slack. Deadline monotonic fails, and Audsley's algorithm exchanges the two.
 TEST(TaskSetVerdict, AudsleysAlgorithm) {
   const Judged judged("processor,p,preemptive\ntask,a,p,20 ms,,,,3 ms,8 ms\ntask,b,p,20 ms,,6 ms,,3 ms,9 ms\n");
   EXPECT_EQ(judged.verdict.responses.resources[0].assignment, Assignment::kAudsley);
@@ -63,7 +63,7 @@ TEST(TaskSetVerdict, AudsleysAlgorithm) {
   EXPECT_EQ(none.verdict.misses.size(), 1U);
 }
 
-// a on one processor activates b on another: b's jitter is R_a - best_a = 5 - 2, and c sees it.
+// Task a activates b on another processor. So b's jitter is R_a - best_a = 5 - 2. Task c sees it.
 TEST(TaskSetVerdict, JittersOfActivations) {
   const Judged judged(
       "processor,p,preemptive\nprocessor,q,preemptive\n"
@@ -108,7 +108,7 @@ TEST(TaskSetVerdict, EventsFromOutsideHaveNoLargestAge) {
   EXPECT_THAT(verdict_text(judged.set, judged.verdict), HasSubstr("none"));
 }
 
-// Clocks that differ make phases unknown, and the chain a bound.
+// Clocks that differ make phases unknown. The chain has a bound then.
 TEST(TaskSetVerdict, ClocksOfResources) {
   const auto text = [](const std::string& clock) {
     return "processor,p,table,one\nprocessor,q,table," + clock +
@@ -133,7 +133,7 @@ TEST(TaskSetVerdict, TablesOverlap) {
   EXPECT_THAT(at("9 ms").misses, ElementsAre("p: a and b overlap", "ab: no times: jobs overlap on p"));
 }
 
-// Every tick of the hyperperiod has at most one entry, or the closed form says that two overlap.
+// A tick has several users if, and only if, the closed form says so.
 TEST(TaskSetVerdict, OverlapsOfDrawnTables) {
   RandomStream stream({.seed = 10, .purpose = Purpose::kTest});
   std::size_t overlaps = 0;
