@@ -18,14 +18,15 @@ std::string resource_text(const TaskSet& set, const Verdict& verdict, std::size_
                                  word(resource.policy), here.load * 100);
   const bool table = resource.policy == Policy::kTable;
   text += table ? "\n" : fmt::format(", priorities {}\n", words(here.assignment));
-  text += fmt::format("  {:<36}{:>10}{:>10}{:>10}{:>10}\n", table ? "by time [ms]" : "the highest priority first [ms]",
-                      "period", "jitter", "response", "deadline");
+  text += fmt::format("  {:<36}{:>10}{:>10}{:>10}{:>10}\n",
+                      table ? "time-triggered [ms]" : "the highest priority first [ms]", "period", "jitter", "response",
+                      "deadline");
   for (const std::size_t t : here.by_priority) {
     const Task& task = set.tasks[t];
     const TaskTiming& timing = verdict.responses.tasks[t];
-    const auto longest = timing.bounded() ? std::optional(Duration{timing.response.longest}) : std::nullopt;
+    const std::string longest = timing.bounded() ? milliseconds(Duration{timing.response.longest}) : "-";
     text += fmt::format("  {:<36}{:>10}{:>10}{:>10}{:>10}  {}{}\n", task.name, milliseconds(set.period_of(t)),
-                        milliseconds(timing.jitter), milliseconds(longest, "-"), milliseconds(task.deadline),
+                        milliseconds(timing.jitter), longest, milliseconds(task.deadline),
                         response::word(timing.response.quality),
                         meets_deadline(set, verdict.responses, t) ? "" : ", missed");
   }
