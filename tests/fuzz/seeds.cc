@@ -487,6 +487,15 @@ void result_seeds(const fs::path& folder) {
              {{7, 1, 9}, "of nobody", {4.0}}});
 }
 
+void task_set_seeds(const fs::path& folder) {
+  for (const std::string name : {"braking", "let"})
+    write(folder / "task_set" / name, fuzz::shipped("schedules/task_sets/" + name + ".csv"));
+  write_dictionary(folder / "task_set.dict",
+                   {"processor", "bus",          "task",  "message",    "chain",  "preemptive", "non_preemptive",
+                    "can",       "can_extended", "table", "implicit",   "let",    "event",      " > ",
+                    "1000 s",    "1 us",         "1 ns",  "999.983 ms", "500000", "10000"});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -509,6 +518,7 @@ int main(int argc, char** argv) {
   live_seeds(folder);
   capture_seeds(folder);
   drawn_seeds(folder);
+  task_set_seeds(folder);
   log_seeds(folder);
   result_seeds(folder);
   return 0;

@@ -26,7 +26,7 @@ struct FlowStage {
   std::vector<Job> jobs;
 };
 
-// The jobs of a chain's stages from -2 * window to 2 * window. The window is a multiple of all cycles.
+// The jobs of a chain's stages from -window to 2 * window. The window is a multiple of all cycles.
 inline std::vector<FlowStage> listed(const std::vector<Stage>& stages, std::int64_t window) {
   std::vector<FlowStage> flow;
   for (const Stage& stage : stages) {
@@ -35,7 +35,7 @@ inline std::vector<FlowStage> listed(const std::vector<Stage>& stages, std::int6
       for (const Job& before : flow.back().jobs)
         one.jobs.push_back({.reads = before.writes, .writes = before.writes + stage.longest});
     } else {
-      for (Duration from{-2 * window}; from.ns < 2 * window; from += stage.cycle)
+      for (Duration from{-window}; from.ns < 2 * window; from += stage.cycle)
         for (const Job& job : stage.jobs) one.jobs.push_back({.reads = from + job.reads, .writes = from + job.writes});
     }
     flow.push_back(one);
@@ -66,10 +66,13 @@ class DataFlow {
       found.reduced_age = std::max(found.reduced_age, outputs_[o].at - outputs_[o].sample);
       found.age = std::max(found.age, outputs_[o + 1].at - outputs_[o].sample);
     }
+    std::size_t first = 0, next = 0;  // the outputs that know of a sample, and of the one behind it
     for (std::size_t k = 0; k + 1 < samples_.size(); ++k) {
       if (samples_[k] < from_ || samples_[k] >= to_) continue;
-      found.reduced_reaction = std::max(found.reduced_reaction, output_that_knows(samples_[k]) - samples_[k]);
-      found.reaction = std::max(found.reaction, output_that_knows(samples_[k + 1]) - samples_[k]);
+      while (outputs_.at(first).sample < samples_[k]) ++first;
+      while (outputs_.at(next).sample < samples_[k + 1]) ++next;
+      found.reduced_reaction = std::max(found.reduced_reaction, outputs_[first].at - samples_[k]);
+      found.reaction = std::max(found.reaction, outputs_[next].at - samples_[k]);
     }
     return found;
   }
@@ -97,12 +100,6 @@ class DataFlow {
     if (stages_[one.stage].activated) value = values_[one.stage - 1][one.job];
     registers_[one.stage] = value;
     if (one.stage + 1 == stages_.size() && value) outputs_.push_back({one.at, *value});
-  }
-
-  std::int64_t output_that_knows(std::int64_t sample) const {
-    for (const Output& output : outputs_)
-      if (output.sample >= sample) return output.at;
-    return -1;
   }
 
   const std::vector<FlowStage>& stages_;

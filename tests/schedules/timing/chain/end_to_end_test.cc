@@ -91,6 +91,13 @@ class Drawn {
       if (!one.activated) hyperperiod = std::lcm(hyperperiod, one.cycle.ns);
   }
 
+  // Hyperperiods that are longer than any age and any offset.
+  std::int64_t window() const {
+    std::int64_t longest = 70;
+    for (const Stage& one : stages) longest += one.activated ? one.longest.ns : one.cycle.ns + 70;
+    return hyperperiod * (1 + longest / hyperperiod);
+  }
+
   std::vector<Stage> stages;
   std::int64_t hyperperiod = 1;
 
@@ -127,10 +134,10 @@ class Drawn {
 };
 
 TEST(EndToEnd, DrawnChainsAgainstDataThatFlow) {
-  for (std::uint32_t index = 0; index < 4000; ++index) {
+  for (std::uint32_t index = 0; index < 1000; ++index) {
     const Drawn drawn(index);
     const EndToEnd found = end_to_end(drawn.stages);
-    const std::int64_t window = drawn.hyperperiod * (1 + 600 / drawn.hyperperiod);
+    const std::int64_t window = drawn.window();
     ASSERT_EQ(times_of(found), flown(drawn.stages, window)) << "chain " << index;
     ASSERT_TRUE(found.exact);
     ASSERT_EQ(found.reaction.time, found.age->time) << "chain " << index;  // MRT = MDA
@@ -172,9 +179,9 @@ Stage varied(const Stage& stage, std::int64_t cycle, RandomStream& stream) {
 TEST(EndToEnd, JobsThatVaryStayBelow) {
   RandomStream stream({.seed = 8, .purpose = Purpose::kTest});
   std::size_t judged = 0;
-  for (std::uint32_t index = 0; index < 2000; ++index) {
+  for (std::uint32_t index = 0; index < 600; ++index) {
     const Drawn drawn(index);
-    const std::int64_t window = drawn.hyperperiod * (1 + 600 / drawn.hyperperiod);
+    const std::int64_t window = drawn.window();
     std::vector<Stage> stages;
     for (const Stage& stage : drawn.stages) stages.push_back(varied(stage, window, stream));
     const bool sound = std::ranges::all_of(stages, [](const Stage& stage) {
@@ -189,7 +196,7 @@ TEST(EndToEnd, JobsThatVaryStayBelow) {
     ASSERT_LE(some.age, most.age);
     ASSERT_LE(some.reduced_age, most.reduced_age);
   }
-  EXPECT_GT(judged, 1500U);
+  EXPECT_GT(judged, 450U);
 }
 
 // Davare's sum(T + R), for stages of one job a cycle. An activated one adds its own time.
@@ -201,10 +208,11 @@ std::int64_t davare(const std::vector<Stage>& stages) {
 }
 
 TEST(EndToEnd, BoundsAreNeverBelow) {
-  for (std::uint32_t index = 0; index < 4000; ++index) {
+  for (std::uint32_t index = 0; index < 6000; ++index) {
     const Drawn drawn(index);
     const EndToEnd known = end_to_end(drawn.stages);
     const EndToEnd bound = end_to_end(of_any_phase(drawn.stages));
+    ASSERT_EQ(known.reaction.time, known.age->time) << "chain " << index;  // MRT = MDA
     ASSERT_LE(known.reaction.time, bound.reaction.time) << "chain " << index;
     ASSERT_LE(known.reduced_reaction.time, bound.reduced_reaction.time);
     ASSERT_LE(known.age->time, bound.age->time);
