@@ -26,12 +26,15 @@ constexpr Description kCluster[] = {
      "fusion"},
     {"nodes.NAME.tasks.NAME.activation", "The task is activated like this."},
     {"nodes.NAME.tasks.NAME.activation.kind",
-     "The task is activated by time, by a list that has arrived, by a sensor that measures, or by the end of another "
-     "task.",
+     "The task is activated by time, by a list that has arrived, by a sensor that measures, by the end of another "
+     "task, or by time as its modes say.",
      "time"},
-    {"nodes.NAME.tasks.NAME.activation.base_cycle", "The task runs in cycles c with c mod repetition = base_cycle.",
+    {"nodes.NAME.tasks.NAME.activation.base_cycle",
+     "The task runs in cycles c with c mod repetition = base_cycle; in modes, frames and detections begin in some of "
+     "them.",
      "0"},
-    {"nodes.NAME.tasks.NAME.activation.repetition", "The task runs in every so many cycles; a power of two.", "2"},
+    {"nodes.NAME.tasks.NAME.activation.repetition",
+     "The task runs in every so many cycles, or in modes at such distances; a power of two.", "2"},
     {"nodes.NAME.tasks.NAME.activation.offset", "The task begins at this macrotick of the cycle.", "100"},
     {"nodes.NAME.tasks.NAME.activation.port", "A list that has arrived at this port activates the task.", "raw"},
     {"nodes.NAME.tasks.NAME.activation.sensor", "This sensor's measurements activate the task.", "laser"},
@@ -45,6 +48,18 @@ constexpr Description kCluster[] = {
      "The task writes the list of a measurement at an execution up to this long after the one that began to work at "
      "it.",
      "70 ms"},
+    {"nodes.NAME.tasks.NAME.modes",
+     "Each mode is a frame of detections, repeated until the task asks for another mode at a frame's end "
+     "(docs/adaptive_detection.md)."},
+    {"nodes.NAME.tasks.NAME.modes.NAME.frame", "A frame lasts so many cycles.", "36"},
+    {"nodes.NAME.tasks.NAME.modes.NAME.detections", "The frame has these detections, in their order."},
+    {"nodes.NAME.tasks.NAME.modes.NAME.detections[].cycle", "The detection begins in this cycle of the frame.", "0"},
+    {"nodes.NAME.tasks.NAME.modes.NAME.detections[].camera",
+     "The detection looks at the newest picture of this camera, a port of the task.", "camera_a"},
+    {"nodes.NAME.tasks.NAME.modes.NAME.detections[].look",
+     "The detection looks at the whole picture, or at its region of interest alone (secondary).", "primary"},
+    {"nodes.NAME.tasks.NAME.modes.NAME.detections[].lasts",
+     "The detection's list leaves this long after its beginning; between best and worst case of the task.", "59 ms"},
     {"nodes.NAME.tasks.NAME.reads", "The task reads lists at these ports."},
     {"nodes.NAME.tasks.NAME.reads.NAME", "The port receives this PDU, on FlexRay or on a CAN.",
      "laser_objects on flexray"},

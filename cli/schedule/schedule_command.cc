@@ -30,6 +30,8 @@
 #include "schedules/exchange/text.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
+#include "schedules/modes/stated.h"
+#include "schedules/modes/text.h"
 
 namespace ttf::cli::schedule {
 namespace {
@@ -139,6 +141,32 @@ nlohmann::ordered_json chain_json(const schedules::model::Cluster& cluster,
   return json;
 }
 
+nlohmann::ordered_json modes_json(const schedules::model::Cluster& cluster,
+                                  const schedules::modes::StatedModes& stated) {
+  const auto& [detector, grid, modes] = stated;
+  const auto ports = camera_ports(*detector.task);
+  const std::string letters = schedules::modes::camera_letters(ports.size());
+  nlohmann::ordered_json json{{"task", cluster.node(detector.node).name + "." + detector.task->name}};
+  for (const schedules::modes::Mode& mode : modes)
+    json["modes"].push_back({{"mode", mode.name},
+                             {"sequence", schedules::sequence::letters(mode.sequence, letters)},
+                             {"frame_ms", in_ms(mode.frame)},
+                             {"frame_cycles", mode.cycles}});
+  const std::vector<std::string> chains = schedules::modes::chain_names(cluster, detector);
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    nlohmann::ordered_json chain{{"chain", chains[c]}};
+    for (const auto& row : schedules::modes::bounds_by_mode(cluster, {detector, grid, &modes, letters}, c))
+      for (const schedules::modes::CameraBound& camera : row.cameras)
+        chain["bounds"].push_back({{"mode", row.name},
+                                   {"camera", ports[static_cast<std::size_t>(camera.sensor)]->port},
+                                   {"reduced_reaction_time_ms", {in_ms(camera.least), in_ms(camera.most)}},
+                                   {"reaction_time_in_region_ms", in_ms(camera.reaction_in_region)},
+                                   {"reaction_time_ms", in_ms(camera.reaction)}});
+    json["chains"].push_back(std::move(chain));
+  }
+  return json;
+}
+
 int check(const ScheduleOptions& options) {
   if (options.task_set) return check_task_set(options.file, options.json);
   const schedules::model::Cluster cluster = checked_schedule(options);
@@ -146,8 +174,9 @@ int check(const ScheduleOptions& options) {
   if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
   const Duration dead_time = dead_time_in(options.scenario);
   if (!options.json) {
-    fmt::print("{}: consistent\n{}{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
-               schedules::analysis::ages_text(cluster), schedules::analysis::chain::chains_text(cluster, dead_time));
+    fmt::print("{}: consistent\n{}{}{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
+               schedules::analysis::ages_text(cluster), schedules::analysis::chain::chains_text(cluster, dead_time),
+               schedules::modes::stated_text(cluster));
     if (const std::string skipped = schedules::check::skipped_text(cluster); !skipped.empty())
       fmt::print("{}; measurements have no ages\n", skipped);
     return 0;
@@ -176,6 +205,8 @@ int check(const ScheduleOptions& options) {
                                      {"contributions", contributions_json(path.to_fusion)}});
   for (const schedules::analysis::chain::Chain& chain : schedules::analysis::chain::chains(cluster))
     json["chains"].push_back(chain_json(cluster, chain, dead_time));
+  for (const schedules::modes::StatedModes& stated : schedules::modes::stated_modes(cluster))
+    json["modes"].push_back(modes_json(cluster, stated));
   fmt::print("{}\n", json.dump(2));
   return 0;
 }

@@ -33,7 +33,7 @@ using schedules::sequence::SlotRule;
 struct SequenceOptions {
   std::string sensors, interest, bound, primary, secondary;
   std::string slots = "text", order = "text";
-  bool json = false, best_bound = false;
+  bool json = false, best_bound = false, yaml = false;
   std::string cluster, task, step = "10ms", offset = "0";
   std::optional<std::string> best_case;
   std::vector<std::string> modes;
@@ -160,7 +160,8 @@ ModesAsked modes_of(const SequenceOptions& options, const Asked& asked) {
                    options.sensors,
                    {asked.request.bound},
                    {generated(asked.request)},
-                   options.json};
+                   options.json,
+                   options.yaml};
   for (const std::string& mode : options.modes) {
     FrameRequest request = asked.request;
     request.bound = duration("--mode", mode, {Duration{}, kLongestBound});
@@ -207,7 +208,11 @@ void add_sequence(CLI::App& schedule, Action& action) {
       "27.7ms\n"
       "          ttfusion schedule sequence --sensors ABC --interest A --beta 500ms --primary 46.3ms --secondary "
       "27.7ms "
-      "--best-beta");
+      "--best-beta\n"
+      "          ttfusion schedule sequence --sensors ABC --interest A --beta 0ms --mode 200ms --primary 59ms "
+      "--secondary "
+      "39ms "
+      "--cluster adaptive_loop_synchronised --task detector.detect --offset 3500 --yaml");
   command->add_option("--sensors", options->sensors, "A capital letter for each sensor")->required()->check(named());
   command->add_option("--interest", options->interest, "The sensors with a region of interest (default: none)");
   command->add_option("--beta", options->bound, "Bound of a frame")->required();
@@ -243,8 +248,11 @@ void add_sequence(CLI::App& schedule, Action& action) {
   command->add_option("--best-case", options->best_case,
                       "With --cluster: shortest detection, if its list leaves as it ends (default: lists wait for the "
                       "worst case)");
+  command->add_flag("--yaml", options->yaml,
+                    "With --cluster: print the keys that state these modes for the task in the cluster's file");
+  command->get_option("--yaml")->excludes("--json")->excludes("--best-case");
   command->get_option("--cluster")->needs("--task")->excludes("--best-beta");
-  for (const char* of_modes : {"--task", "--mode", "--step", "--offset", "--best-case"})
+  for (const char* of_modes : {"--task", "--mode", "--step", "--offset", "--best-case", "--yaml"})
     command->get_option(of_modes)->needs(command->get_option("--cluster"));
   for (const char* of_best : {"--process-noise", "--sigma", "--share"})
     command->get_option(of_best)->needs(command->get_option("--best-beta"));

@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cli/shipped.h"
 #include "core/decimal.h"
 #include "core/errors.h"
-#include "schedules/analysis/chain/rest.h"
 #include "schedules/check/checker.h"
+#include "schedules/model/ports.h"
+#include "schedules/modes/stated.h"
+#include "schedules/modes/text.h"
 
 namespace ttf::cli::schedule {
 namespace {
@@ -36,9 +37,19 @@ Detector detector_of(const schedules::model::Cluster& cluster, const std::string
 struct Checked {
   schedules::model::Cluster cluster;
   Detector detector;
+  schedules::modes::Grid grid;
   std::vector<Mode> modes;
-  std::vector<std::string> chains;
+
+  schedules::modes::SoundModes sound(const ModesAsked& asked) const { return {detector, grid, &modes, asked.sensors}; }
 };
+
+// The detections of a task that time activates begin in the same cycles of a step as it does.
+int base_cycle_of(const schedules::model::Cluster& cluster, const Detector& detector,
+                  const schedules::modes::Grid& grid) {
+  const schedules::model::Activation& activation = detector.task->activation;
+  const std::int64_t cycles = grid.step.ns / cluster.cycle().ns;
+  return is_by_time(activation) ? static_cast<int>(activation.at.base_cycle % cycles) : 0;
+}
 
 Checked checked(const ModesAsked& asked) {
   Checked found;
@@ -47,36 +58,17 @@ Checked checked(const ModesAsked& asked) {
   if (const Duration cycle = found.cluster.cycle(); asked.grid.step.ns % cycle.ns != 0)
     refuse_modes("--step", scaled_text(asked.grid.step.ns, 1'000'000) + " ms",
                  fmt::format("must be a multiple of the communication cycle, {} ms", scaled_text(cycle.ns, 1'000'000)));
+  found.grid = asked.grid;
+  found.grid.base_cycle = base_cycle_of(found.cluster, found.detector, asked.grid);
   for (std::size_t m = 0; m < asked.sequences.size(); ++m) {
-    found.modes.push_back(placed(found.cluster, asked.sequences[m], asked.times, asked.grid));
-    found.modes.back().bound = asked.bounds[m];
+    Mode& mode = found.modes.emplace_back(placed(found.cluster, asked.sequences[m], asked.times, found.grid));
+    mode.name = letters(mode.sequence, asked.sensors);
+    mode.bound = asked.bounds[m];
   }
   Findings findings;
-  for (Finding& one : unsound(found.cluster, found.detector, found.modes, asked.grid)) findings.add(std::move(one));
+  for (Finding& one : unsound(found.cluster, found.detector, found.modes, found.grid)) findings.add(std::move(one));
   findings.throw_if_any();
-  for (const auto& rest :
-       schedules::analysis::chain::rests_behind(found.cluster, found.detector.node, *found.detector.task))
-    found.chains.push_back(rest.name());
   return found;
-}
-
-// A row for each mode, and one for each change from a mode to another, in a chain.
-struct Rows {
-  std::string name;
-  std::vector<CameraBound> cameras;
-};
-std::vector<Rows> rows_of(const ModesAsked& asked, const Checked& found, std::size_t chain) {
-  std::vector<Rows> rows;
-  for (const Mode& mode : found.modes)
-    rows.push_back(
-        {letters(mode.sequence, asked.sensors), bounds(found.cluster, found.detector, mode, asked.grid, chain)});
-  for (const Mode& before : found.modes)
-    for (const Mode& after : found.modes)
-      if (&before != &after)
-        rows.push_back(
-            {fmt::format("{} then {}", letters(before.sequence, asked.sensors), letters(after.sequence, asked.sensors)),
-             bounds_of_change(found.cluster, found.detector, before, after, asked.grid, chain)});
-  return rows;
 }
 
 void print_json(const ModesAsked& asked, const Checked& found) {
@@ -85,7 +77,7 @@ void print_json(const ModesAsked& asked, const Checked& found) {
                               {"step_ms", in_ms(asked.grid.step)},
                               {"offset", asked.grid.offset.value}};
   for (const Mode& mode : found.modes) {
-    nlohmann::ordered_json one{{"sequence", letters(mode.sequence, asked.sensors)},
+    nlohmann::ordered_json one{{"sequence", mode.name},
                                {"bound_ms", in_ms(mode.bound)},
                                {"frame_ms", in_ms(mode.frame)},
                                {"frame_cycles", mode.cycles}};
@@ -98,9 +90,10 @@ void print_json(const ModesAsked& asked, const Checked& found) {
                                     {"occupied_ms", in_ms(detection.occupied)}});
     json["modes"].push_back(std::move(one));
   }
-  for (std::size_t c = 0; c < found.chains.size(); ++c) {
-    nlohmann::ordered_json chain{{"chain", found.chains[c]}};
-    for (const Rows& row : rows_of(asked, found, c))
+  const std::vector<std::string> chains = chain_names(found.cluster, found.detector);
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    nlohmann::ordered_json chain{{"chain", chains[c]}};
+    for (const auto& row : bounds_by_mode(found.cluster, found.sound(asked), c))
       for (const CameraBound& camera : row.cameras)
         chain["bounds"].push_back({{"mode", row.name},
                                    {"sensor", std::string(1, asked.sensors[static_cast<std::size_t>(camera.sensor)])},
@@ -112,16 +105,15 @@ void print_json(const ModesAsked& asked, const Checked& found) {
   fmt::print("{}\n", json.dump(2));
 }
 
-void print_mode(const ModesAsked& asked, const Mode& mode) {
-  fmt::print("mode {} for a bound of {:g} ms: a frame of {:g} ms, {} cycles\n", letters(mode.sequence, asked.sensors),
-             in_ms(mode.bound), in_ms(mode.frame), mode.cycles);
-  fmt::print("  detection   cycle  offset  begins [ms]  list at most [ms]  occupied until [ms]\n");
-  for (const PlacedDetection& one : mode.detections) {
-    const Duration begins = one.begins;
-    fmt::print("  {:<9}  {:>6}  {:>6}  {:>11.3f}  {:>17.3f}  {:>19.3f}\n",
-               schedules::sequence::letters({one.detection}, asked.sensors), one.cycle, asked.grid.offset.value,
-               in_ms(begins), in_ms(begins + one.worst_case), in_ms(begins + one.occupied));
-  }
+// The letters of the sensors stand for the cameras of the task, in the order of its ports.
+void print_yaml(const ModesAsked& asked, const Checked& found) {
+  const std::size_t cameras = camera_ports(*found.detector.task).size();
+  if (cameras != asked.sensors.size())
+    refuse_modes("--yaml", asked.task,
+                 fmt::format("needs a task that reads a list of each of the {} cameras and writes one, as "
+                             "adaptive_camera does; this one does so for {}",
+                             asked.sensors.size(), cameras));
+  fmt::print("{}", yaml_text(found.cluster, found.detector, found.modes, found.grid));
 }
 
 }  // namespace
@@ -129,26 +121,17 @@ void print_mode(const ModesAsked& asked, const Mode& mode) {
 void print_modes(const ModesAsked& asked) {
   const Checked found = checked(asked);
   if (asked.json) return print_json(asked, found);
-  for (const Mode& mode : found.modes) print_mode(asked, mode);
+  if (asked.yaml) return print_yaml(asked, found);
+  for (const Mode& mode : found.modes) {
+    fmt::print("mode {} for a bound of {:g} ms: a frame of {:g} ms, {} cycles\n{}", mode.name, in_ms(mode.bound),
+               in_ms(mode.frame), mode.cycles, instants_text(mode, found.sound(asked)));
+  }
   fmt::print(
       "consistent with {}: detections end within their steps, and no list of {} is torn or replaced, "
-      "whenever modes change at a frame's end; lists {}\n",
+      "whenever modes change at a frame's end; lists {}\n{}",
       found.cluster.name, asked.task,
-      asked.grid.best_case ? "may leave when their detections end" : "wait for their detections' worst cases");
-  if (found.chains.empty()) fmt::print("no chain leads from {} to an actuator\n", asked.task);
-  for (std::size_t c = 0; c < found.chains.size(); ++c) {
-    const std::vector<Rows> rows = rows_of(asked, found, c);
-    std::size_t wide = 4;
-    for (const Rows& row : rows) wide = std::max(wide, row.name.size());
-    fmt::print("{}, for BUFF without its waiting [ms]\n", found.chains[c]);
-    fmt::print("  {:<{}}  camera  first picture to first command  reaction time in region  anywhere\n", "mode", wide);
-    for (const Rows& row : rows)
-      for (const CameraBound& camera : row.cameras)
-        fmt::print("  {:<{}}  {:<6}  {:>30}  {:>23.3f}  {:>8.3f}\n", row.name, wide,
-                   asked.sensors[static_cast<std::size_t>(camera.sensor)],
-                   fmt::format("{:.3f}..{:.3f}", in_ms(camera.least), in_ms(camera.most)),
-                   in_ms(camera.reaction_in_region), in_ms(camera.reaction));
-  }
+      asked.grid.best_case ? "may leave when their detections end" : "wait for their detections' worst cases",
+      bounds_text(found.cluster, found.sound(asked)));
 }
 
 }  // namespace ttf::cli::schedule

@@ -17,10 +17,10 @@ struct ModesAsked {
   std::string sensors;
   std::vector<Duration> bounds;  // beta of each mode
   std::vector<schedules::sequence::Sequence> sequences;
-  bool json = false;
+  bool json = false, yaml = false;
 };
 
-// Prints the checked modes, and the bounds of the chains behind them.
+// Prints the checked modes, and the bounds of the chains behind them; or the modes alone, as lines of a cluster file.
 void print_modes(const ModesAsked& asked);
 
 }  // namespace ttf::cli::schedule

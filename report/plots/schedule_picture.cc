@@ -333,6 +333,13 @@ class SchedulePainter {
     return "a list at " + task.activation.port;
   }
 
+  static std::string in_modes(const schedules::model::Task& task) {
+    std::string words = fmt::format("at {} MT of cycles of its modes: ", task.activation.at.offset.value);
+    for (const auto& mode : task.modes)
+      words += fmt::format("{}{} of {} cycles", &mode == &task.modes.front() ? "" : ", ", mode.name, mode.cycles);
+    return words;
+  }
+
   // Describes tasks without a place in the cycle in words.
   std::vector<std::string> other_tasks() const {
     using schedules::model::ActivationKind;
@@ -342,6 +349,7 @@ class SchedulePainter {
         std::string when;
         switch (task.activation.kind) {
           case ActivationKind::kTime: continue;
+          case ActivationKind::kModes: when = in_modes(task); break;
           case ActivationKind::kMessage: when = "when " + list_of(task) + " has arrived"; break;
           case ActivationKind::kSensor: when = "when " + names_.sensor(task.activation.sensor) + " measures"; break;
           case ActivationKind::kCompletion: when = "when " + task.activation.after + " ends"; break;

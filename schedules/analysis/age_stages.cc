@@ -139,7 +139,7 @@ class Builder {
   }
 
   void execution(Path& path, NodeId node, const model::Task& task) {
-    path.chosen = path.chosen || task.holds > Duration{};
+    path.chosen = path.chosen || task.holds > Duration{} || !task.modes.empty();
     if (task.holds > Duration{})
       span(path, fmt::format("{}.{} holds it", cluster_.node(node).name, task.name), {}, task.holds);
     span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name), shortest_execution(task),
@@ -193,7 +193,8 @@ class Builder {
   void activation(Path& path, NodeId id, const model::Task& task, const model::PortBinding& list) {
     const model::Node& node = cluster_.node(id);
     const std::string who = fmt::format("{}.{}", node.name, task.name);
-    if (task.activation.kind == model::ActivationKind::kTime) {
+    // A task with modes begins at some instants of its grid. It looks at the newest list.
+    if (is_by_time(task.activation)) {
       instant(path, who, task.activation.at);
     } else if (task.activation.kind == model::ActivationKind::kCompletion) {
       // It reads at its own start. The wait is at most a period of its chain's first task and all responses.
@@ -248,7 +249,7 @@ class Builder {
   // the next period as well.
   Duration longest_period(const model::Task& task) const {
     Duration longest{};
-    if (task.activation.kind == model::ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
+    if (is_by_time(task.activation)) return cluster_.cycle() * task.activation.at.repetition;
     for (const model::Sensor& sensor : cluster_.sensors) longest = std::max(longest, sensor.longest_period());
     return longest * 2;
   }

@@ -201,6 +201,13 @@ class ChainAnalysis {
   processor::TaskChains set_;
 };
 
+// The executions of a task with modes do not meet: it is its node's only task, and the rule about modes holds them apart
+// (schedules/modes). The time between two of its lists is not known here.
+std::optional<std::vector<TaskResponse>> alone_with_modes(const model::Node& node) {
+  if (node.tasks.size() != 1 || node.tasks[0].modes.empty()) return std::nullopt;
+  return std::vector{TaskResponse{node.tasks[0].worst_case, std::nullopt, std::nullopt}};
+}
+
 }  // namespace
 
 Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node) {
@@ -210,11 +217,13 @@ Duration longest_busy_time(const model::Cluster& cluster, const model::Node& nod
 
 std::optional<std::vector<TaskResponse>> worst_responses(const model::Cluster& cluster, NodeId node,
                                                          WritersOfLists writers) {
+  if (const auto alone = alone_with_modes(cluster.node(node))) return alone;
   return ChainAnalysis(cluster, node, writers).responses();
 }
 
 std::optional<Duration> worst_response(const model::Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead) {
+  if (const auto alone = alone_with_modes(cluster.node(node))) return alone->front().worst;
   const ChainAnalysis tasks(cluster, node, WritersOfLists::kKnown);
   if (std::any_of(ahead.begin(), ahead.end(), [](Duration lead) { return lead > Duration{}; }))
     return tasks.response_behind(task, ahead);

@@ -32,9 +32,9 @@ std::optional<SensorLoop> loop_of(const model::Cluster& cluster, SensorId sensor
 // Returns the loop that activates this task of the node, if any.
 std::optional<SensorLoop> loop_through(const model::Cluster& cluster, NodeId node, const model::Task& task);
 
-// Returns a task's shortest execution time.
+// Returns a task's shortest execution time. Those of a task with modes last as its modes say.
 inline Duration shortest_execution(const model::Task& task) {
-  return task.draw == model::ExecutionDraw::kWorst ? task.worst_case : task.best_case;
+  return task.draw == model::ExecutionDraw::kWorst && task.modes.empty() ? task.worst_case : task.best_case;
 }
 
 // Returns the shortest time from the end of `after` to its next activation, on any clock.

@@ -14,6 +14,7 @@
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/analysis/responses.h)
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
+//   modes        modes of tasks whose instants and lists meet no others (schedules/modes/detection_modes.h)
 //   flow         every reader has a writer and the reverse, sensors have their tasks, no list flows in a ring
 #pragma once
 
@@ -82,7 +83,8 @@ void check_tasks(const model::Cluster& cluster, ClusterFindings& findings);
 // CAN lists.
 void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings& findings);
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
-void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
+void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all those
+void check_modes(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
 // Return the shortest static slot for a frame of gPayloadLengthStatic words, and the shortest symbol window (constraint
 // 16), in macroticks.

@@ -58,6 +58,22 @@ void check_activation(const model::Cluster& cluster, NodeId id, const model::Tas
                            fmt::format("must be at most the task's period, {}: it overlaps itself", ms(period)));
       break;
     }
+    case model::ActivationKind::kModes: {
+      if (task.modes.empty())
+        findings.parameter(path + ".activation", "modes", "needs the key modes, with at least one mode");
+      if (!node.flexray)
+        findings.parameter(path + ".activation", "modes", "needs a node on FlexRay: other nodes have no global time");
+      if (node.tasks.size() != 1)
+        findings.parameter(
+            path + ".activation", "modes",
+            fmt::format("must be that of the only task of {}: its executions last as its modes say", node.name));
+      if (task.draw != model::ExecutionDraw::kWorst)
+        findings.parameter(path + ".draw", "uniform", "must be worst: lists wait for the times of the task's modes");
+      if (task.holds > Duration{})
+        findings.parameter(path + ".holds", ms(task.holds),
+                           "must be absent: a task with modes writes at the end of the execution that reads");
+      break;
+    }
     case model::ActivationKind::kMessage: {
       const auto read = std::find_if(task.reads.begin(), task.reads.end(),
                                      [&](const model::PortBinding& binding) { return activates(task, binding); });

@@ -12,6 +12,7 @@
 #include "schedules/analysis/object_ceiling.h"
 #include "schedules/analysis/slot_groups.h"
 #include "schedules/check/real_time_rules.h"
+#include "schedules/model/ports.h"
 
 namespace ttf::schedules::exchange {
 namespace {
@@ -71,6 +72,11 @@ std::string activation_text(const model::Cluster& cluster, const model::Task& ta
     case model::ActivationKind::kTime: {
       const GlobalTime start = time_of(g, activation.at.base_cycle, activation.at.offset);
       return fmt::format("at {:.3f} ms + n*{:g} ms", in_ms(start - GlobalTime{}),
+                         in_ms(cluster.cycle() * activation.at.repetition));
+    }
+    case model::ActivationKind::kModes: {
+      const GlobalTime start = time_of(g, activation.at.base_cycle, activation.at.offset);
+      return fmt::format("in modes, from {:.3f} ms + n*{:g} ms on", in_ms(start - GlobalTime{}),
                          in_ms(cluster.cycle() * activation.at.repetition));
     }
     case model::ActivationKind::kMessage: return fmt::format("when {} arrives", activation.port);
@@ -159,6 +165,20 @@ void show_objects(const model::Cluster& cluster, std::string& text) {
                       ceiling.carried, ceiling.with_all_static_slots, ceiling.free_for_lists);
 }
 
+// A row for each mode: its detections, each at its cycle of the frame.
+std::string modes_text(const model::Task& task, const std::string& indent) {
+  const std::vector<const model::PortBinding*> cameras = camera_ports(task);
+  std::string text;
+  for (const model::TaskMode& mode : task.modes) {
+    text += fmt::format("{}mode {}: {} cycles:", indent, mode.name, mode.cycles);
+    for (const model::ModeInstant& one : mode.instants)
+      text += fmt::format(" {}{} at {}{}", cameras[one.camera]->port, one.secondary ? " (region)" : "", one.cycle,
+                          &one == &mode.instants.back() ? "" : ",");
+    text += '\n';
+  }
+  return text;
+}
+
 // A time on the cycle's own grid goes below a row that it would make too wide.
 std::string task_text(const model::Cluster& cluster, const model::Node& node, const model::Task& task) {
   const std::string names = fmt::format("  {:<12}{:<16}", node.name, task.name);
@@ -170,7 +190,7 @@ std::string task_text(const model::Cluster& cluster, const model::Node& node, co
                                          cycles_text(activation.at.base_cycle, activation.at.repetition));
     text += (text.size() + 1 + grid.size() > kWidest ? '\n' + std::string(names.size(), ' ') : " ") + grid;
   }
-  return text + '\n';
+  return text + '\n' + modes_text(task, std::string(names.size(), ' '));
 }
 
 // Breaks lines that are too wide at blanks. Their other lines are further in.

@@ -10,6 +10,7 @@
 
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
+#include "schedules/file/load_modes.h"
 #include "schedules/file/parameter_table.h"
 #include "schedules/model/limits.h"
 
@@ -301,9 +302,11 @@ class Loader {
     activation.kind = map.choice<model::ActivationKind>("kind", {{"time", model::ActivationKind::kTime},
                                                                  {"message", model::ActivationKind::kMessage},
                                                                  {"sensor", model::ActivationKind::kSensor},
-                                                                 {"completion", model::ActivationKind::kCompletion}});
+                                                                 {"completion", model::ActivationKind::kCompletion},
+                                                                 {"modes", model::ActivationKind::kModes}});
     switch (activation.kind) {
-      case model::ActivationKind::kTime: activation.at = load_instant(map); break;
+      case model::ActivationKind::kTime:
+      case model::ActivationKind::kModes: activation.at = load_instant(map); break;
       case model::ActivationKind::kMessage: activation.port = map.text("port"); break;
       case model::ActivationKind::kSensor: activation.sensor = sensor(map, "sensor"); break;
       case model::ActivationKind::kCompletion: activation.after = map.text("after"); break;
@@ -326,7 +329,8 @@ class Loader {
     task.holds = map.duration_or("holds", task.holds, kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
-    for (const char* key : {"step", "activation", "worst_case", "deadline", "holds"}) remember(map, key);
+    if (map.has("modes")) task.modes = load_modes(map, task);
+    for (const char* key : {"step", "activation", "worst_case", "draw", "deadline", "holds"}) remember(map, key);
     map.finish();
   }
 

@@ -18,6 +18,7 @@
 #include "schedules/model/medium_id.h"
 #include "schedules/model/pdu.h"
 #include "schedules/model/round.h"
+#include "schedules/model/task_modes.h"
 
 namespace ttf::schedules::model {
 
@@ -116,11 +117,12 @@ enum class ActivationKind : std::uint8_t {
   kMessage,     // when a list of `port` has arrived completely
   kSensor,      // at the sensor's measurement instants
   kCompletion,  // when task `after` of the same node ends
+  kModes,       // at the instants of the task's modes (schedules/model/task_modes.h)
 };
 
 struct Activation {
   ActivationKind kind = ActivationKind::kTime;
-  CycleInstant at{};
+  CycleInstant at{};  // with kModes, the grid of the frames' beginnings
   std::string port;
   SensorId sensor = kNoSensor;
   std::string after;
@@ -144,8 +146,14 @@ struct Task {
   Duration holds{};
   std::vector<PortBinding> reads;
   std::vector<PortBinding> writes;
+  std::vector<TaskMode> modes;  // with kModes, at least one; a drive begins with the first
   int line = 0;
 };
+
+// Returns whether time activates the task, on the grid of Activation::at.
+constexpr bool is_by_time(const Activation& activation) {
+  return activation.kind == ActivationKind::kTime || activation.kind == ActivationKind::kModes;
+}
 
 // Returns whether a list at this port, which the task reads, activates the task.
 bool activates(const Task& task, const PortBinding& read);

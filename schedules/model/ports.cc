@@ -71,6 +71,14 @@ bool no_file_name_has(char c) { return c == '/' || static_cast<unsigned char>(c)
 
 std::string written_port(std::string_view sensor) { return std::string(sensor).append(kObjects); }
 
+std::vector<const PortBinding*> camera_ports(const Task& task) {
+  std::vector<const PortBinding*> ports;
+  for (const PortBinding& read : task.reads)
+    if (std::ranges::find(task.writes, written_port(read.port), &PortBinding::port) != task.writes.end())
+      ports.push_back(&read);
+  return ports;
+}
+
 bool names_library(std::string_view step) { return step.ends_with(kLibraryEnd); }
 
 void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {

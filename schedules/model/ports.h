@@ -28,6 +28,9 @@ struct StepPorts {
 // Returns the port by which a step with any_writes writes the lists of a sensor: camera_objects for the sensor camera.
 std::string written_port(std::string_view sensor);
 
+// Returns the ports at which the task reads a list whose counterpart it writes, in order: the cameras of a detector.
+std::vector<const PortBinding*> camera_ports(const Task& task);
+
 // Returns whether a step's name is a library's file name, such as distance.so, and not that of the program's own code.
 bool names_library(std::string_view step);
 

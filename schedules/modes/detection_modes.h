@@ -11,7 +11,7 @@
 //   steps     a step is a whole number of cycles, as the slots of the lists repeat with cycles
 //   ends      each detection ends before its steps do, by any clock
 //   lists     each list is in its slots, or given to its CAN, before the next one is written: none is torn or
-//             replaced. In the dynamic segment its turn comes in every cycle of its frames, and its latest turn counts.
+//             replaced. Two detections in a row may be of the same camera, in any modes. In the dynamic segment its turn comes in every cycle of its frames, and its latest turn counts.
 //             This holds for all modes at once, and so where they change.
 // For a sound mode, the chain from a picture to the actuator is bounded over every cycle in which its detection may
 // begin (schedules/analysis/chain).
@@ -30,11 +30,17 @@
 namespace ttf::schedules::modes {
 
 struct Grid {
+  // Detections begin every so often, in cycles of which one is `base_cycle`.
   Duration step = Duration::milliseconds(10);
   Macroticks offset{0};  // a detection begins there in its cycle
   // The shortest detection, if a list is written as soon as its detection ends.
   std::optional<Duration> best_case = std::nullopt;
+  int base_cycle = 0;
 };
+// Returns the instants within a round at which a detection may begin: those of the grid.
+std::vector<GlobalTime> beginnings(const model::Cluster& cluster, const Grid& grid);
+// Returns the longest time that a detection takes in global time.
+Duration by_any_clock(const model::Cluster& cluster, Duration worst_case);
 
 struct PlacedDetection {
   sequence::Detection detection;
@@ -43,9 +49,11 @@ struct PlacedDetection {
   Duration worst_case{};
   Duration best_case{};  // the worst case, if lists wait for it
   Duration occupied{};
+  int line = 0;  // in the cluster's file, if it states the mode
 };
 
 struct Mode {
+  std::string name;  // for people; letters are those of the cameras' places
   Duration bound{};  // beta, for people
   sequence::Sequence sequence;
   std::int64_t cycles = 0;  // of a frame
@@ -61,10 +69,11 @@ Mode placed(const model::Cluster& cluster, const sequence::Sequence& sequence, c
 struct Detector {
   NodeId node{};
   const model::Task* task = nullptr;
+  bool stated = false;  // its modes are those of the cluster's file (schedules/modes/stated.h), and not options'
 };
 
-// Returns what is wrong with the modes in this cluster, each in one sentence about an option's key of `schedule
-// sequence`. The cluster must have passed check().
+// Returns what is wrong with the modes in this cluster, each in one sentence: about a key of its file, or about an option of
+// `schedule sequence`. The cluster must have passed all other rules of check().
 std::vector<Finding> unsound(const model::Cluster& cluster, const Detector& detector, const std::vector<Mode>& modes,
                              const Grid& grid);
 
@@ -76,7 +85,11 @@ struct CameraBound {
   // From the event itself: where the region of interest shows it, and where only whole pictures do.
   Duration reaction_in_region{}, reaction{};
 };
-// Returns the bounds of a sound mode, by camera, for one chain: by its place among rests_behind() of the task.
+// Returns the bounds of a sound mode, by camera, for one chain: by its place among rests_behind() of the task. If the task
+// reads the lists of several cameras, the chain is one camera's, and so are its bounds.
+//
+// If time activates the task, it looks at the newest picture, which is older than the detection's beginning. Bounds then count
+// from the picture. A task that a picture activates begins with it.
 std::vector<CameraBound> bounds(const model::Cluster& cluster, const Detector& detector, const Mode& mode,
                                 const Grid& grid, std::size_t chain);
 // Returns them for an event that comes about when `before` ends and `after` begins. The first pictures are those of

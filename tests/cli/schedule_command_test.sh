@@ -77,6 +77,23 @@ for a in check["ages"]:
     assert (a["newest_at_any_use_worst_ms"] is None) == a["sensor"].startswith("camera"), a
 PY
 
+# Its modes bound them.
+loop=$source/schedules/adaptive_loop_modes.yaml
+expect 0 '^modes of detector.detect: A camera_a B camera_b C camera_c$' schedule check "$loop"
+says '^mode AaBaCa: AaBaCa, a frame of 300 ms, 60 cycles$' '^  ABC then AaBaCa +A ' '^How often .* bounds from the event on follow by mode\.$'
+expect 0 '^ +mode ABC: 36 cycles: camera_a at 0, camera_b at 12, camera_c at 24$' schedule show "$loop"
+"$program" schedule check "$loop" --json >"$work/modes.json" || fail "a cluster with modes as JSON fails"
+python3 - "$work/modes.json" <<'PY' || fail "modes have false bounds"
+import json, sys
+(task,) = json.load(open(sys.argv[1]))["modes"]
+assert task["task"] == "detector.detect" and [m["frame_cycles"] for m in task["modes"]] == [36, 60], task
+assert [len(c["bounds"]) for c in task["chains"]] == [4, 4, 4], task
+for c in task["chains"]:
+    for b in c["bounds"]:
+        assert b["reduced_reaction_time_ms"][1] < b["reaction_time_in_region_ms"] <= b["reaction_time_ms"], b
+        assert c["chain"].startswith(b["camera"]), c
+PY
+
 # On real CAN FD: the failing rules, and the time scale at which all hold.
 expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" \
   --medium can-fd:1M/5M

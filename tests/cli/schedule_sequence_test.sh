@@ -65,6 +65,19 @@ assert [a["cycle"] for a in found["modes"][0]["activations"]] == [0, 10, 20], fo
 assert len(found["chains"]) == 2 and len(found["chains"][0]["bounds"]) == 12, found
 PY
 
+# As keys of a cluster's file: the shipped cluster has them.
+planned=(--sensors ABC --interest A --beta 0ms --mode 260ms --primary 59ms --secondary 39ms --cluster adaptive_loop_synchronised
+  --task detector.detect --offset 3500)
+expect 0 '^          AaBaCa:$' schedule sequence "${planned[@]}" --yaml
+says '^        activation: .kind: modes, base_cycle: 0, repetition: 2, offset: 3500.$'
+python3 - "$output" "$source/schedules/adaptive_loop_modes.yaml" <<'PY' || fail "adaptive_loop_modes has other modes than those printed"
+import sys
+assert sys.argv[1] in open(sys.argv[2]).read()
+PY
+expect 0 '^camera_b -> detector.detect -> fusion.fuse -> ' schedule sequence "${planned[@]}"
+says '^  AaBaCa then ABC +C '
+[[ $(grep -Ec '^  ABC +[ABC] ' <<<"$output") -eq 3 ]] || fail "a chain has bounds of other cameras than its own: $output"
+
 mistake() {  # WORDS ARGS...
   expect 2 "$1" schedule sequence "${@:2}"
 }
@@ -91,6 +104,9 @@ mistake '--best-case = 30ms: must be 0..0.0277 s with its unit' "${modes[@]}" --
 mistake '--primary = 50 ms: must end .* before its steps of 50 ms do' --sensors ABC --beta 0ms --primary 50ms \
   --secondary 20ms --cluster closed_loop_synchronised --task camera_pre.preprocess
 mistake '--cluster' "${modes[@]}"
+mistake '--yaml' "${planned[@]}" --yaml --json
+mistake '--yaml = camera_pre.preprocess: needs a task that reads a list of each of the 3 cameras' "${modes[@]}" \
+  --task camera_pre.preprocess --yaml
 mistake '--primary' --sensors ABC --beta 200ms --secondary 1ms
 
 [[ $failures -eq 0 ]] && echo "schedule sequence: all as documented"

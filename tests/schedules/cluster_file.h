@@ -41,6 +41,7 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "adaptive_synchronised",
                                                "adaptive_loop_unsynchronised",
                                                "adaptive_loop_synchronised",
+                                               "adaptive_loop_modes",
                                                "laser_and_radar_unsynchronised",
                                                "laser_and_radar_synchronised",
                                                "four_kinds_unsynchronised",

@@ -34,6 +34,12 @@ Duration between_pictures(const model::Cluster& cluster, SensorId id) {
   return period + Duration{sensor.scheduled ? clocks.apart_ns : clocks.drift_ns(period.ns)};
 }
 
+bool has_modes(const model::Cluster& cluster) {
+  return std::ranges::any_of(cluster.nodes, [](const model::Node& node) {
+    return std::ranges::any_of(node.tasks, [](const model::Task& task) { return !task.modes.empty(); });
+  });
+}
+
 }  // namespace
 
 std::vector<Chain> chains(const model::Cluster& cluster) {
@@ -88,7 +94,9 @@ std::string chains_text(const model::Cluster& cluster, Duration dead_time) {
     row("  reaction time" + held, std::nullopt, chain.reaction_worst(true) + dead_time);
     row("  data age when read" + held, std::nullopt, chain.reduced_age_worst(true));
   }
-  if (!std::ranges::all_of(all, &Chain::looks_at_all))
+  if (has_modes(cluster))
+    text += "How often a detector looks at a camera depends on its mode: bounds from the event on follow by mode.\n";
+  else if (!std::ranges::all_of(all, &Chain::looks_at_all))
     text +=
         "How often a detector looks at a camera is not known: its chains have no bound from the event on.\n"
         "`ttfusion schedule sequence --cluster` has one for a table of detections.\n";

@@ -21,6 +21,14 @@ Duration RestOfChain::behind(GlobalTime start, Duration lasts, bool latest) cons
   return {latest ? sum + apart : std::max<std::int64_t>(0, sum - apart)};
 }
 
+RestOfChain::PictureAge RestOfChain::picture_at_start() const {
+  PictureAge age;
+  const std::vector<AgePath> ages = ages_along(cluster_, {path_});
+  for (const Waypoint& point : ages.at(0).waypoints)
+    if (point.kind == Waypoint::Kind::kRead && point.stages <= first_) age = {point.best, point.worst};
+  return age;
+}
+
 std::vector<RestOfChain> rests_behind(const model::Cluster& cluster, NodeId node, const model::Task& task) {
   std::vector<RestOfChain> rests;
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {

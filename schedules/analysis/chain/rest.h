@@ -18,6 +18,12 @@ class RestOfChain {
   RestOfChain(const model::Cluster& cluster, std::string name, Path path, std::size_t first);
 
   const std::string& name() const { return name_; }
+  SensorId sensor() const { return path_.sensor; }
+  // Returns how old a picture is when the task begins with it, if time activates the task and it takes the newest one.
+  struct PictureAge {
+    Duration best{}, worst{};
+  };
+  PictureAge picture_at_start() const;
   // Returns the time from the task's beginning, at `start` of global time, until the actuator reads the first command
   // resting on it: at least and at most, with the clocks' difference. The task executes for `lasts`.
   Duration earliest(GlobalTime start, Duration lasts) const { return behind(start, lasts, false); }
