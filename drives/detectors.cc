@@ -61,9 +61,10 @@ int line_of_holds(const Cluster& cluster, const Task& task, const std::string& p
 Duration step_of(const Cluster& cluster, const Task& task) { return cluster.cycle() * task.activation.at.repetition; }
 
 void check_times(const Cluster& cluster, const Task& task, const std::string& path, Findings& findings) {
+  if (!task.modes.empty()) return;  // the rules about modes hold (schedules/modes)
   if (task.activation.kind != schedules::model::ActivationKind::kTime) {
     findings.add({cluster.file, task.line, path + ".activation", "",
-                  "must be of kind time: a detection takes whole steps, and an execution is one"});
+                  "must be of kind time or modes: a detection takes whole steps, and an execution is one"});
     return;
   }
   const Duration step = step_of(cluster, task);
@@ -73,9 +74,55 @@ void check_times(const Cluster& cluster, const Task& task, const std::string& pa
                   fmt::format("must be at least {:g} ms: a detection takes at least two executions", in_ms(step * 2))});
 }
 
+// Checks the same where modes say how long detections last.
+void check_whole_pictures(const Scenario& scenario, const Cluster& cluster, const Task& task, const std::string& path,
+                          Findings& findings) {
+  const Duration picture = nodes::vision::whole_picture(scenario.adaptive_camera);
+  for (const schedules::model::TaskMode& mode : task.modes)
+    for (std::size_t i = 0; i < mode.instants.size(); ++i) {
+      const schedules::model::ModeInstant& one = mode.instants[i];
+      if (one.secondary || one.lasts >= picture) continue;
+      findings.add({cluster.file, one.line, fmt::format("{}.modes.{}.detections[{}].lasts", path, mode.name, i),
+                    fmt::format("{:g} ms", in_ms(one.lasts)),
+                    fmt::format("must be at least {:g} ms: a whole picture takes that by adaptive_camera.picture_time "
+                                "and hardware_factor of {}",
+                                in_ms(picture), scenario.file)});
+    }
+}
+
+// Checks that the scenario's modes and their cameras are the detector's.
+std::vector<std::string> camera_names(const Cluster& cluster, const Task& task) {
+  std::vector<std::string> names;
+  for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
+  return names;
+}
+
+void check_modes_named(const Scenario& scenario, const Cluster& cluster, const Task& task, Findings& findings) {
+  const std::vector<std::string> cameras = camera_names(cluster, task);
+  std::vector<std::string> modes;
+  for (const schedules::model::TaskMode& mode : task.modes) modes.push_back(mode.name);
+  for (const nodes::vision::ModeOfRegions& row : scenario.adaptive_camera.modes) {
+    const auto fail = [&](const char* key, const std::string& value, std::string expected) {
+      findings.add({scenario.file, row.line, std::string("adaptive_camera.modes.") + key, value, std::move(expected)});
+    };
+    if (modes.empty())
+      return fail("mode", row.mode, fmt::format("must be absent: the detector of {} has no modes", cluster.file));
+    if (std::ranges::find(modes, row.mode) == modes.end())
+      fail("mode", row.mode,
+           fmt::format("must be a mode of the detector of {}: {}{}", cluster.file, joined(modes, " or "),
+                       did_you_mean(row.mode, modes)));
+    for (const std::string& camera : row.cameras)
+      if (std::ranges::find(cameras, camera) == cameras.end())
+        fail("regions", camera,
+             fmt::format("must be cameras of the detector of {}: {}{}", cluster.file, joined(cameras, " or "),
+                         did_you_mean(camera, cameras)));
+  }
+}
+
 // A detector that is cut off at each whole picture would take less than the scenario says.
 void check_whole_picture(const Scenario& scenario, const Cluster& cluster, const Task& task, const std::string& path,
                          Findings& findings) {
+  if (!task.modes.empty()) return check_whole_pictures(scenario, cluster, task, path, findings);
   const Duration step = step_of(cluster, task), picture = nodes::vision::whole_picture(scenario.adaptive_camera);
   const Duration needed = schedules::sequence::occupied(picture, step);
   if (task.holds < needed)
@@ -89,8 +136,7 @@ void check_whole_picture(const Scenario& scenario, const Cluster& cluster, const
 // A fixed region shows something of its camera's picture, and is no list's.
 void check_regions(const Scenario& scenario, const Cluster& cluster, const schedules::model::Node& node,
                    const Task& task, Findings& findings) {
-  std::vector<std::string> names;
-  for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
+  const std::vector<std::string> names = camera_names(cluster, task);
   const std::vector<nodes::vision::SharedCamera> pictures = pictures_of(scenario, cluster, task);
   for (std::size_t i = 0; i < scenario.adaptive_camera.regions.size(); ++i) {
     const nodes::vision::FixedRegion& fixed = scenario.adaptive_camera.regions[i];
@@ -154,6 +200,9 @@ void check_detectors(const Cluster& cluster, Findings& findings) {
                       fmt::format("{:g} ms", in_ms(task.holds)),
                       fmt::format("must be absent: step {} writes at the end of the execution that reads", task.step)});
       }
+      if (!task.modes.empty() && !is_detector(task))
+        findings.add({cluster.file, task.line, path + ".activation", "modes",
+                      fmt::format("must be of another kind: step {} knows no modes", task.step)});
     }
 }
 
@@ -163,6 +212,7 @@ void check_detections(const Scenario& scenario, const Cluster& cluster) {
     for (const Task& task : node.tasks) {
       if (!is_detector(task)) continue;
       check_whole_picture(scenario, cluster, task, fmt::format("nodes.{}.tasks.{}", node.name, task.name), findings);
+      check_modes_named(scenario, cluster, task, findings);
       check_regions(scenario, cluster, node, task, findings);
     }
   findings.throw_if_any();

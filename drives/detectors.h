@@ -1,9 +1,9 @@
-// Checks of adaptive cameras (nodes/vision/adaptive_camera.h).
+// Checks of adaptive cameras (nodes/vision).
 #pragma once
 
 #include "core/errors.h"
 #include "drives/scenario.h"
-#include "nodes/vision/adaptive_camera.h"
+#include "nodes/vision/config.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::drives {

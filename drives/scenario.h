@@ -25,7 +25,7 @@
 #include "nodes/sensing/played_rows.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
-#include "nodes/vision/adaptive_camera.h"
+#include "nodes/vision/config.h"
 #include "recording/osi/truth_trace.h"
 #include "schedules/model/cluster.h"
 #include "sim/world/reference.h"

@@ -28,6 +28,8 @@
 #include "nodes/sensing/preprocessing.h"
 #include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
+#include "nodes/vision/adaptive_camera.h"
+#include "nodes/vision/mode_camera.h"
 
 namespace ttf::drives {
 namespace {
@@ -219,6 +221,10 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
     } else if (task.step == "recorded_preprocessing") {
       steps.push_back(std::make_shared<nodes::sensing::RecordedPreprocessing>(
           cluster, task, scenario.recorded_noises.of(name_read(cluster, task))));
+    } else if (is_detector(task) && !task.modes.empty()) {
+      steps.push_back(std::make_shared<nodes::vision::ModeCamera>(
+          cluster, task, scenario.adaptive_camera, pictures_of(scenario, cluster, task),
+          nodes::vision::DetectionKey{config.seed, config.replication}));
     } else if (is_detector(task)) {
       steps.push_back(std::make_shared<nodes::vision::AdaptiveCamera>(
           cluster, task, scenario.adaptive_camera, pictures_of(scenario, cluster, task),

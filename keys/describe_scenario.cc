@@ -164,6 +164,11 @@ constexpr Description kScenario[] = {
     {"adaptive_camera.history", "So many times of each camera's primary detections are remembered."},
     {"adaptive_camera.smallest_region", "A smaller region of interest grows to this width and height."},
     {"adaptive_camera.oldest_region", "A list of regions older than this counts for nothing."},
+    {"adaptive_camera.modes",
+     "These rows name the mode of a frame by the cameras with a region of interest; where no row fits, the mode whose "
+     "secondary detections fit them best."},
+    {"adaptive_camera.modes[].mode", "The frame has this mode of the cluster's detector.", "ABC"},
+    {"adaptive_camera.modes[].regions", "Exactly these cameras have a region; absent, none has.", "[camera_a]"},
     {"adaptive_camera.regions", "These regions are of interest throughout, in place of those that a planner sends."},
     {"adaptive_camera.regions[].camera", "The region lies in pictures of this camera.", "camera_a"},
     {"adaptive_camera.regions[].x", "The region begins at this column, counted from the middle of the picture.",

@@ -179,8 +179,10 @@ void Executive::run_step(const Processor::Running& running) {
   context.inputs = wiring_.read(running.task, start);
   context.outputs = wiring_.outputs(running.task);
   context.strobes = sensors_.strobes();
+  context.turn = running.turn;
   context.sink = &records_.sink();
   steps_[running.task]->run(context);
+  if (context.turn != running.turn) processor_.choose_mode(context.turn->mode);
   records_.counts().unlisted_fates += context.unlisted;
   actuation_ = context.actuation;
   wiring_.tell_discarded(running.task, start);

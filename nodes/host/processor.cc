@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/check.h"
 #include "core/random.h"
 #include "schedules/model/limits.h"
 
@@ -13,6 +14,8 @@ Processor::Processor(const std::vector<schedules::model::Task>& tasks, const Exe
                      ExecutiveCounts& counts)
     : config_(tasks), key_(key), time_(time), counts_(counts), tasks_(tasks.size()) {
   ready_.reserve(tasks.size());
+  for (std::size_t t = 0; t < tasks.size(); ++t)
+    if (tasks[t].activation.kind == ActivationKind::kModes) tasks_[t].frames.emplace(tasks[t]);
   for (const schedules::model::Task& before : tasks)
     for (std::size_t t = 0; t < tasks.size(); ++t)
       if (tasks[t].activation.kind == ActivationKind::kCompletion && tasks[t].activation.after == before.name)
@@ -42,8 +45,13 @@ void Processor::activate_after(std::size_t task, Microticks now) {
 void Processor::activate_armed(Microticks now) {
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     if (!tasks_[t].armed || time_.global()->start_of(config_[t].activation.at.offset) > now) continue;
-    tasks_[t].armed = false;
+    State& state = tasks_[t];
+    state.armed = false;
     --armed_;
+    if (state.frames) {
+      const ModeTurn turn = state.frames->take();
+      if (!state.waiting) state.turn = turn;
+    }
     activate(t, now);
   }
 }
@@ -52,13 +60,18 @@ void Processor::arm(std::int64_t cycle) {
   armed_ = 0;
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     const schedules::model::Activation& activation = config_[t].activation;
-    tasks_[t].armed = activation.kind == ActivationKind::kTime && in_cycle(activation.at, cycle);
-    armed_ += tasks_[t].armed ? 1 : 0;
+    State& state = tasks_[t];
+    state.armed = activation.kind == ActivationKind::kTime ? in_cycle(activation.at, cycle)
+                                                           : state.frames && state.frames->due_in(cycle);
+    armed_ += state.armed ? 1 : 0;
   }
 }
 
 void Processor::disarm() {
-  for (State& state : tasks_) state.armed = false;
+  for (State& state : tasks_) {
+    state.armed = false;
+    if (state.frames) state.frames->forget();
+  }
   armed_ = 0;
 }
 
@@ -71,14 +84,32 @@ const Processor::Running* Processor::start_next(Microticks now) {
   busy_ = true;
   running_.task = task;
   running_.activation = state.activations++;
-  running_end_ = now + time_.ticks(execution_time(task, running_.activation));
+  running_.turn = state.frames ? std::optional(state.turn) : std::nullopt;
+  running_start_ = now;
   running_.run = {};
   running_.run.start = time_.stamp(now);
   running_.run.task = static_cast<std::uint8_t>(task);
   running_.run.activated = state.activated_at;
-  running_.run.deadline_met = running_end_ - state.activated <= time_.ticks(config_[task].deadline);
-  if (!running_.run.deadline_met) ++counts_.deadlines_missed;
+  running_.run.deadline_met = true;
+  set_end(state.frames ? state.frames->lasts(state.turn) : execution_time(task, running_.activation));
   return &running_;
+}
+
+void Processor::set_end(Duration lasts) {
+  running_end_ = running_start_ + time_.ticks(lasts);
+  const bool in_time = running_end_ - tasks_[running_.task].activated <= time_.ticks(config_[running_.task].deadline);
+  if (running_.run.deadline_met && !in_time) ++counts_.deadlines_missed;
+  if (!running_.run.deadline_met && in_time) --counts_.deadlines_missed;
+  running_.run.deadline_met = in_time;
+}
+
+void Processor::choose_mode(std::size_t mode) {
+  State& state = tasks_[running_.task];
+  TTF_CHECK(running_.turn && running_.turn->place == 0 && mode < state.frames->modes(), "mode {} of task {}", mode,
+            running_.task);
+  state.frames->choose(mode);
+  running_.turn->mode = mode;
+  set_end(state.frames->lasts(*running_.turn));
 }
 
 const Processor::Running& Processor::finish(Microticks now) {

@@ -9,10 +9,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/ids.h"
 #include "nodes/host/executive_counts.h"
+#include "nodes/host/mode_frames.h"
 #include "nodes/host/node_time.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
@@ -48,10 +50,13 @@ class Processor {
   struct Running {
     std::size_t task = 0;
     std::uint32_t activation = 0;  // how many times the task ran before
+    std::optional<ModeTurn> turn;  // if the task has modes
     recording::records::TaskRun run;
   };
   // Starts the first waiting task if the processor is idle; else returns null.
   const Running* start_next(Microticks now);
+  // Sets the mode of the frame that the running task begins, at the task's start. It decides how long this execution lasts.
+  void choose_mode(std::size_t mode);
   bool ends_by(Microticks now) const { return busy_ && running_end_ <= now; }
   // Ends the running task.
   const Running& finish(Microticks now);
@@ -65,13 +70,16 @@ class Processor {
   struct State {
     std::vector<std::size_t> successors;  // the tasks that its end activates
     std::uint32_t activations = 0;
-    bool armed = false;  // its activation by time is still due in this cycle
+    std::optional<ModeFrames> frames;  // if the task has modes
+    ModeTurn turn;                     // the waiting activation's
+    bool armed = false;                // its activation by time is still due in this cycle
     bool waiting = false;
     Microticks activated{};  // the waiting activation, which may come during the previous execution
     recording::records::Stamp activated_at;
   };
   void activate_armed(Microticks now);
   Duration execution_time(std::size_t task, std::uint32_t activation) const;
+  void set_end(Duration lasts);
 
   const std::vector<schedules::model::Task>& config_;
   const ExecutionKey key_;
@@ -82,7 +90,7 @@ class Processor {
   std::vector<std::size_t> ready_;  // waiting tasks, by (activation, place in the file)
   bool busy_ = false;
   Running running_;
-  Microticks running_end_{};
+  Microticks running_start_{}, running_end_{};
 };
 
 }  // namespace ttf::nodes::host

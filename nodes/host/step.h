@@ -15,6 +15,7 @@
 #include "bus/cni/list_buffer.h"
 #include "core/ids.h"
 #include "core/time.h"
+#include "nodes/host/mode_frames.h"
 #include "recording/records/records.h"
 #include "schedules/model/pdu.h"
 
@@ -94,10 +95,12 @@ struct Actuation {
 };
 
 struct StepContext {
-  recording::records::Stamp stamp;          // the task's start on all clocks; true time is for emulators and records
-  bool global_time = true;                  // if false, the node knows none, and the stamp has its own clock's
-  std::uint32_t activation = 0;             // number of earlier executions of the task
-  std::uint32_t measurement = 0;            // for sensor devices: the sequence number of this measurement
+  recording::records::Stamp stamp;  // the task's start on all clocks; true time is for emulators and records
+  bool global_time = true;          // if false, the node knows none, and the stamp has its own clock's
+  std::uint32_t activation = 0;     // number of earlier executions of the task
+  std::uint32_t measurement = 0;    // for sensor devices: the sequence number of this measurement
+  // The instant that a task with modes is executed for. Where a frame begins, the step may set the mode of this frame.
+  std::optional<ModeTurn> turn = {};
   std::span<Input> inputs;                  // in the order of the task's `reads`
   std::span<Output> outputs;                // in the order of the task's `writes`
   std::span<const StrobeLatch> strobes;     // by SensorId

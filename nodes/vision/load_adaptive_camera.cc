@@ -1,5 +1,5 @@
 // The keys of an adaptive camera in a scenario.
-#include "nodes/vision/adaptive_camera.h"
+#include "nodes/vision/config.h"
 
 namespace ttf::nodes::vision {
 namespace {
@@ -16,6 +16,15 @@ FixedRegion load_region(YamlMap& yaml) {
   fixed.region.valid = true;
   yaml.finish();
   return fixed;
+}
+
+ModeOfRegions load_mode(YamlMap& yaml) {
+  ModeOfRegions row;
+  row.line = yaml.line();
+  row.mode = yaml.text("mode");
+  if (yaml.has("regions")) row.cameras = yaml.texts("regions");
+  yaml.finish();
+  return row;
 }
 
 }  // namespace
@@ -41,6 +50,7 @@ AdaptiveCameraConfig load_adaptive_camera(YamlMap& yaml) {
   c.smallest_region_px = yaml.number_or("smallest_region", c.smallest_region_px, {1.0, 8000.0}, "px");
   c.oldest_region = yaml.duration_or("oldest_region", c.oldest_region, kTimes);
   for (YamlMap& map : yaml.maps_if("regions")) c.regions.push_back(load_region(map));
+  for (YamlMap& map : yaml.maps_if("modes")) c.modes.push_back(load_mode(map));
   return c;
 }
 

@@ -398,8 +398,8 @@ struct CommandTaken {
   TrueTime from{};
 };
 
-// A detection of a detector that several cameras share, at its end. The picture is that of its begin. `area` is the
-// share of the picture that was looked at, `took` the simulated time of the detector.
+// A detection of a detector that several cameras share, at its end. By modes it is recorded at its begin. The picture is
+// that of its begin. `area` is the share of the picture that was looked at, `took` the simulated time of the detector.
 struct DetectionMade {
   Stamp stamp;
   TrueTime begin{};
@@ -412,7 +412,7 @@ struct DetectionMade {
   std::uint16_t found = 0;
 };
 
-// A frame of detections as its detector planned it, at the execution that begins it. The letters of `text` name cameras
+// A frame of detections as its detector planned it or its mode says, at the execution that begins it. The letters of `text` name cameras
 // in the order of the detector's ports, capital ones primary detections (schedules/sequence/detections.h).
 struct SequencePlanned {
   Stamp stamp;

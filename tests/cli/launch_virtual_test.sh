@@ -21,6 +21,12 @@ for scenario in paper_scenario1 faulty_bus turning_ego; do
   launch "$work/$scenario" "$source/scenarios/$scenario.yaml" || fail "launch $scenario: $(cat "$work/$scenario.err")"
   [[ $(hash_of "$work/$scenario") == "$(hash_of "$work/run_$scenario")" ]] || fail "launch $scenario leaves other records than run"
 done
+# A detector whose modes change as it asks for it.
+"$program" run "$source/scenarios/adaptive_detection_modes.yaml" --strategy adva --duration 4 --no-pictures --out "$work/run_modes" \
+  >/dev/null 2>&1 || fail "run with modes"
+launch "$work/modes" "$source/scenarios/adaptive_detection_modes.yaml" --strategy adva --duration 4 ||
+  fail "launch with modes: $(cat "$work/modes.err")"
+[[ $(hash_of "$work/modes") == "$(hash_of "$work/run_modes")" ]] || fail "a launch with modes leaves other records than run"
 # Sensors that wait for their hosts' processes, from a cold start on, with lists over CAN and over FlexRay.
 for cluster in paper_free_running paper_free_flexray; do
   sed "s#\.\./schedules/paper_unsynchronised#$source/schedules/$cluster#; s#\.\./schedules#$source/schedules#
