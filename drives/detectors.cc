@@ -90,13 +90,13 @@ void check_whole_pictures(const Scenario& scenario, const Cluster& cluster, cons
     }
 }
 
-// Checks that the scenario's modes and their cameras are the detector's.
 std::vector<std::string> camera_names(const Cluster& cluster, const Task& task) {
   std::vector<std::string> names;
   for (const SensorId camera : cameras_of(cluster, task)) names.push_back(cluster.sensor(camera).name);
   return names;
 }
 
+// Checks that the scenario's modes and their cameras are the detector's.
 void check_modes_named(const Scenario& scenario, const Cluster& cluster, const Task& task, Findings& findings) {
   const std::vector<std::string> cameras = camera_names(cluster, task);
   std::vector<std::string> modes;
