@@ -23,7 +23,7 @@ struct Kind {
 
 constexpr std::string_view kExperimentKeys[] = {"kind", "paradigms", "variants", "axes"};
 constexpr std::string_view kScenarioKeys[] = {"clusters", "world"};
-constexpr std::string_view kClusterKeys[] = {"flexray", "node_parameters", "nodes", "pdus"};
+constexpr std::string_view kClusterKeys[] = {"flexray", "node_parameters", "nodes", "pdus", "extends"};
 constexpr std::string_view kTrackOwn[] = {"strategy", "scans"};
 constexpr std::string_view kTrackKeys[] = {"strategy", "tracker", "sensors", "scans"};
 constexpr std::string_view kFaultKeys[] = {"faults"};

@@ -31,7 +31,7 @@ void check_ports(const Cluster& cluster, const Task& task, const std::string& pa
     ++cameras;
     const auto fail = [&](std::string expected) {
       findings.add(
-          {cluster.file, read.line, path + ".reads." + read.port, cluster.pdu(read.pdu).name, std::move(expected)});
+          cluster.finding(read.line, path + ".reads." + read.port, cluster.pdu(read.pdu).name, std::move(expected)));
     };
     if (cluster.sensor(cluster.pdu(read.pdu).sensor).kind != schedules::model::SensorKind::kMonoCamera)
       fail("must be a list of a mono_camera: the detector looks at pictures");
@@ -43,14 +43,14 @@ void check_ports(const Cluster& cluster, const Task& task, const std::string& pa
     if (std::ranges::none_of(task.reads, [&](const PortBinding& read) {
           return schedules::model::written_port(read.port) == written.port;
         }))
-      findings.add({cluster.file, written.line, path + ".writes." + written.port, cluster.pdu(written.pdu).name,
-                    "must be absent: no pictures of this camera are read"});
+      findings.add(cluster.finding(written.line, path + ".writes." + written.port, cluster.pdu(written.pdu).name,
+                                   "must be absent: no pictures of this camera are read"));
   if (cameras == 0)
-    findings.add({cluster.file, task.line, path + ".reads", "",
-                  "must have a list of a camera: an adaptive camera without one sees nothing"});
+    findings.add(cluster.finding(task.line, path + ".reads", "",
+                                 "must have a list of a camera: an adaptive camera without one sees nothing"));
   if (cameras > schedules::sequence::kMostSensors)
-    findings.add({cluster.file, task.line, path + ".reads", std::to_string(cameras),
-                  fmt::format("must be at most {} cameras", schedules::sequence::kMostSensors)});
+    findings.add(cluster.finding(task.line, path + ".reads", std::to_string(cameras),
+                                 fmt::format("must be at most {} cameras", schedules::sequence::kMostSensors)));
 }
 
 int line_of_holds(const Cluster& cluster, const Task& task, const std::string& path) {
@@ -63,15 +63,16 @@ Duration step_of(const Cluster& cluster, const Task& task) { return cluster.cycl
 void check_times(const Cluster& cluster, const Task& task, const std::string& path, Findings& findings) {
   if (!task.modes.empty()) return;  // the rules about modes hold (schedules/modes)
   if (task.activation.kind != schedules::model::ActivationKind::kTime) {
-    findings.add({cluster.file, task.line, path + ".activation", "",
-                  "must be of kind time or modes: a detection takes whole steps, and an execution is one"});
+    findings.add(
+        cluster.finding(task.line, path + ".activation", "",
+                        "must be of kind time or modes: a detection takes whole steps, and an execution is one"));
     return;
   }
   const Duration step = step_of(cluster, task);
   if (task.holds < step * 2)
-    findings.add({cluster.file, line_of_holds(cluster, task, path), path + ".holds",
-                  fmt::format("{:g} ms", in_ms(task.holds)),
-                  fmt::format("must be at least {:g} ms: a detection takes at least two executions", in_ms(step * 2))});
+    findings.add(cluster.finding(
+        line_of_holds(cluster, task, path), path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+        fmt::format("must be at least {:g} ms: a detection takes at least two executions", in_ms(step * 2))));
 }
 
 // Checks the same where modes say how long detections last.
@@ -82,11 +83,12 @@ void check_whole_pictures(const Scenario& scenario, const Cluster& cluster, cons
     for (std::size_t i = 0; i < mode.instants.size(); ++i) {
       const schedules::model::ModeInstant& one = mode.instants[i];
       if (one.secondary || one.lasts >= picture) continue;
-      findings.add({cluster.file, one.line, fmt::format("{}.modes.{}.detections[{}].lasts", path, mode.name, i),
-                    fmt::format("{:g} ms", in_ms(one.lasts)),
-                    fmt::format("must be at least {:g} ms: a whole picture takes that by adaptive_camera.picture_time "
-                                "and hardware_factor of {}",
-                                in_ms(picture), scenario.file)});
+      findings.add(cluster.finding(
+          one.line, fmt::format("{}.modes.{}.detections[{}].lasts", path, mode.name, i),
+          fmt::format("{:g} ms", in_ms(one.lasts)),
+          fmt::format("must be at least {:g} ms: a whole picture takes that by adaptive_camera.picture_time "
+                      "and hardware_factor of {}",
+                      in_ms(picture), scenario.file)));
     }
 }
 
@@ -126,11 +128,11 @@ void check_whole_picture(const Scenario& scenario, const Cluster& cluster, const
   const Duration step = step_of(cluster, task), picture = nodes::vision::whole_picture(scenario.adaptive_camera);
   const Duration needed = schedules::sequence::occupied(picture, step);
   if (task.holds < needed)
-    findings.add({cluster.file, line_of_holds(cluster, task, path), path + ".holds",
-                  fmt::format("{:g} ms", in_ms(task.holds)),
-                  fmt::format("must be at least {:g} ms, in steps of {:g} ms: a whole picture takes {:g} ms by "
-                              "adaptive_camera.picture_time and hardware_factor of {}",
-                              in_ms(needed), in_ms(step), in_ms(picture), scenario.file)});
+    findings.add(
+        cluster.finding(line_of_holds(cluster, task, path), path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+                        fmt::format("must be at least {:g} ms, in steps of {:g} ms: a whole picture takes {:g} ms by "
+                                    "adaptive_camera.picture_time and hardware_factor of {}",
+                                    in_ms(needed), in_ms(step), in_ms(picture), scenario.file)));
 }
 
 // A fixed region shows something of its camera's picture, and is no list's.
@@ -188,21 +190,21 @@ void check_detectors(const Cluster& cluster, Findings& findings) {
       const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
       if (is_detector(task)) {
         if (!first.empty())
-          findings.add(
-              {cluster.file, task.line, path + ".step", task.step,
-               fmt::format("must be another step: {} is the detector already, and a scenario describes one", first)});
+          findings.add(cluster.finding(
+              task.line, path + ".step", task.step,
+              fmt::format("must be another step: {} is the detector already, and a scenario describes one", first)));
         else
           first = path;
         check_ports(cluster, task, path, findings);
         check_times(cluster, task, path, findings);
       } else if (task.holds > Duration{}) {
-        findings.add({cluster.file, line_of_holds(cluster, task, path), path + ".holds",
-                      fmt::format("{:g} ms", in_ms(task.holds)),
-                      fmt::format("must be absent: step {} writes at the end of the execution that reads", task.step)});
+        findings.add(cluster.finding(
+            line_of_holds(cluster, task, path), path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
+            fmt::format("must be absent: step {} writes at the end of the execution that reads", task.step)));
       }
       if (!task.modes.empty() && !is_detector(task))
-        findings.add({cluster.file, task.line, path + ".activation", "modes",
-                      fmt::format("must be of another kind: step {} knows no modes", task.step)});
+        findings.add(cluster.finding(task.line, path + ".activation", "modes",
+                                     fmt::format("must be of another kind: step {} knows no modes", task.step)));
     }
 }
 

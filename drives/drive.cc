@@ -82,8 +82,8 @@ void check_recording(const Scenario& scenario, const schedules::model::Cluster& 
   if (needed) check_recorded_sensors(scenario, cluster);
   for (const schedules::model::Sensor& sensor : cluster.sensors)
     if (needed && sensor.follows())
-      throw InputError({cluster.file, sensor.line, "sensors." + sensor.name + ".measurement", "completion",
-                        "must be free or scheduled: recorded observations have fixed instants"});
+      throw InputError(cluster.finding(sensor.line, "sensors." + sensor.name + ".measurement", "completion",
+                                       "must be free or scheduled: recorded observations have fixed instants"));
 }
 
 void check_late(const Scenario& scenario, const schedules::model::Cluster& cluster,
@@ -102,18 +102,18 @@ void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::
   for (const schedules::model::Node& node : cluster.nodes)
     for (const schedules::model::Task& task : node.tasks)
       if (task.step == "fusion" && task.activation.kind != schedules::model::ActivationKind::kTime)
-        throw InputError(
-            {cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
-             fmt::format(
-                 "must be of kind time with strategy {}, which relies on fusion instants that the schedule knows",
-                 name_of(strategy))});
+        throw InputError(cluster.finding(
+            task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
+            fmt::format(
+                "must be of kind time with strategy {}, which relies on fusion instants that the schedule knows",
+                name_of(strategy))));
 }
 
 void check_described(const schedules::model::Cluster& cluster) {
   if (cluster.describes_tasks()) return;
   const auto line = cluster.parameter_lines.find("nodes");
-  throw InputError({cluster.file, line == cluster.parameter_lines.end() ? 0 : line->second, "nodes", "",
-                    "must have tasks for a drive: no node has any"});
+  throw InputError(cluster.finding(line == cluster.parameter_lines.end() ? 0 : line->second, "nodes", "",
+                                   "must have tasks for a drive: no node has any"));
 }
 
 void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,

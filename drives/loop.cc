@@ -68,21 +68,22 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
   if (found.empty() && !driven) return;
   const std::string key = "world.ego.actuator";
   if (!driven)
-    throw InputError({cluster.file, found.front().task->line, key_of(found.front()), "actuator",
-                      fmt::format("needs a vehicle that it drives: {} has no {}", scenario.file, key)});
+    throw InputError(cluster.finding(found.front().task->line, key_of(found.front()), "actuator",
+                                     fmt::format("needs a vehicle that it drives: {} has no {}", scenario.file, key)));
   const int line = scenario.world.ego->actuator_line;
   if (found.empty())
     throw InputError({scenario.file, line, key, "",
                       fmt::format("needs a cluster whose commands drive the vehicle: {} has no task with step actuator",
                                   cluster.file)});
   if (found.size() > 1)
-    throw InputError({cluster.file, found[1].task->line, key_of(found[1]), "actuator",
-                      fmt::format("must be absent: {} has an actuator, and a vehicle has one", found[0].node->name)});
+    throw InputError(
+        cluster.finding(found[1].task->line, key_of(found[1]), "actuator",
+                        fmt::format("must be absent: {} has an actuator, and a vehicle has one", found[0].node->name)));
   const Task& task = *found[0].task;
   if (!is_by_time(task) || period_by_time(cluster, task) < kLeastBetween)
-    throw InputError(
-        {cluster.file, task.line, "nodes." + found[0].node->name + ".tasks." + task.name + ".activation", "",
-         fmt::format("must be by time, once in {:g} ms at most: the task moves the vehicle", in_ms(kLeastBetween))});
+    throw InputError(cluster.finding(
+        task.line, "nodes." + found[0].node->name + ".tasks." + task.name + ".activation", "",
+        fmt::format("must be by time, once in {:g} ms at most: the task moves the vehicle", in_ms(kLeastBetween))));
   if (scenario.truth)
     throw InputError(
         {scenario.file, line, key, "", "must be absent with --truth: the trace says how the vehicle drives"});
@@ -101,8 +102,9 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
   for (const Node& node : cluster.nodes)
     for (const Task& service : node.tasks)
       if (service.step == "lane_keeping" && !scenario.world.road)
-        throw InputError({cluster.file, service.line, "nodes." + node.name + ".tasks." + service.name + ".step",
-                          "lane_keeping", fmt::format("needs a lane: {} has no world.road", scenario.file)});
+        throw InputError(cluster.finding(service.line, "nodes." + node.name + ".tasks." + service.name + ".step",
+                                         "lane_keeping",
+                                         fmt::format("needs a lane: {} has no world.road", scenario.file)));
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
     const sim::world::DriveError time = device_of(scenario.sensors, sensor).time;
     if (time.fixed != 0.0 || time.sigma != 0.0)

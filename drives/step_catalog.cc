@@ -146,16 +146,17 @@ void check_steps(const schedules::model::Cluster& cluster) {
       if (!nodes::host::is_service(task.step) || odometry != kNoSensor) continue;
       for (const schedules::model::PortBinding& binding : task.reads)
         if (binding.port == "odometry")
-          findings.add({cluster.file, binding.line,
-                        fmt::format("nodes.{}.tasks.{}.reads.odometry", node.name, task.name),
-                        cluster.pdu(binding.pdu).name,
-                        "must be read by the fusion, too: without odometry there, the image's velocities are relative "
-                        "to the vehicle already"});
+          findings.add(cluster.finding(
+              binding.line, fmt::format("nodes.{}.tasks.{}.reads.odometry", node.name, task.name),
+              cluster.pdu(binding.pdu).name,
+              "must be read by the fusion, too: without odometry there, the image's velocities are relative "
+              "to the vehicle already"));
     }
     if (fusion != nullptr && !reads && odometry != kNoSensor)
-      findings.add({cluster.file, fusion->line, fmt::format("nodes.{}.tasks.{}.reads", node.name, fusion->name), "",
-                    fmt::format("must have {}, as another node's fusion has: all place their lists by it, or none does",
-                                cluster.sensor(odometry).name)});
+      findings.add(cluster.finding(
+          fusion->line, fmt::format("nodes.{}.tasks.{}.reads", node.name, fusion->name), "",
+          fmt::format("must have {}, as another node's fusion has: all place their lists by it, or none does",
+                      cluster.sensor(odometry).name)));
   }
   findings.throw_if_any();
 }
@@ -195,8 +196,8 @@ std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& 
           emulator, scenario.sensors.odometries.of(name_of(cluster, emulator.sensor)).model));
     } else if (task.step == "recorded_source") {
       if (!config.recorded)
-        throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
-                          "needs a recording: give one with --input"});
+        throw InputError(cluster.finding(task.line, "nodes." + node.name + "." + task.name, task.step,
+                                         "needs a recording: give one with --input"));
       steps.push_back(std::make_shared<nodes::sensing::RecordedSource>(
           cluster, task, task.activation.sensor, rows_of(scenario, cluster, *config.recorded, task.activation.sensor),
           drive_start(cluster)));

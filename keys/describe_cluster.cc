@@ -4,6 +4,10 @@ namespace ttf::keys {
 namespace {
 
 constexpr Description kCluster[] = {
+    {"extends",
+     "The cluster begins from this file, which the keys here change; then any of them may be absent "
+     "(docs/cluster_files.md).",
+     "paper_synchronised.yaml"},
     {"name", "The cluster has this name.", "paper_synchronised"},
     {"synchronisation", "The nodes correct their clocks; otherwise each runs freely.", "true"},
     {"topology", "The nodes are on a bus, or around a star coupler."},

@@ -42,6 +42,25 @@ Json named(Json entry) {
   return {{"type", "object"}, {"patternProperties", {{"^.", std::move(entry)}}}, {"additionalProperties", false}};
 }
 
+// A file with this key changes another one.
+constexpr const char* kExtends = "extends";
+
+// Returns the schema of a mapping that changes another one: no key is required, and null removes one. Lists stand for
+// themselves.
+Json changing(Json schema) {
+  if (!schema.is_object()) return schema;
+  schema.erase("required");
+  for (const char* of : {"properties", "patternProperties"})
+    if (schema.contains(of))
+      for (auto& [key, value] : schema[of].items())
+        if (value.is_object()) value = Json{{"anyOf", {Json{{"type", "null"}}, changing(value)}}};
+  if (schema.contains("allOf"))
+    for (Json& one : schema["allOf"]) one = changing(one);
+  for (const char* of : {"then", "else"})
+    if (schema.contains(of)) schema[of] = changing(schema[of]);
+  return schema;
+}
+
 class Schema {
  public:
   Schema(const Document& document, const Outline& outline) : document_(document), outline_(outline) {}
@@ -50,7 +69,15 @@ class Schema {
     Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                 {"title", document_.title},
                 {"description", document_.about}};
-    schema.update(mapping(""));
+    const Json own = mapping("");
+    const bool extends = own.contains("properties") && own["properties"].contains(kExtends);
+    if (!extends) {
+      schema.update(own);
+      return schema;
+    }
+    schema["if"] = {{"required", {kExtends}}};
+    schema["then"] = changing(own);
+    schema["else"] = own;
     return schema;
   }
 

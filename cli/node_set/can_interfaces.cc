@@ -57,9 +57,10 @@ std::vector<std::string> can_interfaces(const schedules::model::Cluster& cluster
     const auto own = named.find(can.name);
     const std::string interface = own == named.end() ? can.name : own->second;
     if (!live_media::is_interface_name(interface))
-      throw InputError({cluster.file, can.line, fmt::format("can.{}", can.name), "",
-                        fmt::format("needs --can NAME=IF on SocketCAN, as its name cannot be an interface's ({})",
-                                    live_media::kInterfaceNames)});
+      throw InputError(
+          cluster.finding(can.line, fmt::format("can.{}", can.name), "",
+                          fmt::format("needs --can NAME=IF on SocketCAN, as its name cannot be an interface's ({})",
+                                      live_media::kInterfaceNames)));
     if (const auto [user, only] = users.emplace(interface, can.name); !only)
       throw refused(fmt::format("{}={}", can.name, interface),
                     fmt::format("must differ from the interface of {}", user->second));

@@ -127,10 +127,9 @@ CampaignFile parse_campaign(std::string text, std::string name) {
 }
 
 schedules::model::Cluster read_cluster_of(const CampaignFile& campaign) {
-  return schedules::file::parse_cluster(
-      read_named_file(campaign.cluster_file, {campaign.file, campaign.cluster_line, "cluster", "", ""},
-                      "a cluster file"),
-      campaign.cluster_file);
+  (void)read_named_file(campaign.cluster_file, {campaign.file, campaign.cluster_line, "cluster", "", ""},
+                        "a cluster file");
+  return schedules::file::load_cluster(campaign.cluster_file);
 }
 
 }  // namespace ttf::experiments::campaign

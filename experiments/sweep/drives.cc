@@ -23,7 +23,7 @@
 #include "faults/plan.h"
 #include "recording/records/tee.h"
 #include "schedules/check/checker.h"
-#include "schedules/file/loader.h"
+#include "schedules/file/inherit.h"
 #include "schedules/model/ports.h"
 
 namespace ttf::experiments::sweep {
@@ -84,15 +84,20 @@ SweepDrives::SweepDrives(const SweepFile& sweep, const nodes::foreign::StepFolde
 // Reads all files that a drive may need, including the scenarios' clusters.
 void SweepDrives::read_files() {
   std::vector<std::string> scenarios{sweep_.scenario_file};
-  const auto read = [&](const std::string& file, const Finding& entry, std::string_view what) {
-    if (!texts_.contains(file)) texts_[file] = read_named_file(file, entry, what);
+  const auto read = [&](const std::string& file, const Finding& entry, std::string_view key) {
+    if (texts_.contains(file)) return;
+    texts_[file] = read_named_file(file, entry, kind_words(key));
+    if (key != kClusterFile) return;
+    schedules::file::ClusterText whole = schedules::file::inherited(file);
+    texts_[file] = std::move(whole.text);
+    origins_[file] = std::move(whole.origins);
   };
   const auto read_named = [&](const Edit& edit) {
     if (!is_file(edit)) return;
-    read(edit.value, {sweep_.file, edit.line, edit.key, "", ""}, kind_words(edit.key));
+    read(edit.value, {sweep_.file, edit.line, edit.key, "", ""}, edit.key);
     if (edit.key == kScenarioFile) scenarios.push_back(edit.value);
   };
-  read(sweep_.scenario_file, {sweep_.file, sweep_.scenario_line, "scenario", "", ""}, kind_words(kScenarioFile));
+  read(sweep_.scenario_file, {sweep_.file, sweep_.scenario_line, "scenario", "", ""}, kScenarioFile);
   for (const Axis& axis : sweep_.axes)
     for (const Setting& setting : axis.settings)
       for (const Edit& edit : setting.edits) read_named(edit);
@@ -102,11 +107,11 @@ void SweepDrives::read_files() {
     if (paradigm.cluster_file)
       read(*paradigm.cluster_file,
            {sweep_.file, paradigm.cluster_line, fmt::format("paradigms.{}.cluster", paradigm.name), "", ""},
-           kind_words(kClusterFile));
+           kClusterFile);
     for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s) {
       const drives::Scenario scenario = drives::parse_scenario(texts_.at(scenarios[s]), scenarios[s]);
       const Finding entry = drives::cluster_entry(scenario, paradigm.strategy);
-      read(entry.value, entry, kind_words(kClusterFile));
+      read(entry.value, entry, kClusterFile);
     }
   }
 }
@@ -161,6 +166,12 @@ std::vector<Edit> SweepDrives::edits_of(const results::RowKey& key, const std::v
   return edits;
 }
 
+// Returns none for a file whose text is its own.
+TextOrigins SweepDrives::origins_of(const std::string& file) const {
+  const auto found = origins_.find(file);
+  return found == origins_.end() ? TextOrigins{} : found->second;
+}
+
 std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const {
   std::string text = texts_.at(name);
   for (const Edit& edit : edits) {
@@ -169,7 +180,12 @@ std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
     try {
       text = with_value(text, name, std::string_view(edit.key).substr(is ? kOfCluster.size() : 0), edit.value);
     } catch (const InputError& error) {
-      if (error.findings().front().line != 0) throw;
+      Finding finding = error.findings().front();
+      if (finding.line != 0) {
+        TextPlace from = origins_of(name).place(name, finding.line);
+        finding.file = std::move(from.file), finding.line = from.line;
+        throw InputError(std::move(finding));
+      }
       // The file lacks the key: the finding names the line that sets it.
       throw InputError({sweep_.file, edit.line, edit.key, "",
                         fmt::format("must be in the file {}: only its written keys can be varied", name)});
@@ -199,7 +215,7 @@ PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector
   std::string& file = drive.scenario.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
   if (paradigm.cluster_file) file = *paradigm.cluster_file;
   if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
-  drive.cluster = schedules::file::parse_cluster(edited(edits, true, file), file);
+  drive.cluster = schedules::file::parse_cluster({edited(edits, true, file), file, origins_of(file)});
   if (auto findings = schedules::check::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
   drives::check_steps(drive.cluster);
   drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/text_place.h"
 #include "drives/scenario.h"
 #include "experiments/results/store.h"
 #include "experiments/sweep/file.h"
@@ -56,12 +57,14 @@ class SweepDrives {
   void prepare_at(const results::RowKey& key);
   std::vector<Edit> edits_of(const results::RowKey& key, const std::vector<double>& drawn) const;
   // Applies the edits of a cluster, or of a scenario, to the text of the file `name`.
+  TextOrigins origins_of(const std::string& file) const;
   std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
   void plan_faults(const std::string& file, drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
   const nodes::foreign::StepFolder* steps_;
-  std::map<std::string, std::string> texts_;      // scenarios, clusters and fault plans, by path
+  std::map<std::string, std::string> texts_;    // scenarios, clusters (with what they extend) and fault plans, by path
+  std::map<std::string, TextOrigins> origins_;  // of the clusters' lines
   std::map<std::string, std::string> libraries_;  // hashes by name
   std::string identity_;
 };

@@ -24,8 +24,8 @@ Finding place_of(const schedules::model::Cluster& cluster, const schedules::mode
                  const schedules::model::Task& task) {
   std::string key = fmt::format("nodes.{}.tasks.{}.step", node.name, task.name);
   const auto line = cluster.parameter_lines.find(key);
-  return {cluster.file, line == cluster.parameter_lines.end() ? task.line : line->second, std::move(key), task.step,
-          ""};
+  return cluster.finding(line == cluster.parameter_lines.end() ? task.line : line->second, std::move(key), task.step,
+                         "");
 }
 
 const StepFolder& allowed(const StepFolder* folder, Finding place) {

@@ -25,8 +25,8 @@ schedules::model::CycleInstant image_use(const schedules::model::Cluster& cluste
       for (const schedules::model::PortBinding& binding : task.reads)
         if (binding.pdu == image && task.activation.kind == schedules::model::ActivationKind::kTime)
           return task.activation.at;
-  throw InputError({cluster.file, cluster.pdu(image).line, "pdus." + cluster.pdu(image).name, "",
-                    "needs a reader that is activated by time: the image is predicted to that instant"});
+  throw InputError(cluster.finding(cluster.pdu(image).line, "pdus." + cluster.pdu(image).name, "",
+                                   "needs a reader that is activated by time: the image is predicted to that instant"));
 }
 
 // Returns the schedule's fusion instants. A fusing task that time does not activate has none. Then the worst
@@ -161,10 +161,10 @@ FusionStep::FusionStep(const schedules::model::Cluster& cluster, const schedules
   for (const schedules::model::PortBinding& binding : task.reads) {
     const schedules::model::PduLayout& layout = cluster.pdu(binding.pdu);
     if (static_cast<std::size_t>(layout.max_elements) > host_->most_observations)
-      throw InputError({cluster.file, layout.line, "pdus." + layout.name + ".max_elements",
-                        std::to_string(layout.max_elements),
-                        "must be at most " + std::to_string(host_->most_observations) +
-                            " for a list that is fused (max_observations of the scenario's tracker)"});
+      throw InputError(cluster.finding(layout.line, "pdus." + layout.name + ".max_elements",
+                                       std::to_string(layout.max_elements),
+                                       "must be at most " + std::to_string(host_->most_observations) +
+                                           " for a list that is fused (max_observations of the scenario's tracker)"));
     std::optional<sensing::ObservationCodec>& codec = codecs_.emplace_back();
     if (layout.sensor != kNoSensor && cluster.sensor(layout.sensor).kind == schedules::model::SensorKind::kOdometry)
       odometry_ = host::bind_element<4>(cluster, layout, {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"});

@@ -24,13 +24,13 @@ std::array<std::size_t, N> bind_element(const schedules::model::Cluster& cluster
     if (found)
       signals[i] = *found;
     else
-      findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", std::string(names[i]),
-                    "is missing: the code that fills or reads this PDU needs it"});
+      findings.add(cluster.finding(layout.line, "pdus." + layout.name + ".element", std::string(names[i]),
+                                   "is missing: the code that fills or reads this PDU needs it"));
   }
   for (const schedules::model::Signal& signal : layout.element)
     if (signal.name != "spare" && std::find(names.begin(), names.end(), signal.name) == names.end())
-      findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", signal.name,
-                    "is not a signal that the code knows"});
+      findings.add(cluster.finding(layout.line, "pdus." + layout.name + ".element", signal.name,
+                                   "is not a signal that the code knows"));
   findings.throw_if_any();
   return signals;
 }

@@ -100,7 +100,7 @@ MonoCameraPreprocessing::MonoCameraPreprocessing(const schedules::model::Cluster
   // The boxes' strobe is that of the marks (nodes/host/step.h: measurement_of).
   if (*in == 0)
     throw InputError(
-        {cluster.file, task.line, "reads.marks", cluster.pdu(task.reads[*in].pdu).name, "must follow raw"});
+        cluster.finding(task.line, "reads.marks", cluster.pdu(task.reads[*in].pdu).name, "must follow raw"));
   const schedules::model::PduLayout& marks = cluster.pdu(task.reads[*in].pdu);
   const auto most = static_cast<std::size_t>(marks.max_elements);
   lanes_.emplace(ListedLanes{*in,

@@ -71,8 +71,8 @@ class Player {
  private:
   void check_stated(bool stated, int line, std::string key, const char* why) const {
     if (!stated)
-      throw InputError({cluster_.file, line, std::move(key), "",
-                        fmt::format("must be given for a device that plays a recording: {}", why)});
+      throw InputError(cluster_.finding(line, std::move(key), "",
+                                        fmt::format("must be given for a device that plays a recording: {}", why)));
   }
   std::string stamp_text(Duration since) const { return fmt::format("{} us", input_.first_time_us + since.ns / 1000); }
   [[noreturn]] void refuse(std::size_t row, std::string expected) const {

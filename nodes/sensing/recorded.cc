@@ -104,14 +104,15 @@ RecordedSource::RecordedSource(const schedules::model::Cluster& cluster, const s
       signals_(bind_raw(cluster, cluster.pdu(host::binding_of(task.writes, "raw").pdu))) {
   TTF_CHECK(rows_.at.size() == rows_.times.size(), "{} rows at {} times", rows_.at.size(), rows_.times.size());
   if (std::none_of(rows_.at.begin(), rows_.at.end(), [](const auto& row) { return row.has_value(); }))
-    throw InputError({cluster.file, cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
-                      "the recording has no row of this sensor within the drive"});
+    throw InputError(cluster.finding(cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
+                                     "the recording has no row of this sensor within the drive"));
   for (const auto& row : rows_.at)
     if (row && signals_of(*row) != signals_.size()) {
       const schedules::model::PduLayout& raw = cluster.pdu(host::binding_of(task.writes, "raw").pdu);
-      throw InputError({cluster.file, raw.line, "pdus." + raw.name, "",
-                        "must have the signals of the recording's rows of this sensor: x and y of a laser, range, "
-                        "bearing and range_rate of a radar"});
+      throw InputError(
+          cluster.finding(raw.line, "pdus." + raw.name, "",
+                          "must have the signals of the recording's rows of this sensor: x and y of a laser, range, "
+                          "bearing and range_rate of a radar"));
     }
 }
 

@@ -34,7 +34,7 @@ void ClusterFindings::parameter(const std::string& path, const std::string& valu
 }
 
 void ClusterFindings::at(int line, const std::string& key, const std::string& value, const std::string& expected) {
-  list_.push_back({cluster_.file, line, key, value, expected});
+  list_.push_back(cluster_.finding(line, key, value, expected));
 }
 
 std::string task_path(const model::Node& node, const model::Task& task) {

@@ -69,9 +69,10 @@ class DbcWriter {
     for (const model::CanBus* bus : buses_)
       for (const model::CanMessage& message : bus->messages) {
         if (!identifiers.insert(message.identifier).second)
-          throw InputError(Finding{cluster.file, message.line, "identifier", fmt::format("{}", message.identifier),
-                                   "is on two CANs, and a DBC file has one message per identifier: --can NAME writes "
-                                   "one CAN"});
+          throw InputError(
+              cluster.finding(message.line, "identifier", fmt::format("{}", message.identifier),
+                              "is on two CANs, and a DBC file has one message per identifier: --can NAME writes "
+                              "one CAN"));
         messages_.push_back({bus, &message, identifier_like(cluster.pdu(message.pdu).name, message_names_)});
       }
     for (std::size_t s = 0; s < cluster.sensors.size(); ++s) add_lines(static_cast<SensorId>(s), identifiers);

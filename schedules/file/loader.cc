@@ -10,6 +10,7 @@
 
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
+#include "schedules/file/inherit.h"
 #include "schedules/file/load_modes.h"
 #include "schedules/file/parameter_table.h"
 #include "schedules/model/limits.h"
@@ -32,6 +33,8 @@ class Loader {
   }
 
   model::Cluster load() {
+    if (root_.has("extends") && !root_.text("extends").empty())
+      root_.fail("extends", "must be in a file: a text alone has no folder in which the other file is");
     cluster_.name = root_.text("name");
     cluster_.synchronisation = root_.boolean("synchronisation");
     cluster_.topology = root_.choice_or("topology", model::Topology::kBus,
@@ -396,25 +399,33 @@ class Loader {
   model::Cluster cluster_;
 };
 
-}  // namespace
-
-model::Cluster read_cluster(const StrictYaml& file) {
+model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) {
   expect_kind(file, FileKind::kCluster);
   Findings met;
   model::Cluster cluster = Loader(file, met).load();
+  cluster.origins = origins;
   // Shared parameters are read once per node; a mistake in them is reported once.
   Findings findings;
   std::set<std::pair<int, std::string>> known;
   for (const Finding& finding : met.list())
-    if (known.insert({finding.line, finding.sentence()}).second) findings.add(finding);
+    if (known.insert({finding.line, finding.sentence()}).second)
+      findings.add(cluster.finding(finding.line, finding.key, finding.value, finding.expected));
   findings.throw_if_any();
   return cluster;
 }
 
-model::Cluster parse_cluster(std::string text, std::string name) {
-  return read_cluster(StrictYaml::parse(std::move(text), std::move(name)));
+}  // namespace
+
+model::Cluster read_cluster(const StrictYaml& file) { return read_cluster(file, TextOrigins{}); }
+
+model::Cluster parse_cluster(ClusterText text) {
+  return read_cluster(StrictYaml::parse(std::move(text.text), std::move(text.name)), text.origins);
 }
 
-model::Cluster load_cluster(const std::string& path) { return read_cluster(load_of_kind(path, FileKind::kCluster)); }
+model::Cluster parse_cluster(std::string text, std::string name) {
+  return parse_cluster(ClusterText{std::move(text), std::move(name), {}});
+}
+
+model::Cluster load_cluster(const std::string& path) { return parse_cluster(inherited(path)); }
 
 }  // namespace ttf::schedules::file

@@ -2,6 +2,7 @@
 // its range of annex B (2.1 Rev. A). Unknown, missing, duplicate and out-of-range keys are findings, all
 // reported at once.
 //
+//   extends: OTHER.yaml                         the keys that this file does not have (schedules/file/inherit.h); optional
 //   name: paper_synchronised
 //   synchronisation: true
 //   topology: bus|star                          the wiring of the nodes; bus if absent
@@ -43,7 +44,8 @@
 
 namespace ttf::schedules::file {
 
-// All throw InputError. The result is complete but not yet checked: schedules/check proves it consistent.
+// All throw InputError. The result is complete but not yet checked: schedules/check proves it consistent. A text must not
+// extend a file.
 model::Cluster load_cluster(const std::string& path);
 model::Cluster parse_cluster(std::string text, std::string name);
 model::Cluster read_cluster(const StrictYaml& file);

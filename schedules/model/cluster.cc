@@ -1,6 +1,7 @@
 #include "schedules/model/cluster.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/check.h"
 #include "core/int128.h"
@@ -37,6 +38,11 @@ bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
          frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
          frame.repetition == before.repetition && frame.network_management == before.network_management &&
          frame.message_id == before.message_id;
+}
+
+Finding Cluster::finding(int line, std::string key, std::string value, std::string expected) const {
+  TextPlace from = origins.place(file, line);
+  return {std::move(from.file), from.line, std::move(key), std::move(value), std::move(expected)};
 }
 
 bool Cluster::describes_tasks() const {

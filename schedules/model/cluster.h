@@ -12,7 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/ids.h"
+#include "core/text_place.h"
 #include "core/time.h"
 #include "schedules/model/flexray_parameters.h"
 #include "schedules/model/medium_id.h"
@@ -212,10 +214,17 @@ struct ArrivalWindow {
   Duration late{};
 };
 
+// A value that a cluster file leaves out, since others determine it (schedules/file/derive.h).
+struct DerivedValue {
+  std::string path;   // "flexray.gdNIT"
+  std::string value;  // as a file would have it
+};
+
 struct Cluster {
   std::string name;
-  std::string file;  // for messages
-  std::string text;  // the YAML as read, attached to logs
+  std::string file;     // for messages
+  std::string text;     // the YAML as read, with all that the file extends; attached to logs
+  TextOrigins origins;  // of the text's lines, where the file extends another
   GlobalParameters flexray;
   bool synchronisation = true;  // clock correction; switched off only for demonstration
   Topology topology = Topology::kBus;
@@ -229,6 +238,10 @@ struct Cluster {
   // Keyed by "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId".
   std::map<std::string, int, std::less<>> parameter_lines;
 
+  std::vector<DerivedValue> derived;
+
+  // Returns a finding about a line of `text`. It names the file and line from which that came.
+  Finding finding(int line, std::string key, std::string value, std::string expected) const;
   // False for a bus description, which has no tasks, no sensors and no messages on CANs. It can be checked as far as the
   // bus goes, drawn and exported. No node can run it.
   bool describes_tasks() const;

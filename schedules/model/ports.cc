@@ -40,8 +40,8 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
   for (const std::string_view port : direction.needed)
     if (std::none_of(direction.bound.begin(), direction.bound.end(),
                      [&](const PortBinding& binding) { return binding.port == port; }))
-      findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
-                    fmt::format("must bind the port {}: step {} needs it", port, task.step)});
+      findings.add(cluster.finding(task.line, fmt::format("{}.{}", path, direction.key), "",
+                                   fmt::format("must bind the port {}: step {} needs it", port, task.step)));
   for (const PortBinding& binding : direction.bound) {
     const auto is_among = [&](const std::vector<std::string_view>& ports) {
       return std::find(ports.begin(), ports.end(), binding.port) != ports.end();
@@ -50,18 +50,19 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
     const auto sensor = direction.any ? sensor_of(cluster, direction, binding.port) : std::nullopt;
     const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
     if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
-      findings.add(
-          {cluster.file, binding.line, key, cluster.pdu(binding.pdu).name,
-           fmt::format("must be a PDU of the sensor {}, as its port is called", cluster.sensor(*sensor).name)});
+      findings.add(cluster.finding(
+          binding.line, key, cluster.pdu(binding.pdu).name,
+          fmt::format("must be a PDU of the sensor {}, as its port is called", cluster.sensor(*sensor).name)));
     if (known || sensor) continue;
-    findings.add({cluster.file, binding.line, key, "",
-                  fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
-                              sensors_names(direction) + others(direction.optional))});
+    findings.add(cluster.finding(
+        binding.line, key, "",
+        fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
+                    sensors_names(direction) + others(direction.optional))));
   }
   if (direction.any && direction.bound.empty())
-    findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
-                  fmt::format("must bind at least one sensor's list: step {} {} them", task.step,
-                              task.step == "fusion" ? "fuses" : direction.key)});
+    findings.add(cluster.finding(task.line, fmt::format("{}.{}", path, direction.key), "",
+                                 fmt::format("must bind at least one sensor's list: step {} {} them", task.step,
+                                             task.step == "fusion" ? "fuses" : direction.key)));
 }
 
 // A zero would end the name for the system, and other control characters would hide it from the reader.
@@ -90,17 +91,18 @@ void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
       const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
       if (names_library(task.step)) {
         if (task.step.size() == kLibraryEnd.size() || std::ranges::any_of(task.step, no_file_name_has))
-          findings.add({cluster.file, task.line, path + ".step", task.step,
-                        "must be a file name without a folder and control characters, such as distance.so: "
-                        "--steps gives the folder"});
+          findings.add(
+              cluster.finding(task.line, path + ".step", task.step,
+                              "must be a file name without a folder and control characters, such as distance.so: "
+                              "--steps gives the folder"));
         continue;
       }
       const auto step = std::find_if(steps.begin(), steps.end(),
                                      [&](const StepPorts& candidate) { return candidate.step == task.step; });
       if (step == steps.end()) {
-        findings.add({cluster.file, task.line, path + ".step", task.step,
-                      fmt::format("must be one of {}, or a library's file name that ends in {}", fmt::join(names, ", "),
-                                  kLibraryEnd)});
+        findings.add(cluster.finding(task.line, path + ".step", task.step,
+                                     fmt::format("must be one of {}, or a library's file name that ends in {}",
+                                                 fmt::join(names, ", "), kLibraryEnd)));
         continue;
       }
       bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads, step->may_read},

@@ -57,7 +57,7 @@ schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant
   for (schedules::model::Node& node : cluster.nodes) {
     if (!node.flexray) {
       findings.add(
-          {cluster.file, node.line, "nodes." + node.name, "", "must be on FlexRay: a campaign has controllers only"});
+          cluster.finding(node.line, "nodes." + node.name, "", "must be on FlexRay: a campaign has controllers only"));
       continue;
     }
     if (variant.channels == Channels::kA) {
