@@ -115,6 +115,12 @@ std::int64_t YamlMap::integer_or(std::string_view key, std::int64_t fallback, Ra
   return has(key) ? integer(key, allowed, unit) : fallback;
 }
 
+std::optional<std::int64_t> YamlMap::integer_if(std::string_view key, Range<std::int64_t> allowed,
+                                                std::string_view unit) {
+  if (is_described()) return described(key, KeyType::kInteger, allowed, unit, std::optional<std::int64_t>{}, 1, true);
+  return has(key) ? std::optional(integer(key, allowed, unit)) : std::nullopt;
+}
+
 double YamlMap::number(std::string_view key, Range<double> allowed, std::string_view unit) {
   if (is_described()) return described(key, KeyType::kNumber, allowed, unit);
   const std::string expected = range_text(allowed, unit, "a number");
@@ -144,6 +150,13 @@ std::int64_t YamlMap::scaled(std::string_view key, std::int64_t scale, Range<std
   if (value && allowed.contains(*value)) return *value;
   fail(key, expected);
   return allowed.low;
+}
+
+std::optional<std::int64_t> YamlMap::scaled_if(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
+                                               std::string_view unit) {
+  if (is_described())
+    return described(key, KeyType::kDecimal, allowed, unit, std::optional<std::int64_t>{}, scale, true);
+  return has(key) ? std::optional(scaled(key, scale, allowed, unit)) : std::nullopt;
 }
 
 bool YamlMap::boolean(std::string_view key) {
@@ -189,6 +202,11 @@ Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
 Duration YamlMap::duration_or(std::string_view key, Duration fallback, Range<Duration> allowed) {
   if (is_described()) return described_duration(key, allowed, fallback);
   return has(key) ? duration(key, allowed) : fallback;
+}
+
+std::optional<Duration> YamlMap::duration_if(std::string_view key, Range<Duration> allowed) {
+  if (is_described()) return described_duration(key, allowed, std::nullopt, true);
+  return has(key) ? std::optional(duration(key, allowed)) : std::nullopt;
 }
 
 std::size_t YamlMap::choice_index(std::string_view key, const std::vector<std::string_view>& names) {

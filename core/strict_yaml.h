@@ -46,11 +46,15 @@ class YamlMap {
   std::int64_t integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
                           std::string_view unit = "");
+  // Returns none for an absent key: then other keys give the value.
+  std::optional<std::int64_t> integer_if(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   double number(std::string_view key, Range<double> allowed, std::string_view unit = "");
   double number_or(std::string_view key, double fallback, Range<double> allowed, std::string_view unit = "");
   // A decimal number times `scale`, which must be whole: "12.5" with scale 1000 is 12500 (ns to ps).
   std::int64_t scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
                       std::string_view unit = "");
+  std::optional<std::int64_t> scaled_if(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
+                                        std::string_view unit = "");
   bool boolean(std::string_view key);
   bool boolean_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
@@ -58,6 +62,7 @@ class YamlMap {
   // "40 ms", "2.5 us", "100 ns", "1.5 s"; exact to the nanosecond.
   Duration duration(std::string_view key, Range<Duration> allowed);
   Duration duration_or(std::string_view key, Duration fallback, Range<Duration> allowed);
+  std::optional<Duration> duration_if(std::string_view key, Range<Duration> allowed);
 
   template <class Enum> Enum choice(std::string_view key, const Choices<Enum>& choices) {
     std::vector<std::string_view> names;
@@ -113,8 +118,9 @@ class YamlMap {
   KeyValue ask(const KeyQuestion& question) const;
   template <class T>
   T described(std::string_view key, KeyType type, Range<T> allowed, std::string_view unit = "",
-              std::optional<T> fallback = std::nullopt, std::int64_t scale = 1) const;
-  Duration described_duration(std::string_view key, Range<Duration> allowed, std::optional<Duration> fallback) const;
+              std::optional<T> fallback = std::nullopt, std::int64_t scale = 1, bool optional = false) const;
+  Duration described_duration(std::string_view key, Range<Duration> allowed, std::optional<Duration> fallback,
+                              bool optional = false) const;
   std::size_t described_choice(std::string_view key, const std::vector<std::string_view>& names, bool optional,
                                std::optional<std::size_t> fallback) const;
   YamlMap described_map(std::string path) const;

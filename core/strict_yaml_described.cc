@@ -23,8 +23,9 @@ KeyValue YamlMap::ask(const KeyQuestion& question) const { return content_->answ
 
 template <class T>
 T YamlMap::described(std::string_view key, KeyType type, Range<T> allowed, std::string_view unit,
-                     std::optional<T> fallback, std::int64_t scale) const {
+                     std::optional<T> fallback, std::int64_t scale, bool optional) const {
   KeyQuestion asked = question(key, type, fallback ? std::optional<KeyValue>(*fallback) : std::nullopt);
+  asked.optional = asked.optional || optional;
   asked.low = allowed.low;
   asked.high = allowed.high;
   asked.unit = unit;
@@ -33,14 +34,15 @@ T YamlMap::described(std::string_view key, KeyType type, Range<T> allowed, std::
 }
 
 template std::int64_t YamlMap::described(std::string_view, KeyType, Range<std::int64_t>, std::string_view,
-                                         std::optional<std::int64_t>, std::int64_t) const;
+                                         std::optional<std::int64_t>, std::int64_t, bool) const;
 template double YamlMap::described(std::string_view, KeyType, Range<double>, std::string_view, std::optional<double>,
-                                   std::int64_t) const;
+                                   std::int64_t, bool) const;
 
-Duration YamlMap::described_duration(std::string_view key, Range<Duration> allowed,
-                                     std::optional<Duration> fallback) const {
+Duration YamlMap::described_duration(std::string_view key, Range<Duration> allowed, std::optional<Duration> fallback,
+                                     bool optional) const {
   const auto ns = fallback ? std::optional(fallback->ns) : std::nullopt;
-  return Duration{described(key, KeyType::kDuration, Range<std::int64_t>{allowed.low.ns, allowed.high.ns}, "", ns)};
+  return Duration{
+      described(key, KeyType::kDuration, Range<std::int64_t>{allowed.low.ns, allowed.high.ns}, "", ns, 1, optional)};
 }
 
 std::size_t YamlMap::described_choice(std::string_view key, const std::vector<std::string_view>& names, bool optional,

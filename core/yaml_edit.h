@@ -1,9 +1,10 @@
-// Replaces one scalar of a YAML text and keeps everything else, lines and comments included. A reader of the
-// result finds the same mistakes in the same lines.
+// Replaces or adds scalars in a YAML text and keeps everything else, lines and comments included. A reader of the text
+// with a replaced scalar finds the same mistakes in the same lines.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ttf {
 
@@ -11,5 +12,16 @@ namespace ttf {
 // "world.objects[0].speed". Both the old and the new value must be plain scalars; a missing key is not added.
 // Throws InputError, which names the file `name`.
 std::string with_value(const std::string& text, const std::string& name, std::string_view path, std::string_view value);
+
+struct NewKey {
+  std::string path;  // "world.objects[0].speed": its mapping is there, without this key
+  std::string value;
+};
+
+// Returns `text` with the keys added, in front of the first key of their mappings and in this order. `lines`, if given,
+// receives the lines of the old text in front of which a new line begins: a mapping in braces keeps its line. Throws
+// InputError, which names the file `name`, for a mapping that is missing.
+std::string with_keys(const std::string& text, const std::string& name, const std::vector<NewKey>& keys,
+                      std::vector<int>* lines = nullptr);
 
 }  // namespace ttf

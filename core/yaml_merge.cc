@@ -30,7 +30,7 @@ struct Item {
 struct Entry {
   std::string key;
   std::size_t layer = 0;
-  int line = 0;  // of the key
+  int line = 0;  // the key's
   Item value;
 };
 

@@ -4,7 +4,7 @@
 //   place of what was there.
 //
 // Two rules go beyond RFC 7396, where mappings have no order. A key keeps its place. A new key goes behind the key that
-// is before it in its own text, and to the end where none is. And a `~` must have something to remove.
+// is before it in its own text; the first key of a text goes to the end. And a `~` must have something to remove.
 #pragma once
 
 #include <string>

@@ -15,9 +15,12 @@ constexpr Description kCluster[] = {
     {"real_time", "The cluster may run in real time, with this arrival window; absent, in virtual time only."},
     {"real_time.early", "A frame may arrive this long before its action point.", "100 us"},
     {"real_time.late", "A frame may arrive this long after its action point.", "500 us"},
-    {"flexray", "The cluster has these global parameters, by their names in the FlexRay specification 2.1."},
+    {"flexray",
+     "The cluster has these global parameters, by their names in the FlexRay specification 2.1; others may determine "
+     "one (docs/cluster_files.md)."},
     {"node_parameters",
-     "Each node on FlexRay has these parameters unless it states its own; every one is stated here or there."},
+     "Each node on FlexRay has these parameters unless it states its own; every one is stated here or there, or "
+     "derived."},
     {"nodes", "The cluster has these nodes."},
     {"nodes.NAME.flexray", "The node is on FlexRay, with these parameters of its own; absent, it is off FlexRay."},
     {"nodes.NAME.microtick", "The microtick of a node off FlexRay lasts this long.", "25"},

@@ -28,6 +28,7 @@
 #include "schedules/exchange/fibex/export.h"
 #include "schedules/exchange/fibex/import.h"
 #include "schedules/exchange/text.h"
+#include "schedules/file/derive.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
 #include "schedules/modes/stated.h"
@@ -252,6 +253,10 @@ int export_cluster(const ScheduleOptions& options) {
     write_text(schedules::exchange::fibex::fibex_text(cluster), options.out);
     return 0;
   }
+  if (is_cluster_file(options.file)) {
+    write_text(schedules::file::explicit_text(consistent_cluster(options.file)), options.out);
+    return 0;
+  }
   const schedules::exchange::fibex::FibexImport import = fibex_input(options.file);
   for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
   const std::string yaml = schedules::exchange::fibex::skeleton_yaml(import);
@@ -315,18 +320,19 @@ void add_schedule(CLI::App& app, Action& action) {
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->check(named());
   add_paper_size(*showing, options->paper);
   call_on_file(*showing, options, action, show);
-  CLI::App* exporting = command->add_subcommand("export",
-                                                "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's "
-                                                "FlexRay cluster as the beginning of a cluster file");
+  CLI::App* exporting =
+      command->add_subcommand("export",
+                              "Write a cluster as FIBEX 3.1, its CANs as DBC, itself with all that it "
+                              "inherits and derives, or a FIBEX file's FlexRay cluster as the "
+                              "beginning of a cluster file");
   exporting->footer(
       "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
       "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"
+      "          ttfusion schedule export schedules/paper_unsynchronised.yaml --format yaml -o whole.yaml\n"
       "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
-  exporting
-      ->add_option("file", options->file,
-                   "Cluster file or a shipped one's name (fibex, dbc), or FIBEX file (yaml, fibex)")
+  exporting->add_option("file", options->file, "Cluster file or a shipped one's name, or FIBEX file (yaml, fibex)")
       ->required();
-  exporting->add_option("--format", options->format, "fibex, dbc: from a cluster file; yaml: from a FIBEX file")
+  exporting->add_option("--format", options->format, "fibex; dbc: from a cluster file; yaml: a whole cluster file")
       ->required()
       ->check(one_of({"fibex", "dbc", "yaml"}));
   exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster");

@@ -41,6 +41,14 @@ ScheduleInput checked_input(const std::string& path) {
   return input;
 }
 
+bool is_cluster_file(const std::string& path) {
+  try {
+    return !is_xml(path) && kind_of_file(path) == FileKind::kCluster;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 schedules::exchange::fibex::FibexImport fibex_input(const std::string& path) {
   if (!is_xml(path)) refuse_any_kind(path, "a FIBEX file");
   return schedules::exchange::fibex::import_fibex(path);

@@ -19,6 +19,9 @@ struct ScheduleInput {
 // Throws InputError.
 ScheduleInput checked_input(const std::string& path);
 
+// Returns whether the file is a cluster file; false for one that cannot be read.
+bool is_cluster_file(const std::string& path);
+
 // Reads a FIBEX file. Throws InputError, with one finding for a file of another kind.
 schedules::exchange::fibex::FibexImport fibex_input(const std::string& path);
 

@@ -24,6 +24,7 @@
 #include "recording/records/tee.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/inherit.h"
+#include "schedules/file/vary.h"
 #include "schedules/model/ports.h"
 
 namespace ttf::experiments::sweep {
@@ -172,19 +173,25 @@ TextOrigins SweepDrives::origins_of(const std::string& file) const {
   return found == origins_.end() ? TextOrigins{} : found->second;
 }
 
-std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const {
-  std::string text = texts_.at(name);
+schedules::file::ClusterText SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster,
+                                                 const std::string& name) const {
+  schedules::file::ClusterText text{texts_.at(name), name, origins_of(name)};
   for (const Edit& edit : edits) {
     const bool is = edit.key.starts_with(kOfCluster);
     if (is != of_cluster || is_file(edit)) continue;
+    const std::string key = edit.key.substr(is ? kOfCluster.size() : 0);
     try {
-      text = with_value(text, name, std::string_view(edit.key).substr(is ? kOfCluster.size() : 0), edit.value);
+      text.text = with_value(text.text, name, key, edit.value);
     } catch (const InputError& error) {
       Finding finding = error.findings().front();
       if (finding.line != 0) {
-        TextPlace from = origins_of(name).place(name, finding.line);
+        TextPlace from = text.origins.place(name, finding.line);
         finding.file = std::move(from.file), finding.line = from.line;
         throw InputError(std::move(finding));
+      }
+      if (is && schedules::file::leaves_out(text, key)) {
+        text = schedules::file::with_key(std::move(text), key, edit.value);
+        continue;
       }
       // The file lacks the key: the finding names the line that sets it.
       throw InputError({sweep_.file, edit.line, edit.key, "",
@@ -209,13 +216,13 @@ PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector
   const std::string* scenario = file_of(edits, kScenarioFile);
   const std::string& scenario_file = scenario != nullptr ? *scenario : sweep_.scenario_file;
   PreparedDrive drive;
-  drive.scenario = drives::parse_scenario(edited(edits, false, scenario_file), scenario_file);
+  drive.scenario = drives::parse_scenario(edited(edits, false, scenario_file).text, scenario_file);
   if (const std::string* faults = file_of(edits, kFaultsFile)) plan_faults(*faults, drive.scenario);
   drive.strategy = paradigm.strategy;
   std::string& file = drive.scenario.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
   if (paradigm.cluster_file) file = *paradigm.cluster_file;
   if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
-  drive.cluster = schedules::file::parse_cluster({edited(edits, true, file), file, origins_of(file)});
+  drive.cluster = schedules::file::parse_cluster(edited(edits, true, file));
   if (auto findings = schedules::check::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
   drives::check_steps(drive.cluster);
   drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);

@@ -12,6 +12,7 @@
 #include "experiments/sweep/file.h"
 #include "nodes/foreign/libraries.h"
 #include "recording/records/records.h"
+#include "schedules/file/inherit.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::experiments::sweep {
@@ -58,13 +59,13 @@ class SweepDrives {
   std::vector<Edit> edits_of(const results::RowKey& key, const std::vector<double>& drawn) const;
   // Applies the edits of a cluster, or of a scenario, to the text of the file `name`.
   TextOrigins origins_of(const std::string& file) const;
-  std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
+  schedules::file::ClusterText edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
   void plan_faults(const std::string& file, drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
   const nodes::foreign::StepFolder* steps_;
-  std::map<std::string, std::string> texts_;    // scenarios, clusters (with what they extend) and fault plans, by path
-  std::map<std::string, TextOrigins> origins_;  // of the clusters' lines
+  std::map<std::string, std::string> texts_;      // scenarios, whole clusters and fault plans, by path
+  std::map<std::string, TextOrigins> origins_;    // the clusters' lines
   std::map<std::string, std::string> libraries_;  // hashes by name
   std::string identity_;
 };

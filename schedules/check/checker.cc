@@ -8,20 +8,9 @@
 #include "schedules/check/constraints.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/limits.h"
-#include "schedules/model/wire_times.h"
 
 namespace ttf::schedules::check {
 namespace {
-
-// A bus driver's longest reaction from idle to activity (electrical physical layer 2.1A, dBDRxai).
-constexpr std::int64_t kDriverReaction_ps = 400'000;
-
-// 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).
-std::int64_t around_action_points(const model::GlobalParameters& g, std::int64_t bits, std::int64_t extra_ps) {
-  const Int128 time =
-      longest_bits(g, bits) + model::scaled(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps);
-  return 2 * g.gdActionPointOffset + model::ceil_div(time, shortest_macroticks(g, 1));
-}
 
 // FlexRay 2.1A: 10, 5 and 2.5 Mbit/s.
 constexpr std::int64_t kBits_ps[] = {100'000, 200'000, 400'000};
@@ -54,14 +43,6 @@ std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<doub
 std::string number(std::int64_t value) { return fmt::format("{}", value); }
 std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }
 std::string ns(std::int64_t ps) { return fmt::format("{} ns", static_cast<double>(ps) / 1e3); }
-
-std::int64_t shortest_static_slot(const model::GlobalParameters& g) {
-  return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + model::kIdleDelimiterBits, 0);
-}
-
-std::int64_t shortest_symbol_window(const model::GlobalParameters& g) {
-  return around_action_points(g, g.gdTSSTransmitter + model::kCasBits + model::kIdleDelimiterBits, kDriverReaction_ps);
-}
 
 void check_cycle(const model::Cluster& cluster, ClusterFindings& findings) {
   const model::GlobalParameters& g = cluster.flexray;

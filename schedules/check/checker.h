@@ -86,9 +86,4 @@ void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // 
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all those
 void check_modes(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
-// Return the shortest static slot for a frame of gPayloadLengthStatic words, and the shortest symbol window (constraint
-// 16), in macroticks.
-std::int64_t shortest_static_slot(const model::GlobalParameters& flexray);
-std::int64_t shortest_symbol_window(const model::GlobalParameters& flexray);
-
 }  // namespace ttf::schedules::check

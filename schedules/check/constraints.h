@@ -2,13 +2,14 @@
 // says which constraints are not checked. Some are bounds here where the specification has an equation: its other terms
 // are no keys of a cluster file.
 //
-// Terms (schedules/model/wire_times.h): gAssumedPrecision, adActionPointDifference, cClockDeviationMax = 0.0015.
+// The bounds: schedules/analysis/parameter_bounds.h. Terms (schedules/model/wire_times.h): gAssumedPrecision, adActionPointDifference, cClockDeviationMax = 0.0015.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
 
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/check/checker.h"
 #include "schedules/model/cluster.h"
 
@@ -21,6 +22,10 @@ struct Constrained {
   std::int64_t drift_ppb = 0;         // the largest of this node's clock
   std::int64_t others_drift_ppb = 0;  // and of any controller's
   const model::GlobalParameters& g = cluster.flexray;
+
+  operator analysis::Terms() const {
+    return {g, p, drift_ppb, others_drift_ppb};
+  }  // NOLINT(google-explicit-constructor)
 };
 
 struct Constraint {

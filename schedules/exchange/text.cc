@@ -179,6 +179,12 @@ std::string modes_text(const model::Task& task, const std::string& indent) {
   return text;
 }
 
+void show_derived(const model::Cluster& cluster, std::string& text) {
+  if (cluster.derived.empty()) return;
+  text += "\nderived, as the file leaves them out\n";
+  for (const model::DerivedValue& one : cluster.derived) text += fmt::format("  {} = {}\n", one.path, one.value);
+}
+
 // A time on the cycle's own grid goes below a row that it would make too wide.
 std::string task_text(const model::Cluster& cluster, const model::Node& node, const model::Task& task) {
   const std::string names = fmt::format("  {:<12}{:<16}", node.name, task.name);
@@ -227,6 +233,7 @@ std::string show_text(const model::Cluster& cluster) {
   if (sent) text += "\n" + analysis::dynamic_text(cluster);
   show_objects(cluster, text);
   show_real_time(cluster, text);
+  show_derived(cluster, text);
   if (!cluster.describes_tasks()) return wrapped(text) + "\nno tasks, sensors and CANs are described\n";
   text += "\nsensors\n";
   for (const model::Sensor& sensor : cluster.sensors) {

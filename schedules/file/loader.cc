@@ -10,6 +10,7 @@
 
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
+#include "schedules/file/completion.h"
 #include "schedules/file/inherit.h"
 #include "schedules/file/load_modes.h"
 #include "schedules/file/parameter_table.h"
@@ -27,7 +28,7 @@ const Choices<model::Channels> kChannels{
 
 class Loader {
  public:
-  Loader(const StrictYaml& file, Findings& findings) : root_(file.root(findings)) {
+  Loader(const StrictYaml& file, Findings& findings) : root_(file.root(findings)), completion_(cluster_, findings) {
     cluster_.file = file.name();
     cluster_.text = file.text();
   }
@@ -70,6 +71,7 @@ class Loader {
                      [](const model::FrameSlot& a, const model::FrameSlot& b) {
                        return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
                      });
+    completion_.finish();
     root_.finish();
     return std::move(cluster_);
   }
@@ -94,14 +96,14 @@ class Loader {
 
   void load_globals(YamlMap& map) {
     model::GlobalParameters& global = cluster_.flexray;
-    for (const auto& p : kGlobalIntegers) {
-      global.*p.member = static_cast<int>(map.integer(p.name, {p.low, p.high}, p.unit));
+    Absent absent;
+    const auto read = [&](const auto& p) {
+      read_parameter(map, p, global, absent);
       remember(map, p.name);
-    }
-    for (const auto& p : kGlobalScaled) {
-      global.*p.member = map.scaled(p.name, p.scale, {p.low, p.high}, p.unit);
-      remember(map, p.name);
-    }
+    };
+    for (const auto& p : kGlobalIntegers) read(p);
+    for (const auto& p : kGlobalScaled) read(p);
+    completion_.globals(map, std::move(absent));
     map.finish();
   }
 
@@ -120,7 +122,7 @@ class Loader {
   }
 
   // Returns a node's own value, or the one shared by all nodes.
-  model::NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared) {
+  model::NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared, Absent& absent) {
     model::NodeParameters local;
     const auto from = [&](std::string_view key) -> YamlMap& {
       const bool in_shared = shared.has(key);  // asked in any case, so that the key is known there
@@ -128,12 +130,8 @@ class Loader {
       cluster_.parameter_lines[fmt::format("{}.{}", own.path(), key)] = map.line(key);
       return map;
     };
-    for (const auto& p : kNodeIntegers) {
-      YamlMap& map = from(p.name);
-      local.*p.member = static_cast<int>(p.otherwise ? map.integer_or(p.name, *p.otherwise, {p.low, p.high}, p.unit)
-                                                     : map.integer(p.name, {p.low, p.high}, p.unit));
-    }
-    for (const auto& p : kNodeScaled) local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
+    for (const auto& p : kNodeIntegers) read_parameter(from(p.name), p, local, absent);
+    for (const auto& p : kNodeScaled) read_parameter(from(p.name), p, local, absent);
     local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
     local.pWakeupChannel = from("pWakeupChannel")
                                .choice_or("pWakeupChannel", default_wakeup(local.pChannels),
@@ -340,8 +338,9 @@ class Loader {
   void load_node(YamlMap& map, YamlMap& shared, model::Node& item) {
     item.line = map.line();
     if (auto own = map.map_if("flexray")) {
-      item.flexray = load_node_parameters(*own, shared);
-      item.microtick_ps = item.flexray->pdMicrotick_ps;
+      Absent absent;
+      item.flexray = load_node_parameters(*own, shared, absent);
+      completion_.clock(static_cast<std::size_t>(&item - cluster_.nodes.data()), *own, std::move(absent));
     } else {
       item.microtick_ps = map.scaled("microtick", 1'000, {2'000, 1'000'000}, "ns");
     }
@@ -397,6 +396,7 @@ class Loader {
 
   YamlMap root_;
   model::Cluster cluster_;
+  Completion completion_;
 };
 
 model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) {

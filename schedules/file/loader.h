@@ -1,6 +1,6 @@
 // Reads a cluster file. Every parameter of the FlexRay specification is required, under its own name and within
-// its range of annex B (2.1 Rev. A). Unknown, missing, duplicate and out-of-range keys are findings, all
-// reported at once.
+// its range of annex B (2.1 Rev. A), unless others determine it (schedules/file/derive.h). Unknown, missing, duplicate
+// and out-of-range keys are findings, all reported at once.
 //
 //   extends: OTHER.yaml                         the keys that this file does not have (schedules/file/inherit.h); optional
 //   name: paper_synchronised

@@ -75,7 +75,7 @@ class Soundness {
   }
   void about_task(const std::string& expected) {
     if (!detector_.stated) return option("--task", name_, expected);
-    findings_.push_back({cluster_.file, detector_.task->line, path_ + ".modes", name_, expected});
+    findings_.push_back(cluster_.finding(detector_.task->line, path_ + ".modes", name_, expected));
   }
 
   void check_task() {
@@ -106,12 +106,11 @@ class Soundness {
     if (!detector_.stated)
       return option(late.detection.secondary ? "--secondary" : "--primary", ms(late.worst_case),
                     fmt::format("must end {} before its steps of {} do: clocks differ", spare, ms(late.occupied)));
-    findings_.push_back(
-        {cluster_.file, late.line,
-         fmt::format("{}.modes.{}.detections[{}].lasts", path_, mode.name, &late - mode.detections.data()),
-         ms(late.worst_case),
-         fmt::format("must end {} before the next detection begins, {} behind this one: clocks differ", spare,
-                     ms(late.occupied))});
+    findings_.push_back(cluster_.finding(
+        late.line, fmt::format("{}.modes.{}.detections[{}].lasts", path_, mode.name, &late - mode.detections.data()),
+        ms(late.worst_case),
+        fmt::format("must end {} before the next detection begins, {} behind this one: clocks differ", spare,
+                    ms(late.occupied))));
   }
 
   void check_list(const model::PortBinding& out) {

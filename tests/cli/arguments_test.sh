@@ -130,7 +130,7 @@ for file in "$fibex" "$dbc"; do
 done
 other_kind 'a DBC file' 'a cluster' schedule check "$dbc"
 other_kind 'a DBC file' 'a FIBEX file' schedule export --format yaml "$dbc"
-other_kind 'a cluster' 'a FIBEX file' schedule export --format yaml "$cluster"
+expect 0 '^name: ' schedule export --format yaml "$cluster"
 # A log and a capture are told by their first bytes.
 log=$work/run/tt.mcap
 expect 0 '' run "$paper" --strategy tt --no-pictures --duration 1.6 --out "$work/run"

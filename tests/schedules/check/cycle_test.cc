@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/check/checker.h"
 #include "schedules/model/wire_times.h"
 
@@ -50,7 +51,7 @@ TEST(CycleRules, FibexExampleAddsUpToConstraint18) {
 TEST(CycleRules, FibexExampleNeeds44MacroticksPerSlotWithLongCables) {
   model::GlobalParameters g = fibex_example();
   g.gdMaxPropagationDelay_ps = 2'500'000;
-  EXPECT_EQ(shortest_static_slot(g), 44);
+  EXPECT_EQ(analysis::shortest_static_slot(g), 44);
   const auto findings = findings_of_cycle(g);
   ASSERT_NE(about(findings, "gdStaticSlot"), nullptr);
   EXPECT_NE(about(findings, "gdStaticSlot")->expected.find("at least 44"), std::string::npos);
@@ -59,7 +60,7 @@ TEST(CycleRules, FibexExampleNeeds44MacroticksPerSlotWithLongCables) {
 TEST(CycleRules, FibexExampleHoldsUpToOneMicrosecondOfCable) {
   model::GlobalParameters g = fibex_example();
   g.gdMaxPropagationDelay_ps = 1'000'000;
-  EXPECT_EQ(shortest_static_slot(g), 43);
+  EXPECT_EQ(analysis::shortest_static_slot(g), 43);
   EXPECT_EQ(about(findings_of_cycle(g), "gdStaticSlot"), nullptr);
 }
 
@@ -75,7 +76,7 @@ TEST(CycleRules, SecondExampleNeedsAtLeast33MacroticksPerSlot) {
   g.gdNIT = 3636 - 70 * 31 - 291 * 5 - 1;
   g.gOffsetCorrectionStart = 3632;
   g.gdMaxPropagationDelay_ps = 0;  // even without any cable
-  EXPECT_EQ(shortest_static_slot(g), 33);
+  EXPECT_EQ(analysis::shortest_static_slot(g), 33);
   const auto findings = findings_of_cycle(g);
   ASSERT_NE(about(findings, "gdStaticSlot"), nullptr);
   EXPECT_NE(about(findings, "gdStaticSlot")->expected.find("at least 33"), std::string::npos);
@@ -97,7 +98,7 @@ TEST(CycleRules, ACycleIsWholeNanoseconds) {
 TEST(CycleRules, PaperLayoutIsTheTightestThatHolds) {
   model::GlobalParameters g;
   EXPECT_EQ(assumed_precision_ps(g), 6'850'000);
-  EXPECT_EQ(shortest_static_slot(g), 84);
+  EXPECT_EQ(analysis::shortest_static_slot(g), 84);
 }
 
 // The assumed distance of clocks is never less than the parameters' value, with any fraction of a nanosecond.

@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/minislots.h"
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/check/constraints.h"
 #include "schedules/model/wire_times.h"
 #include "tests/bus/layouts.h"
@@ -55,7 +56,7 @@ class Drawn {
     g.gdActionPointOffset = static_cast<int>(std::max<std::int64_t>(
                                 up((precision - static_cast<double>(g.gdMinPropagationDelay_ps)) / macrotick), 1)) +
                             number(0, 2);
-    g.gdStaticSlot = static_cast<int>(schedules::check::shortest_static_slot(g)) + number(0, 3);
+    g.gdStaticSlot = static_cast<int>(schedules::analysis::shortest_static_slot(g)) + number(0, 3);
     g.gNumberOfStaticSlots = nodes + number(0, 6);
     if (number(1, 2) == 1) dynamic_segment(g, nodes);
     const std::int64_t per_macrotick = g.gdMacrotick_ps / microtick_ps_;
@@ -186,7 +187,7 @@ class Drawn {
       case 17: {
         const int before = g.gdStaticSlot;
         const bool possible = within(g.gdStaticSlot, std::max(g.gdActionPointOffset + 1, 4),
-                                     schedules::check::shortest_static_slot(g) - 1);
+                                     schedules::analysis::shortest_static_slot(g) - 1);
         g.gdNIT += (before - g.gdStaticSlot) * g.gNumberOfStaticSlots;
         return named("static_slot", possible);
       }
