@@ -168,8 +168,17 @@ nlohmann::ordered_json modes_json(const schedules::model::Cluster& cluster,
   return json;
 }
 
+int check_tasks(const ScheduleOptions& options) {
+  try {
+    return check_task_set(options.file, options.json);
+  } catch (const InputError& error) {
+    if (options.json) print_findings(error);
+    throw;
+  }
+}
+
 int check(const ScheduleOptions& options) {
-  if (options.task_set) return check_task_set(options.file, options.json);
+  if (options.task_set) return check_tasks(options);
   const schedules::model::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/errors.h"
+#include "core/file_kind.h"
 #include "core/time.h"
 #include "schedules/timing/task_set/reader.h"
 #include "schedules/timing/task_set/verdict.h"
@@ -88,10 +90,20 @@ nlohmann::ordered_json verdict_json(const sets::TaskSet& set, const sets::Verdic
   return json;
 }
 
+// A file of another kind is one mistake.
+sets::TaskSet read_set(const std::string& file) {
+  try {
+    return sets::load_task_set(file);
+  } catch (const InputError&) {
+    refuse_any_kind(file, "a task set");
+    throw;
+  }
+}
+
 }  // namespace
 
 int check_task_set(const std::string& file, bool json) {
-  const sets::TaskSet set = sets::load_task_set(file);
+  const sets::TaskSet set = read_set(file);
   const sets::Verdict verdict = sets::verdict_on(set);
   if (json)
     fmt::print("{}\n", verdict_json(set, verdict).dump(2));

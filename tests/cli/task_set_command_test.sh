@@ -49,6 +49,15 @@ says '^  braking: no times: no bound found for the response of planner$'
 sed 's/21 ms, , 2/21 ms, , 1/' "$shipped" >"$work/wrong.csv"
 expect 2 '^error: .*/wrong.csv:[0-9]+: detection.priority = 1: must be another one than that of exposure$' \
   schedule check --task-set "$work/wrong.csv"
+expect 2 '^error: .*paper_synchronised.yaml: this is a cluster.*, not a task set; ' schedule check --task-set \
+  "$source/schedules/paper_synchronised.yaml"
+"$program" schedule check --task-set "$work/wrong.csv" --json 2>"$work/words" >"$work/wrong.json"
+[[ $? -eq 2 ]] || fail "a wrong file as JSON does not exit with 2"
+python3 - "$work/wrong.json" <<'PY' || fail "a wrong file has no findings as JSON"
+import json, sys
+finding, = json.load(open(sys.argv[1]))["findings"]
+assert (finding["key"], finding["value"]) == ("detection.priority", "1") and finding["line"] > 0, finding
+PY
 expect 2 'csv: cannot be read' schedule check --task-set "$work/absent.csv"
 expect 2 '--medium: must not be given with --task-set' schedule check --task-set "$shipped" --medium can-fd:1M/5M
 expect_full schedule check --task-set "$shipped"

@@ -1,5 +1,5 @@
-// Any text as a task set. Laws: it is refused in lines, or its verdict is finite. Then MRT = MDA, the reduced times are no
-// longer than the full ones, shares add up, and texts have no control characters.
+// Any text as a task set. Laws: it is refused in lines, or its verdict is finite. Then MRT = MDA, and shares add up.
+// Reduced times are no longer than full ones. Texts have no control characters.
 #include <algorithm>
 
 #include "core/check.h"
