@@ -30,7 +30,8 @@ if(TTF_BUILD_PROGRAM)
     ttf_plots_proto ttf_osi_proto)
   # Headers of generated code and of yaml-cpp are the rooms' own.
   install(DIRECTORY core timebase schedules recording DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
-    PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE)
+    PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE
+    PATTERN schedules/task_sets EXCLUDE)
   install(DIRECTORY bus/wire DESTINATION ${headers}/bus FILES_MATCHING PATTERN "*.h")
 endif()
 configure_package_config_file(cmake/ttfusionConfig.cmake.in ${PROJECT_BINARY_DIR}/ttfusionConfig.cmake
