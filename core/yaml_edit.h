@@ -18,9 +18,9 @@ struct NewKey {
   std::string value;
 };
 
-// Returns `text` with the keys added, in front of the first key of their mappings and in this order. `lines`, if given,
-// receives the lines of the old text in front of which a new line begins: a mapping in braces keeps its line. Throws
-// InputError, which names the file `name`, for a mapping that is missing.
+// Returns `text` with the keys added, in front of the first key of their mappings and in this order. A mapping in braces
+// keeps its line. Elsewhere a key has a new line, and `lines` receives the old line behind it. Throws InputError for a
+// missing mapping. It names the file `name`.
 std::string with_keys(const std::string& text, const std::string& name, const std::vector<NewKey>& keys,
                       std::vector<int>* lines = nullptr);
 

@@ -58,7 +58,7 @@ class Merger {
     findings_.add({layers_[layer].name, line, path, "", std::move(expected)});
   }
 
-  // Aliases make cycles, and texts that grow with each level.
+  // Aliases make cycles. They also make texts that grow with each level.
   void limit(const YAML::Node& node, std::size_t layer, const std::string& path, int depth) {
     if (depth > kDeepest || ++items_ > kMostItems)
       throw InputError({layers_[layer].name, line_in(node), path, "",
@@ -93,6 +93,14 @@ class Merger {
     return std::find_if(map.entries.begin(), map.entries.end(), [&](const Entry& one) { return one.key == key; });
   }
 
+  // Returns the place for the first key of a patch, if it is new: in front of the next key that the base has.
+  static std::vector<Entry>::iterator in_front(Item& base, const Item& patch) {
+    for (const Entry& next : patch.entries)
+      if (const auto found = find(base, next.key); found != base.entries.end() && !next.value.node->IsNull())
+        return found;
+    return base.entries.end();
+  }
+
   // Both are mappings.
   void change(Item& base, const Item& patch, const std::string& path) {
     base.merged = base.merged || !patch.entries.empty();
@@ -109,8 +117,7 @@ class Merger {
       }
       if (found == base.entries.end()) {
         refuse_nulls(entry.value, inner);
-        const auto behind = before == nullptr ? base.entries.end() : std::next(find(base, *before));
-        base.entries.insert(behind, entry);
+        base.entries.insert(before != nullptr ? std::next(find(base, *before)) : in_front(base, patch), entry);
       } else if (found->value.is_map && entry.value.is_map) {
         change(found->value, entry.value, inner);
       } else {

@@ -4,7 +4,7 @@
 //   place of what was there.
 //
 // Two rules go beyond RFC 7396, where mappings have no order. A key keeps its place. A new key goes behind the key that
-// is before it in its own text; the first key of a text goes to the end. And a `~` must have something to remove.
+// is before it in its own text. The first one goes in front of the next key that both have, or to the end. And a `~` must have something to remove.
 #pragma once
 
 #include <string>
@@ -26,9 +26,9 @@ struct MergedYaml {
 };
 
 // Merges the layers, the lowest first; at least one. The result has no key `left_out` at the top level. Mappings that only
-// one layer has keep their style, so that a line is from one file alone. Throws InputError, with all findings at once:
-// texts that are not one YAML mapping, keys that are given twice or are not plain, `~` without a key to remove, and
-// texts that nest too deeply or become too long (aliases).
+// one layer has keep their style, so that a line is from one file alone. Throws InputError with all findings. These are
+// about texts that are no mapping, keys that are not plain or given twice, and `~` without a key. Aliases must not make a
+// text endless or huge.
 MergedYaml merge_yaml(const std::vector<YamlLayer>& layers, std::string_view left_out);
 
 // Returns the text as a YAML scalar, in quotes where it needs them.

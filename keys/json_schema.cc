@@ -45,19 +45,39 @@ Json named(Json entry) {
 // A file with this key changes another one.
 constexpr const char* kExtends = "extends";
 
-// Returns the schema of a mapping that changes another one: no key is required, and null removes one. Lists stand for
-// themselves.
+Json or_null(Json schema) {
+  if (schema.contains("type")) {
+    if (!schema["type"].is_array()) schema["type"] = Json::array({schema["type"]});
+    schema["type"].push_back("null");
+    if (schema.contains("enum")) schema["enum"].push_back(nullptr);
+    return schema;
+  }
+  if (!schema.contains("enum")) return {{"anyOf", {Json{{"type", "null"}}, std::move(schema)}}};
+  schema["enum"].push_back(nullptr);
+  return schema;
+}
+
+// Returns the schema of a mapping that changes another one: no key is required, and null removes one. Keys of all cases are
+// known, since the mapping below decides which case it is. Lists stand for themselves.
 Json changing(Json schema) {
   if (!schema.is_object()) return schema;
   schema.erase("required");
   for (const char* of : {"properties", "patternProperties"})
     if (schema.contains(of))
       for (auto& [key, value] : schema[of].items())
-        if (value.is_object()) value = Json{{"anyOf", {Json{{"type", "null"}}, changing(value)}}};
-  if (schema.contains("allOf"))
-    for (Json& one : schema["allOf"]) one = changing(one);
+        if (value.is_object()) value = or_null(changing(value));
   for (const char* of : {"then", "else"})
     if (schema.contains(of)) schema[of] = changing(schema[of]);
+  if (!schema.contains("allOf")) return schema;
+  for (Json& one : schema["allOf"]) {
+    one = changing(one);
+    if (!one.contains("then")) continue;
+    for (const auto& [key, value] : one["then"]["properties"].items())
+      if (!schema["properties"].contains(key)) schema["properties"][key] = true;
+    if (one["then"].contains("additionalProperties"))
+      schema["additionalProperties"] = one["then"]["additionalProperties"];
+    one["then"].erase("additionalProperties");
+  }
   return schema;
 }
 

@@ -39,6 +39,11 @@ std::string frame_path(const model::FrameSlot& frame) {
                      : fmt::format("slot {}", frame.slot);
 }
 
+std::string place_text(const model::Cluster& cluster, int line) {
+  const TextPlace from = cluster.origins.place(cluster.file, line);
+  return from.file == cluster.file ? fmt::format("line {}", from.line) : fmt::format("{}:{}", from.file, from.line);
+}
+
 std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
 std::string number(std::int64_t value) { return fmt::format("{}", value); }
 std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }

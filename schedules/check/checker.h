@@ -48,6 +48,7 @@ class ClusterFindings {
   void parameter(const std::string& path, const std::string& value, const std::string& expected);
   void at(int line, const std::string& key, const std::string& value, const std::string& expected);
   std::size_t size() const { return list_.size(); }
+  const model::Cluster& cluster() const { return cluster_; }
   std::vector<Finding> take() { return std::move(list_); }
 
  private:
@@ -62,6 +63,8 @@ std::string message_path(const model::CanBus& bus, const model::CanMessage& mess
 // Returns for example "frames[9] (slot 22)": the entry as the loader names it, and which of its slots. For a frame that is
 // not from a cluster file it returns "slot 22".
 std::string frame_path(const model::FrameSlot& frame);
+// Returns for example "line 304", or "paper.yaml:304" for a line that the cluster's file inherits.
+std::string place_text(const model::Cluster& cluster, int line);
 // Returns for example "2.5 ms".
 std::string ms(Duration duration);
 std::string number(std::int64_t value);

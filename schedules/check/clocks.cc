@@ -102,9 +102,9 @@ constexpr Rule<Controller> kControllerRules[] = {
      [](C c) {
        const model::FrameSlot& other = *frame_in_another_slot(c);
        return fmt::format(
-           "must be false: {} also has slot {} (line {}), but would send in its key slot only until "
+           "must be false: {} also has slot {} ({}), but would send in its key slot only until "
            "a host commands ALL_SLOTS",
-           c.node.name, other.slot, other.line);
+           c.node.name, other.slot, place_text(c.cluster, other.line));
      }},
 };
 

@@ -58,9 +58,9 @@ void check_hears(const model::Cluster& cluster, const End& end, const std::strin
     if (frame.pdu != end.binding->pdu || share_a_channel(frame.channels, node.flexray->pChannels)) continue;
     return findings.at(
         end.binding->line, end_path(cluster, end, "reads"), name,
-        fmt::format("must be sent on {}: {} is attached to no other channel (pChannels), and slot {} (line {}) "
+        fmt::format("must be sent on {}: {} is attached to no other channel (pChannels), and slot {} ({}) "
                     "is on {} only",
-                    channels_text(node.flexray->pChannels), node.name, frame.slot, frame.line,
+                    channels_text(node.flexray->pChannels), node.name, frame.slot, place_text(cluster, frame.line),
                     channels_text(frame.channels)));
   }
 }

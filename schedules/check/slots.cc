@@ -38,16 +38,16 @@ void check_order(const model::PduLayout& layout, const Groups& groups, ClusterFi
       const bool repeated = frame.slot == before.slot && frame.fragment == before.fragment;
       if (repeated || frame.fragment > before.fragment) continue;
       wrong(frame,
-            fmt::format("must be above fragment {} of slot {} (line {}): a list's fragments are sent once each and in "
+            fmt::format("must be above fragment {} of slot {} ({}): a list's fragments are sent once each and in "
                         "ascending order",
-                        before.fragment, before.slot, before.line));
+                        before.fragment, before.slot, place_text(findings.cluster(), before.line)));
       break;
     }
     for (auto other = groups.begin(); other != group; ++other) {
       const model::FrameSlot &frame = *frames.front(), &earlier = *other->second.front();
       if (!share_a_cycle(earlier, frame)) continue;
-      wrong(frame, fmt::format("is sent twice in some of the same cycles: slot {} begins the list too ({}; line {})",
-                               earlier.slot, cycles_text(earlier), earlier.line));
+      wrong(frame, fmt::format("is sent twice in some of the same cycles: slot {} begins the list too ({}; {})",
+                               earlier.slot, cycles_text(earlier), place_text(findings.cluster(), earlier.line)));
       break;
     }
   }
@@ -170,9 +170,9 @@ void check_slots(const model::Cluster& cluster, ClusterFindings& findings) {
       findings.at(
           frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
           fmt::format("is owned twice: {} on {} sends there in some of the same cycles (base {}, repetition {}; "
-                      "line {})",
+                      "{})",
                       cluster.node(other.sender).name, channels_text(other.channels), other.base_cycle,
-                      other.repetition, other.line));
+                      other.repetition, place_text(cluster, other.line)));
       break;
     }
   }

@@ -142,9 +142,9 @@ void check_tasks(const model::Cluster& cluster, ClusterFindings& findings) {
       for (std::size_t other = 0; other < t; ++other)
         if (node.tasks[other].activation.kind == model::ActivationKind::kTime &&
             meet(cluster.flexray, node.tasks[other], task))
-          findings.parameter(
-              path + ".activation", task.name,
-              fmt::format("overlaps {} of the same node (line {})", node.tasks[other].name, node.tasks[other].line));
+          findings.parameter(path + ".activation", task.name,
+                             fmt::format("overlaps {} of the same node ({})", node.tasks[other].name,
+                                         place_text(cluster, node.tasks[other].line)));
     }
     if (findings.size() == before) check_responses(cluster, static_cast<NodeId>(n), findings);
   }

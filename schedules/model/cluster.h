@@ -224,7 +224,7 @@ struct Cluster {
   std::string name;
   std::string file;     // for messages
   std::string text;     // the YAML as read, with all that the file extends; attached to logs
-  TextOrigins origins;  // of the text's lines, where the file extends another
+  TextOrigins origins;  // where the text's lines are from, if the file extends another
   GlobalParameters flexray;
   bool synchronisation = true;  // clock correction; switched off only for demonstration
   Topology topology = Topology::kBus;

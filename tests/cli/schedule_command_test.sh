@@ -32,7 +32,7 @@ expect 0 '^wrote .*/schedule.svg$' schedule show "$schedule" -o "$work/schedule.
 expect 0 '' schedule show "$schedule" -o "$work/paper.svg" --width 18cm --font-size 7
 grep -q '<svg [^>]*width="180.0000mm"' "$work/paper.svg" || fail "the picture of a schedule is not 180 mm wide"
 expect 2 '--width = 18cm: goes with --out only' schedule show "$schedule" --width 18cm
-mutate schedules/paper_unsynchronised.yaml 's/fragment_bytes: 8$/fragment_bytes: 12/' "$cluster"
+mutate schedules/paper_synchronised.yaml 's/fragment_bytes: 8$/fragment_bytes: 12/' "$cluster"
 expect 2 \
   'broken.yaml:[0-9]+: can.camera_can.messages\[0\] = 12 bytes: must fit a frame of this CAN, at most 8 bytes' \
   schedule show "$cluster"
@@ -40,6 +40,35 @@ expect 2 'png' schedule show "$schedule" -o "$work/schedule.bmp"
 : >"$work/file"
 expect 1 'error: .*/file/x.svg: cannot be written' schedule show "$schedule" -o "$work/file/x.svg"
 expect_full schedule show "$schedule"
+
+# A file that extends another: its findings name the file of a value. The derived values are shown and exported.
+printf 'extends: paper_synchronised.yaml\nname: heir\nflexray: {gdNIT: ~}\n' >"$work/schedules/heir.yaml"
+expect 0 '^heir: consistent$' schedule check "$work/schedules/heir.yaml"
+expect 0 '^  flexray.gdNIT = 386$' schedule show "$work/schedules/heir.yaml"
+expect 0 '^wrote .*/whole.yaml$' schedule export "$work/schedules/heir.yaml" --format yaml -o "$work/whole.yaml"
+grep -q '^  gdNIT: 386$' "$work/whole.yaml" || fail "the whole file lacks the derived gdNIT"
+! grep -q 'extends' "$work/whole.yaml" || fail "the whole file extends another"
+expect 0 '^heir: consistent$' schedule check "$work/whole.yaml"
+# An experiment varies what the file inherits and leaves out. The rest follows.
+cat >"$work/slots.yaml" <<'END'
+kind: sweep
+name: slots
+question: Does a derived value follow?
+scenario: scenarios/dynamics.yaml
+seed: 1
+replications: 1
+paradigms: {tt: {strategy: tt, cluster: schedules/heir.yaml}}
+axes: {slots: {settings: {38: {cluster.flexray.gNumberOfStaticSlots: "38"}, 40: {cluster.flexray.gdNIT: "386"}}}}
+measures: [position_rmse_truth]
+END
+expect 0 '^40 +1 ' experiment "$work/slots.yaml" --out "$work/slots" --jobs 1
+sed -i 's/"386"/"385"/' "$work/slots.yaml"
+expect 2 'paper_synchronised.yaml:[0-9]+: flexray.gMacroPerCycle = 5000: must be 4999 macroticks' \
+  experiment "$work/slots.yaml" --out "$work/wrong" --jobs 1
+printf 'extends: paper_synchronised.yaml\nname: heir\nflexray: {gdBit: 0.2, gListenNoise: 99}\n' >"$work/schedules/heir.yaml"
+expect 2 'heir.yaml:3: flexray.gListenNoise = 99: must be a whole number 2..16' schedule check "$work/schedules/heir.yaml"
+printf 'extends: heir.yaml\n' >"$work/schedules/heir.yaml"
+expect 2 'heir.yaml:1: extends = heir.yaml: must not lead back' schedule check "$work/schedules/heir.yaml"
 
 # Chains from a picture to the actuator, with and without its dead time.
 loop=$source/schedules/closed_loop_synchronised.yaml

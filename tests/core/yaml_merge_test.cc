@@ -41,7 +41,8 @@ TEST(YamlMerge, ATildeRemoves) {
 
 TEST(YamlMerge, ANewKeyFollowsTheKeyBeforeItInItsOwnText) {
   EXPECT_EQ(merged("a: 1\nb: 2\nc: 3\n", "b: 2\nx: 4\ny: 5\n"), "a: 1\nb: 2\nx: 4\ny: 5\nc: 3\n");
-  EXPECT_EQ(merged("a: 1\nb: 2\n", "x: 4\na: 5\n"), "a: 5\nb: 2\nx: 4\n");
+  EXPECT_EQ(merged("a: 1\nb: 2\nc: 3\n", "a: ~\nx: 4\ny: 5\nc: 6\n"), "b: 2\nx: 4\ny: 5\nc: 6\n");
+  EXPECT_EQ(merged("a: 1\nb: 2\n", "a: ~\nx: 4\n"), "b: 2\nx: 4\n");
   EXPECT_EQ(merged("n:\n  a: {p: 1}\n  b: {p: 2}\n", "n: {a: {}, x: {p: 3}}\n"),
             "n:\n  a: {p: 1}\n  x: {p: 3}\n  b: {p: 2}\n");
 }

@@ -19,7 +19,7 @@ constexpr char kFile[] = "bus.pcapng";
 
 const schedules::model::Cluster& cluster() {
   static const schedules::model::Cluster kCluster =
-      schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "cluster.yaml");
+      schedules::file::parse_cluster(fuzz::shipped_cluster("paper_synchronised"), "cluster.yaml");
   return kCluster;
 }
 

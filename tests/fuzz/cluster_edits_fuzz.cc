@@ -9,12 +9,12 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf::fuzz;
   static const std::array<ttf::fuzz::Shipped, 6> kFiles{
-      {{"paper_synchronised", ttf::fuzz::shipped("schedules/paper_synchronised.yaml")},
-       {"paper_unsynchronised", ttf::fuzz::shipped("schedules/paper_unsynchronised.yaml")},
-       {"laser_radar", ttf::fuzz::shipped("schedules/laser_radar.yaml")},
-       {"laser_radar_synchronised", ttf::fuzz::shipped("schedules/laser_radar_synchronised.yaml")},
-       {"flexray_demo", ttf::fuzz::shipped("schedules/flexray_demo.yaml")},
-       {"paper_free_flexray", ttf::fuzz::shipped("schedules/paper_free_flexray.yaml")}}};
+      {{"paper_synchronised", ttf::fuzz::shipped_cluster("paper_synchronised")},
+       {"paper_unsynchronised", ttf::fuzz::shipped_cluster("paper_unsynchronised")},
+       {"laser_radar", ttf::fuzz::shipped_cluster("laser_radar")},
+       {"laser_radar_synchronised", ttf::fuzz::shipped_cluster("laser_radar_synchronised")},
+       {"flexray_demo", ttf::fuzz::shipped_cluster("flexray_demo")},
+       {"paper_free_flexray", ttf::fuzz::shipped_cluster("paper_free_flexray")}}};
   ttf::fuzz::check_cluster(edited(kFiles, ttf::fuzz::text_of(data, size)));
   return 0;
 }

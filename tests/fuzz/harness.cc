@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/check.h"
+#include "schedules/file/inherit.h"
 
 namespace ttf::fuzz {
 
@@ -33,6 +34,10 @@ std::string shipped(const std::string& path) {
   std::ifstream file(TTF_SOURCE_DIR "/" + path, std::ios::binary);
   TTF_CHECK(file.good(), "{} cannot be read", path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string shipped_cluster(const std::string& name) {
+  return schedules::file::inherited(TTF_SOURCE_DIR "/schedules/" + name + ".yaml").text;
 }
 
 }  // namespace ttf::fuzz

@@ -66,5 +66,7 @@ template <class Read> bool accepted(std::string_view file, Read&& read) {
 
 // A shipped file, by its path from the project's folder.
 std::string shipped(const std::string& path);
+// A shipped cluster's whole text: its file may extend another.
+std::string shipped_cluster(const std::string& name);
 
 }  // namespace ttf::fuzz

@@ -93,8 +93,8 @@ void check_list(const PduLayout& layout, const bus::cni::ListView& list,
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const schedules::model::Cluster kClusters[] = {
-      schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper"),
-      schedules::file::parse_cluster(fuzz::shipped("schedules/laser_radar.yaml"), "recorded")};
+      schedules::file::parse_cluster(fuzz::shipped_cluster("paper_synchronised"), "paper"),
+      schedules::file::parse_cluster(fuzz::shipped_cluster("laser_radar"), "recorded")};
   fuzz::Source source(data, size);
   const schedules::model::Cluster& cluster = kClusters[source.take<std::uint8_t>() % 2];
   const PduLayout& layout = cluster.pdus[source.take<std::uint8_t>() % cluster.pdus.size()];

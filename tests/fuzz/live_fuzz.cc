@@ -25,8 +25,7 @@ using namespace ttf;
 
 const schedules::model::Cluster& the_cluster() {
   static const schedules::model::Cluster kCluster = [] {
-    auto cluster =
-        schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper_synchronised");
+    auto cluster = schedules::file::parse_cluster(fuzz::shipped_cluster("paper_synchronised"), "paper_synchronised");
     schedules::model::bind_ports(cluster, drives::step_ports());
     return cluster;
   }();

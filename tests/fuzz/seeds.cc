@@ -78,7 +78,8 @@ void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path&
   std::size_t next = 0;
   std::set<std::string> known;
   for (const std::string& name : names) {
-    const std::string text = fuzz::shipped((shipped_in / (name + ".yaml")).string());
+    const std::string text = shipped_in == "schedules" ? fuzz::shipped_cluster(name)
+                                                       : fuzz::shipped((shipped_in / (name + ".yaml")).string());
     write(folder / (what + "_text") / name, text);
     write(folder / (what + "_edits") / name, name + "\n");
     for (const auto& [key, times] : keys_of(text)) {
@@ -208,7 +209,7 @@ void live_seeds(const fs::path& folder) {
 // act, and an empty one.
 void turn_seeds(const fs::path& folder) {
   const schedules::model::Cluster cluster =
-      schedules::file::parse_cluster(fuzz::shipped("schedules/closed_loop_synchronised.yaml"), "closed_loop");
+      schedules::file::parse_cluster(fuzz::shipped_cluster("closed_loop_synchronised"), "closed_loop");
   std::array<std::byte, bus::wire::kMaxFrameBytes> room{};
   bus::wire::FrameHeader header;
   header.frame_id = 3;

@@ -203,8 +203,8 @@ class Cluster {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const schedules::model::Cluster kClusters[] = {
-      schedules::file::parse_cluster(fuzz::shipped("schedules/paper_synchronised.yaml"), "paper"),
-      schedules::file::parse_cluster(fuzz::shipped("schedules/laser_radar_synchronised.yaml"), "recorded")};
+      schedules::file::parse_cluster(fuzz::shipped_cluster("paper_synchronised"), "paper"),
+      schedules::file::parse_cluster(fuzz::shipped_cluster("laser_radar_synchronised"), "recorded")};
   static const drives::Scenario kScenario = [] {
     drives::Scenario scenario;
     scenario.duration = Duration::milliseconds(1'000);

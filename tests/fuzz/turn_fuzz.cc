@@ -15,7 +15,7 @@ using namespace ttf;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const schedules::model::Cluster cluster =
-      schedules::file::parse_cluster(fuzz::shipped("schedules/closed_loop_synchronised.yaml"), "closed_loop");
+      schedules::file::parse_cluster(fuzz::shipped_cluster("closed_loop_synchronised"), "closed_loop");
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
   std::vector<sim::processes::Act> acts;
   try {

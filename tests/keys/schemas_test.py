@@ -68,6 +68,7 @@ TRACKS = [
 CAR = "scenarios/dynamics.yaml"
 LASERS = "scenarios/two_lasers.yaml"
 PAPER = "schedules/paper_synchronised.yaml"
+HEIR = "schedules/paper_unsynchronised.yaml"
 NOISE = "experiments/process_noise.yaml"
 CAMPAIGN = "experiments/fault_campaign.yaml"
 CAN_CAMPAIGN = "experiments/can_fault_campaign.yaml"
@@ -90,6 +91,8 @@ WRONG = [
     ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
     ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",
      "period"),
+    ("an unknown key in a file that extends another", "cluster", HEIR, "sensors:\n", "sensorz: ~\nsensors:\n", "sensorz"),
+    ("a parameter beyond its range in such a file", "cluster", HEIR, "sensors:\n", "flexray: {gdNIT: 900}\nsensors:\n", "gdNIT"),
     ("a fraction of a whole number", "cluster", PAPER, "gSyncNodeMax: 5", "gSyncNodeMax: 5.5", "gSyncNodeMax"),
     ("a campaign's key in a sweep", "experiment", NOISE, "seed: 1\n", "seed: 1\nvariants: {}\n", "variants"),
     ("an unknown measure", "experiment", NOISE, "measures: [", "measures: [speed, ", "measures"),
@@ -107,7 +110,7 @@ WRONG = [
 
 def program_says(kind: str, folder: pathlib.Path, text: str) -> tuple[int, str]:
     file = folder / "wrong.yaml"
-    file.write_text(text)
+    file.write_text(text.replace("extends: ", f"extends: {SOURCE}/schedules/"))
     observations = folder / "observations.csv"
     observations.write_text("time,sensor,x,y\n0,laser,1,2\n1,laser,1,2\n")
     sweep = folder / "sweep.yaml"
@@ -138,7 +141,7 @@ class Schemas(unittest.TestCase):
         for kind, schema in SCHEMAS.items():
             with self.subTest(kind):
                 jsonschema.Draft7Validator.check_schema(schema)
-                walk({"properties": schema["properties"], "allOf": schema.get("allOf", [])})
+                walk({part: schema[part] for part in ("properties", "allOf", "then", "else") if part in schema})
 
     def test_shipped_files_are_right(self):
         self.assertGreater(len(SHIPPED), 40)

@@ -1,13 +1,12 @@
 // The shipped cluster files, and the findings after a change to one of them.
 #pragma once
 
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
 #include "schedules/check/checker.h"
+#include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::schedules {
@@ -51,12 +50,8 @@ inline const std::vector<std::string>& shipped_clusters() {
 
 inline std::string shipped_path(const std::string& name) { return TTF_SOURCE_DIR "/schedules/" + name + ".yaml"; }
 
-inline std::string shipped_text(const std::string& name) {
-  std::ifstream stream(shipped_path(name), std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+// The whole text of a cluster whose file may extend another.
+inline std::string shipped_text(const std::string& name) { return file::inherited(shipped_path(name)).text; }
 
 // Findings of the loader, or of the checker after successful loading.
 inline std::vector<Finding> findings_of(const std::string& text) {

@@ -50,7 +50,7 @@ TEST(Mutations, EveryFindingAboutAMissingSectionHasALine) {
   for (const char* section :
        {"name", "synchronisation", "flexray", "node_parameters", "pdus", "sensors", "nodes", "frames", "can"}) {
     const std::string text =
-        std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("\n" + std::string(section) + ":"),
+        std::regex_replace("\n" + shipped_text("paper_unsynchronised"), std::regex("\n" + std::string(section) + ":"),
                            "\nno_" + std::string(section) + ":");
     const auto findings = findings_of(text);
     ASSERT_GE(findings.size(), 2u) << section;

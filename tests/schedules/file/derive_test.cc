@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <regex>
+#include <sstream>
 
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"

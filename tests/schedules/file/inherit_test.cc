@@ -134,6 +134,14 @@ TEST_F(Inherit, FindingsNameTheFileThatHasTheValue) {
   EXPECT_NE(keys.find("nodes.laser.tasks.measure.step: is missing: must be a text"), std::string::npos) << keys;
 }
 
+TEST_F(Inherit, ASecondPlaceInASentenceNamesItsFileToo) {
+  write("own.yaml", "extends: base/paper.yaml\nname: own\nnodes: {gateway: {flexray: {pKeySlotOnlyEnabled: true}}}\n");
+  EXPECT_EQ(mistakes(path("own.yaml")),
+            "\n  own.yaml:3: nodes.gateway.flexray.pKeySlotOnlyEnabled = true: must be false: gateway also has slot 6 "
+            "(base/paper.yaml:" +
+                base_line("- {slot: 6") + "), but would send in its key slot only until a host commands ALL_SLOTS");
+}
+
 TEST_F(Inherit, BasesThatAreNoneAreRefused) {
   write("a.yaml", "extends: b.yaml\nname: a\n");
   write("b.yaml", "extends: base/../a.yaml\nname: b\n");
