@@ -6,6 +6,8 @@
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/exchange/text.h"
+#include "schedules/file/derive.h"
+#include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
 
 namespace ttf::schedules {
@@ -19,6 +21,15 @@ TEST_P(Shipped, LoadsAndChecksClean) {
   EXPECT_EQ(cluster.text, shipped_text(GetParam()));
   const auto findings = check::check(cluster);
   EXPECT_TRUE(findings.empty()) << sentences(findings);
+}
+
+// Its text alone says the same, and so does the explicit one.
+TEST_P(Shipped, IsTheSameFromItsWholeText) {
+  const model::Cluster cluster = file::load_cluster(shipped_path(GetParam()));
+  const std::string own = dump(cluster), whole = file::explicit_text(cluster);
+  EXPECT_EQ(dump(file::parse_cluster(cluster.text, "log.yaml")), own);
+  EXPECT_EQ(dump(file::parse_cluster(whole, "whole.yaml")), own);
+  EXPECT_TRUE(file::parse_cluster(whole, "whole.yaml").derived.empty());
 }
 
 TEST_P(Shipped, EverySensorReachesItsUse) {
