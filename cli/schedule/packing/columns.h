@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/csv.h"
 #include "core/errors.h"
 #include "core/strict_yaml.h"
 #include "core/time.h"
-#include "recording/rows/csv.h"
 
 namespace ttf::cli::schedule::packing {
 
@@ -49,7 +49,7 @@ class Rows {
   Finding finding(Column column, std::string expected) const;
 
  private:
-  recording::rows::CsvLines lines_;
+  CsvLines lines_;
   std::string name_;
   std::array<std::optional<std::size_t>, kColumns> at_;
   std::size_t columns_ = 0;

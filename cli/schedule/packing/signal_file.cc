@@ -115,9 +115,9 @@ std::string packing_csv(const SignalFile& signals, const table::Assignment& assi
   for (std::size_t i = 0; i < assignment.size(); ++i) {
     const table::Signal& signal = signals.instance.signals[i];
     const SignalTimes& times = signals.times[i];
-    text += fmt::format("{},{},{},{},{},{},", recording::rows::csv_field(signal.name),
-                        recording::rows::csv_field(signals.instance.nodes[static_cast<std::size_t>(signal.node)]),
-                        ms_text(times.period), ms_text(times.release), ms_text(times.deadline), signal.bits);
+    text += fmt::format("{},{},{},{},{},{},", csv_field(signal.name),
+                        csv_field(signals.instance.nodes[static_cast<std::size_t>(signal.node)]), ms_text(times.period),
+                        ms_text(times.release), ms_text(times.deadline), signal.bits);
     if (const auto& place = assignment[i])
       text += fmt::format("{},{},{},{}\n", place->number.slot, place->first_cycle, place->offset,
                           schedules::model::channels_text(place->number.channels));
