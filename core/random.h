@@ -35,6 +35,7 @@ enum class Purpose : std::uint16_t {
   kObjectSize = 18,
   kSpeedAtStart = 19,
   kDetectionTime = 20,
+  kSynthesis = 21,
   kPacking = 32,
 };
 

@@ -15,7 +15,7 @@ export CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler")
 command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 [[ -z $lean ]] ||
-  options+=(-DTTF_BUILD_TESTS=OFF -DTTF_BUILD_BENCHMARKS=OFF -DTTF_WITH_DDS=OFF -DTTF_WITH_MPI=OFF)
+  options+=(-DTTF_BUILD_TESTS=OFF -DTTF_BUILD_BENCHMARKS=OFF -DTTF_WITH_DDS=OFF -DTTF_WITH_MPI=OFF -DTTF_WITH_Z3=OFF)
 cmake -B "$folder" "${options[@]}" >/dev/null
 cmake --build "$folder" -j"$(nproc)" "${targets[@]}"
 "$folder/ttfusion" run scenarios/paper_scenario1.yaml --strategy tt --out "$folder/drive" >/dev/null

@@ -1,0 +1,155 @@
+#include "schedules/synthesis/solver/decide.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "schedules/synthesis/checker.h"
+#include "schedules/synthesis/solver/bounds.h"
+#include "schedules/synthesis/solver/tree.h"
+
+namespace ttf::schedules::synthesis::solver {
+namespace {
+
+// Whether a limit is too low whatever the offsets.
+bool too_low(const Model& model) {
+  for (const ChainTerms& chain : model.chains)
+    if (chain.base > chain.limit) return true;
+  for (const SumLimit& sum : model.sums) {
+    Ticks least = 0;
+    for (std::size_t at = 0; at < sum.chains.size(); ++at) least += sum.weights[at] * model.chains[sum.chains[at]].base;
+    if (least > sum.most) return true;
+  }
+  for (const SpanLimit& span : model.spans)
+    for (const std::size_t activity : span.activities)
+      if (model.problem.activities[activity].duration > span.most) return true;
+  return false;
+}
+
+Verdict infeasible() { return {Verdict::Kind::kInfeasible, {}, 0}; }
+
+}  // namespace
+
+bool keeps(const Question& question, const Solution& solution) {
+  if (!violations(question.problem, solution).empty()) return false;
+  for (const SumLimit& sum : question.sums) {
+    Ticks total = 0;
+    for (std::size_t at = 0; at < sum.chains.size(); ++at)
+      total += sum.weights[at] * age(question.problem, question.problem.chains[sum.chains[at]], solution);
+    if (total > sum.most) return false;
+  }
+  for (const SpanLimit& span : question.spans) {
+    Ticks first = kNoLimit, last = -kNoLimit;
+    for (const std::size_t at : span.activities) {
+      first = std::min(first, solution.offsets[at]);
+      last = std::max(last, solution.offsets[at] + question.problem.activities[at].duration);
+    }
+    if (last - first > span.most) return false;
+  }
+  return true;
+}
+
+Verdict Decider::search(const Question& question) {
+  std::int64_t steps = effort_.steps;
+  const std::int64_t exhaustion = effort_.exhaustion;
+  const Model model(question);
+  way_ = "windows and precedences";
+  if (model.contradictory || too_low(model)) return infeasible();
+  std::vector<std::int64_t> weights(question.problem.activities.size(), 0);
+  const auto run = [&](Tree& tree, std::int64_t most_nodes, const char* way) {
+    const Tree::End end = tree.run(most_nodes);
+    way_ = way;
+    for (std::size_t at = 0; at < weights.size(); ++at) weights[at] = weights[at] / 2 + tree.dead_ends()[at];
+    return end;
+  };
+  const auto count = static_cast<std::int64_t>(weights.size());
+  const auto found = [&](const Tree& tree) {
+    TTF_CHECK(keeps(question, tree.solution()), "the search's offsets break the problem");
+    return Verdict{Verdict::Kind::kFeasible, tree.solution(), 0};
+  };
+  std::int64_t most = 4 * count + 100;
+  for (int probe = 0; steps > 0; ++probe, steps -= most, most += most / 8) {
+    Tree coarse(model, placing_order(model, weights, probe % 4 != 3), false,
+                probe < 2 ? 0 : static_cast<std::uint64_t>(probe));
+    if (run(coarse, std::min(most, steps), "placement") == Tree::End::kFound) return found(coarse);
+    if (probe != 1 && probe != 3) continue;
+    // Many questions are small: a short exhaustion answers them before long probing would.
+    Tree all(model, placing_order(model, weights, true), true);
+    const Tree::End end = run(all, std::min(exhaustion, 4 * most), "exhausted");
+    if (end == Tree::End::kFound) return found(all);
+    if (end == Tree::End::kExhausted) return infeasible();
+  }
+  Tree all(model, placing_order(model, weights, true), true);
+  const Tree::End end = run(all, exhaustion, "exhausted");
+  if (end == Tree::End::kFound) return found(all);
+  if (end == Tree::End::kExhausted) return infeasible();
+  way_.clear();
+  return {};
+}
+
+// Holds activities of chains where they are unless they overlap with others, and searches for the rest.
+std::optional<Solution> Decider::repaired(const Question& question, const Solution& almost) {
+  const Model model(question);
+  Problem held = question.problem;
+  for (std::size_t chain = 0; chain < model.chains.size(); ++chain) {
+    if (model.chains[chain].limit >= kNoLimit && question.sums.empty()) continue;
+    for (const std::size_t at : held.chains[chain].activities) held.activities[at].fixed = almost.offsets[at];
+  }
+  for (const auto& [a, b] : overlaps(question.problem, almost))
+    for (const std::size_t at : {a, b}) held.activities[at].fixed = question.problem.activities[at].fixed;
+  const Effort all = effort_;
+  effort_ = {.steps = all.steps / 10, .exhaustion = all.exhaustion / 10, .seeds = all.seeds};
+  Verdict verdict = search({held, question.sums, question.spans});
+  effort_ = all;
+  if (verdict.kind != Verdict::Kind::kFeasible || !keeps(question, verdict.solution)) return std::nullopt;
+  return verdict.solution;
+}
+
+Verdict Decider::asked(const Question& question, double share, const Repair& repair) {
+  if (left_ <= 0) return {};
+  Verdict verdict = prover_->decide(question, std::min(share, left_), repair);
+  left_ -= verdict.spent;
+  return verdict;
+}
+
+bool Decider::few_chains_contradict(const Question& question) {
+  std::vector<std::pair<Ticks, std::size_t>> chains;  // slack, chain
+  for (std::size_t at = 0; at < question.problem.chains.size(); ++at) {
+    const ChainTerms terms = terms_of(question.problem, question.problem.chains[at]);
+    if (terms.limit < kNoLimit) chains.emplace_back(terms.limit - terms.base, at);
+  }
+  std::ranges::sort(chains);
+  for (std::size_t count = 1; prover_ != nullptr && count < chains.size(); count *= 2) {
+    std::vector<std::size_t> activities;
+    for (std::size_t at = 0; at < count; ++at)
+      for (const std::size_t activity : question.problem.chains[chains[at].second].activities)
+        activities.push_back(activity);
+    Part part = part_of(question.problem, activities);
+    for (std::size_t at = 0; at < count; ++at) part.add(question.problem.chains[chains[at].second]);
+    const Question few{part.problem, {}, {}};
+    Verdict verdict = search(few);
+    if (verdict.kind == Verdict::Kind::kUnknown)
+      verdict = asked(few, 0.1, [](const Solution&) { return std::nullopt; });
+    if (verdict.kind != Verdict::Kind::kInfeasible) continue;
+    way_ = "integers";
+    return true;
+  }
+  return false;
+}
+
+Verdict Decider::prove(const Question& question) {
+  if (few_chains_contradict(question)) return infeasible();
+  way_.clear();
+  if (prover_ == nullptr) return {};
+  Verdict verdict = asked(question, 1.0, [&](const Solution& almost) { return repaired(question, almost); });
+  if (verdict.kind == Verdict::Kind::kFeasible)
+    TTF_CHECK(keeps(question, verdict.solution), "the prover's offsets break the problem");
+  way_ = verdict.kind == Verdict::Kind::kUnknown ? "" : "integers";
+  return verdict;
+}
+
+Verdict Decider::decide(const Question& question) {
+  const Verdict verdict = search(question);
+  return verdict.kind == Verdict::Kind::kUnknown ? prove(question) : verdict;
+}
+
+}  // namespace ttf::schedules::synthesis::solver

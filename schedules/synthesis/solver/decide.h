@@ -1,0 +1,39 @@
+// Whether offsets exist: coarse searches first, then an exhaustive one, then the prover.
+#pragma once
+
+#include "schedules/synthesis/solver/prover.h"
+#include "schedules/synthesis/solver/solve.h"
+
+namespace ttf::schedules::synthesis::solver {
+
+class Decider {
+ public:
+  Decider(const Effort& effort, Prover* prover) : effort_(effort), prover_(prover), left_(effort.proofs) {}
+
+  // Lets the prover spend its steps anew, for another objective.
+  void renew() { left_ = effort_.proofs; }
+
+  // Every solution that they return has passed the checker.
+  Verdict decide(const Question& question);  // search, then prove
+  Verdict search(const Question& question);
+  Verdict prove(const Question& question);  // kUnknown without a prover
+  // Whether a few chains' largest ages alone, tried from the tightest on, cannot be kept. It is a proof for all of the question.
+  bool few_chains_contradict(const Question& question);
+  bool can_prove() const { return prover_ != nullptr; }
+  // The way to the last answer: "placement", "exhausted", "integers", "windows and precedences" or "".
+  const std::string& way() const { return way_; }
+
+ private:
+  Verdict asked(const Question& question, double share, const Repair& repair);
+  std::optional<Solution> repaired(const Question& question, const Solution& almost);
+
+  Effort effort_;
+  Prover* prover_;
+  double left_;  // the prover's steps that may still be spent
+  std::string way_;
+};
+
+// Whether offsets keep all of a question, by the checker.
+bool keeps(const Question& question, const Solution& solution);
+
+}  // namespace ttf::schedules::synthesis::solver
