@@ -38,8 +38,8 @@ struct Objective {
 };
 
 struct Effort {
-  std::int64_t steps = 200'000;       // of placement and local search; a step is an activity tried
-  std::int64_t exhaustion = 200'000;  // nodes of a tree that may be searched through, for each question
+  std::int64_t steps = 100'000;       // of placement and local search; a step is an activity tried
+  std::int64_t exhaustion = 100'000;  // nodes of a tree that may be searched through, for each question
   int seeds = 4;                      // restarts of local search
   double proofs = 2;                  // shares of the prover's steps that all questions of an objective may take
 };

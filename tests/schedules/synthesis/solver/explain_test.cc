@@ -10,25 +10,25 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-using Of = Statement::Kind;
+using Said = Statement::Kind;
 
 Problem without(const Problem& problem, const Statement& statement) {
   Problem made = problem;
   const auto at = static_cast<std::ptrdiff_t>(statement.index);
-  Activity& activity = made.activities[statement.kind == Of::kWindow ? statement.index : 0];
+  Activity& activity = made.activities[statement.kind == Said::kWindow ? statement.index : 0];
   switch (statement.kind) {
-    case Of::kWindow:
+    case Said::kWindow:
       // Offsets count modulo the period, except for precedences, which reach no further in drawn problems.
       activity.window = problem.precedences.empty() ? Window{0, activity.period - 1} : Window{-25, 40};
       activity.grid = {};
       activity.fixed.reset();
       break;
-    case Of::kPrecedence: made.precedences.erase(made.precedences.begin() + at); break;
-    case Of::kResource:
+    case Said::kPrecedence: made.precedences.erase(made.precedences.begin() + at); break;
+    case Said::kResource:
       for (Activity& own : made.activities)
         if (own.resource == statement.index) own.resource.reset();
       break;
-    case Of::kAge: made.chains[statement.index].largest_age.reset(); break;
+    case Said::kAge: made.chains[statement.index].largest_age.reset(); break;
   }
   return made;
 }
@@ -36,15 +36,15 @@ Problem without(const Problem& problem, const Statement& statement) {
 // The problem with a core's statements alone.
 Problem core_alone(const Problem& problem, const std::vector<Statement>& core) {
   Problem made = problem;
-  const auto keeps = [&](Of kind, std::size_t at) { return std::ranges::count(core, Statement{kind, at}) > 0; };
+  const auto keeps = [&](Said kind, std::size_t at) { return std::ranges::count(core, Statement{kind, at}) > 0; };
   for (std::size_t at = problem.precedences.size(); at-- > 0;)
-    if (!keeps(Of::kPrecedence, at)) made = without(made, {Of::kPrecedence, at});
+    if (!keeps(Said::kPrecedence, at)) made = without(made, {Said::kPrecedence, at});
   for (std::size_t at = 0; at < problem.activities.size(); ++at)
-    if (!keeps(Of::kWindow, at)) made = without(made, {Of::kWindow, at});
+    if (!keeps(Said::kWindow, at)) made = without(made, {Said::kWindow, at});
   for (std::size_t at = 0; at < problem.resources.size(); ++at)
-    if (!keeps(Of::kResource, at)) made = without(made, {Of::kResource, at});
+    if (!keeps(Said::kResource, at)) made = without(made, {Said::kResource, at});
   for (std::size_t at = 0; at < problem.chains.size(); ++at)
-    if (!keeps(Of::kAge, at)) made = without(made, {Of::kAge, at});
+    if (!keeps(Said::kAge, at)) made = without(made, {Said::kAge, at});
   return made;
 }
 
@@ -54,7 +54,7 @@ TEST(SynthesisExplain, NamesTwoTasksThatOneProcessorCannotServe) {
   problem.activities = {
       {"a", 1, 0, 10, 6, {0, 9}, {}, {}}, {"b", 2, 0, 10, 5, {0, 9}, {}, {}}, {"c", 3, 1, 10, 5, {0, 9}, {}, {}}};
   const Explanation explanation = explain(problem);
-  EXPECT_THAT(explanation.core, ElementsAre(Statement{Of::kResource, 0}));
+  EXPECT_THAT(explanation.core, ElementsAre(Statement{Said::kResource, 0}));
   EXPECT_TRUE(explanation.smallest);
   EXPECT_FALSE(explanation.change);
 }
@@ -70,8 +70,8 @@ TEST(SynthesisExplain, NamesTheAgeThatMustGrowAndToWhat) {
   const Explanation explanation = explain(problem);
   // scan 0..3, the slot at 5 is taken, frame 10..12, fuse 12..16.
   EXPECT_THAT(explanation.core,
-              ElementsAre(Statement{Of::kWindow, 0}, Statement{Of::kWindow, 1}, Statement{Of::kWindow, 2},
-                          Statement{Of::kResource, 0}, Statement{Of::kAge, 0}));
+              ElementsAre(Statement{Said::kWindow, 0}, Statement{Said::kWindow, 1}, Statement{Said::kWindow, 2},
+                          Statement{Said::kResource, 0}, Statement{Said::kAge, 0}));
   EXPECT_TRUE(explanation.smallest);
   ASSERT_TRUE(explanation.change);
   EXPECT_EQ(explanation.change->chain, 0u);
@@ -82,7 +82,7 @@ TEST(SynthesisExplain, NamesPrecedencesInACircle) {
   Problem problem;
   problem.activities = {{"a", 1, {}, 10, 3, {0, 9}, {}, {}}, {"b", 2, {}, 10, 3, {0, 9}, {}, {}}};
   problem.precedences = {{0, 1, 0, 2, 3}, {1, 0, 0, 2, 4}};
-  EXPECT_THAT(explain(problem).core, ElementsAre(Statement{Of::kPrecedence, 0}, Statement{Of::kPrecedence, 1}));
+  EXPECT_THAT(explain(problem).core, ElementsAre(Statement{Said::kPrecedence, 0}, Statement{Said::kPrecedence, 1}));
   problem.precedences.pop_back();
   EXPECT_THAT(explain(problem).core, IsEmpty());
 }
