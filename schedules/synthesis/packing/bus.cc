@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/errors.h"
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/check/checker.h"
 #include "schedules/exchange/fibex/assumptions.h"
 #include "schedules/exchange/fibex/export.h"
@@ -26,7 +27,7 @@ constexpr std::int64_t kNsPerMacrotick = 1000;
 
 // Fills the cycle: static slots, then minislots if the network idle time would be too long.
 void lay_out(model::GlobalParameters& g) {
-  g.gdStaticSlot = static_cast<int>(check::shortest_static_slot(g));
+  g.gdStaticSlot = static_cast<int>(analysis::shortest_static_slot(g));
   int rest = g.gMacroPerCycle - g.gdStaticSlot * g.gNumberOfStaticSlots;
   if (rest > kLongestNit) {
     g.gdMinislotActionPointOffset = g.gdActionPointOffset;  // so no macroticks are lost between the segments
