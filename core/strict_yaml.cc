@@ -67,7 +67,7 @@ bool YamlMap::is_map(std::string_view key) const {
 
 int YamlMap::line(std::string_view key) const {
   if (!key.empty())
-    if (const YAML::Node node = child(content_->node, key); node.IsDefined()) return line_of(node);
+    if (const int own = line_of(child(content_->node, key)); own > 0) return own;  // 0: put there
   return content_->node.IsMap() ? line_of(content_->node) : content_->line;
 }
 
@@ -441,5 +441,19 @@ YamlMap StrictYaml::root(Findings& findings) const {
   content->node.reset(content_->node);
   return YamlMap(std::move(content), "", &findings);
 }
+
+void StrictYaml::put(const std::vector<std::string>& path, const std::string& value) {
+  YAML::Node node;
+  node.reset(content_->node);
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const auto index = node.IsSequence() ? parse_number<std::size_t>(path[i]) : std::nullopt;
+    YAML::Node next = index && *index < node.size() ? node[*index] : child(node, path[i]);
+    if (!next.IsDefined()) return;
+    node.reset(next);
+  }
+  if (node.IsMap()) node[path.back()] = value;
+}
+
+void StrictYaml::take(std::string_view key) { content_->node.remove(std::string(key)); }
 
 }  // namespace ttf

@@ -146,6 +146,13 @@ class StrictYaml {
   static StrictYaml described(KeyAnswers& answers);  // they must live as long as the mappings
 
   YamlMap root(Findings& findings) const;
+
+  // Puts a scalar into a mapping of the file, for a reader that demands it. The path leads through keys, and through lists by
+  // an index: {"frames", "3", "slot"}. Findings about it name the mapping's line. Nothing happens where the path leads nowhere.
+  void put(const std::vector<std::string>& path, const std::string& value);
+  // Takes a key away from the top level.
+  void take(std::string_view key);
+
   const std::string& text() const { return text_; }
   const std::string& name() const { return name_; }
 
