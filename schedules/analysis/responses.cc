@@ -210,6 +210,19 @@ std::optional<std::vector<TaskResponse>> alone_with_modes(const model::Node& nod
 
 }  // namespace
 
+Duration least_apart(const model::Cluster& cluster, const model::Node& node, Duration time) {
+  const auto corrections = corrections_of(cluster, node);
+  if (!corrections) return time;
+  // A distance grows by less than its surplus: steps by the missing time end from below.
+  Duration apart = time;
+  for (Duration missing = time; missing > Duration{}; apart += missing) {
+    missing = time - Duration{corrections->shortest(apart.ns)};
+    if (missing <= Duration{}) break;
+    if (apart > Duration{100 * time.ns + 1'000'000'000}) break;  // corrections that leave no time at all
+  }
+  return apart;
+}
+
 Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node) {
   if (std::any_of(node.tasks.begin(), node.tasks.end(), by_time)) return cluster.cycle() * model::kCycles;
   return {processor::kLongestBusy_ns};

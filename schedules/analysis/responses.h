@@ -37,6 +37,10 @@ std::optional<std::vector<TaskResponse>> worst_responses(const model::Cluster& c
 std::optional<Duration> worst_response(const model::Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead);
 
+// Returns the shortest distance of two instants in global time that are at least `time` apart on the node's own clock, whatever
+// its corrections: so far behind a task's instant another one's may lie without a wait.
+Duration least_apart(const model::Cluster& cluster, const model::Node& node, Duration time);
+
 // Returns the longest busy time without a break that worst_responses() considers.
 Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node);
 

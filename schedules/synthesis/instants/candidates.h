@@ -1,0 +1,40 @@
+// The choices of a plan that are no instants: the length of the cycle, and how often each sensor measures. Each makes a
+// candidate, and all other periods follow.
+//
+//   A task has the shortest repetition of the lists that it reads; without lists, that of the tasks of its node that fuse.
+//   A list has its writer's.
+//
+// FlexRay's parameters that the plan leaves out follow from the length of the cycle (annex B, 2.1 Rev. A):
+//   gMacroPerCycle = gdCycle / gdMacrotick; gdNIT and gNumberOfStaticSlots by constraint 18, with as many slots as fit beside
+//   100 macroticks for offset correction; pMicroPerCycle = gdCycle / pdMicrotick; pRateCorrectionOut as two clocks of the
+//   worst drifts need; pdListenTimeout = 2 (pMicroPerCycle + pRateCorrectionOut).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/time.h"
+#include "schedules/model/cluster.h"
+#include "schedules/synthesis/plan/plan.h"
+
+namespace ttf::schedules::synthesis::instants {
+
+inline constexpr std::size_t kMostCandidates = 20'000;
+
+struct Candidate {
+  Duration cycle{};
+  std::vector<int> repetitions;  // by sensor; that of the file where it says one
+};
+
+// Returns all candidates within the plan's lengths and rates, short cycles first; at most kMostCandidates + 1.
+std::vector<Candidate> candidates(const plan::Plan& plan);
+
+// A plan whose periods and parameters are chosen. Instants are still left out.
+struct Timed {
+  model::Cluster cluster;                // with the candidate's parameters and repetitions
+  std::vector<plan::PlannedList> lists;  // with repetitions
+};
+// Returns none where a parameter would leave its range, or a fixed instant the cycle.
+std::optional<Timed> timed(const plan::Plan& plan, const Candidate& candidate);
+
+}  // namespace ttf::schedules::synthesis::instants

@@ -1,0 +1,395 @@
+#include "schedules/synthesis/instants/placement.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "schedules/synthesis/instants/bounds.h"
+#include "schedules/synthesis/instants/graph.h"
+#include "schedules/synthesis/instants/grid.h"
+#include "schedules/synthesis/instants/order.h"
+
+namespace ttf::schedules::synthesis::instants {
+
+namespace {
+
+class Engine {
+ public:
+  Engine(const Reading& reading, const Limits& limits, bool any)
+      : reading_(reading), problem_(reading.problem), limits_(limits), any_(any), graph_(problem_),
+        at_(problem_.activities.size()), placed_(problem_.activities.size()), grids_(),
+        standing_(problem_.resources.size()) {
+    for (const Activity& activity : problem_.activities) {
+      grids_.push_back(activity.grid);
+      if (limits_.last_slot && is_list(activity))
+        grids_.back().last = std::min(grids_.back().last, *limits_.last_slot - activity.duration);
+    }
+    for (const Chain& chain : problem_.chains) {
+      std::vector<Ticks> heads(1);
+      for (std::size_t i = 1; i < chain.activities.size(); ++i)
+        heads.push_back(heads.back() + problem_.activities[chain.activities[i - 1]].duration + chain.gaps[i - 1]);
+      heads_.push_back(std::move(heads));
+    }
+    least_ = least_ages(problem_);
+    least_worst_ = least_worst_age(problem_, limits_.beyond);
+    choose_anchor();
+  }
+
+  Search run() {
+    found_.exact = !possible();
+    if (found_.exact) return std::move(found_);
+    for (const Ticks position : positions()) {
+      begin(position);
+      if (fits(place_waiting()) && !done()) descend();
+      reset();
+      if (done()) break;
+    }
+    found_.exact = exact();
+    return std::move(found_);
+  }
+
+ private:
+  static bool is_list(const Activity& activity) { return activity.grid.step > 1; }
+  bool done() const { return found_.steps >= kMostSteps || (any_ && found_.best); }
+
+  // The end of most chains, and all that leads there.
+  void choose_anchor() {
+    std::vector<std::size_t> ends(problem_.activities.size());
+    for (const Chain& chain : problem_.chains) ++ends[chain.activities.back()];
+    anchor_ = static_cast<std::size_t>(std::max_element(ends.begin(), ends.end()) - ends.begin());
+    for (std::size_t a = 0; a < problem_.activities.size(); ++a) main_.push_back(graph_.leads(a, anchor_));
+    for (const Chain& chain : problem_.chains) one_anchor_ = one_anchor_ && chain.activities.back() == anchor_;
+  }
+
+  // Whether what stands leaves any room.
+  bool possible() const {
+    for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
+      const Activity& one = problem_.activities[a];
+      if (one.duration > one.period || (!one.fixed && grids_[a].last < grids_[a].first)) return false;
+      // A task ends before its next activation.
+      if (one.resource && one.resource != std::size_t{0} && one.duration == one.period) return false;
+      if (one.fixed && limits_.last_slot && one.resource == std::size_t{0} &&
+          modulo(*one.fixed, cycle()) + one.duration > *limits_.last_slot)
+        return false;
+      for (std::size_t b = 0; b < a; ++b) {
+        const Activity& other = problem_.activities[b];
+        if (one.fixed && other.fixed && one.resource && one.resource == other.resource &&
+            in_the_way(one, *one.fixed, other, *other.fixed, true) != 0)
+          return false;
+      }
+    }
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c)
+      if (least_[c] > limit_of(c)) return false;
+    return !limits_.worst_age || least_worst_ <= *limits_.worst_age;
+  }
+
+  Ticks limit_of(std::size_t chain) const {
+    constexpr Ticks kNone = std::numeric_limits<Ticks>::max();
+    const Ticks largest = limits_.largest_ages.empty() ? kNone : limits_.largest_ages[chain];
+    return std::min({problem_.chains[chain].largest_age.value_or(kNone), largest,
+                     limits_.worst_age ? *limits_.worst_age - beyond(chain) : kNone});
+  }
+  Ticks beyond(std::size_t chain) const { return limits_.beyond.empty() ? 0 : limits_.beyond[chain]; }
+
+  Ticks cycle() const {
+    for (const Activity& activity : problem_.activities)
+      if (is_list(activity)) return activity.grid.period;
+    return problem_.activities[anchor_].period;
+  }
+
+  // Whether instants are bound to a cycle of the round, not only within a cycle.
+  bool bound_to_cycles() const {
+    return std::any_of(problem_.activities.begin(), problem_.activities.end(),
+                       [&](const Activity& one) { return one.fixed && one.period > cycle(); });
+  }
+
+  // Returns the beginnings of the anchor to try.
+  std::vector<Ticks> positions() {
+    const Activity& anchor = problem_.activities[anchor_];
+    if (anchor.fixed) return {*anchor.fixed};
+    std::set<Ticks> found;
+    for (const Edge& edge : graph_.before[anchor_]) {
+      const Activity& list = problem_.activities[edge.other];
+      if (list.fixed) found.insert(*list.fixed + edge.gap);
+      if (list.fixed || !is_list(list)) continue;
+      const Grid& grid = grids_[edge.other];
+      for (Ticks position = grid.first; position <= grid.last; position += grid.step) found.insert(position + edge.gap);
+    }
+    if (found.empty()) {  // a raster; what it finds is not exact
+      raster_ = true;
+      for (Ticks position = 0; position < cycle(); position += std::max<Ticks>(1, cycle() / 128))
+        found.insert(position);
+    }
+    std::vector<Ticks> all;
+    for (Ticks start = 0; start < (bound_to_cycles() ? anchor.period : 1); start += cycle())
+      for (const Ticks position : found) all.push_back(start + position);
+    return all;
+  }
+
+  void begin(Ticks position) {
+    for (std::size_t a = 0; a < problem_.activities.size(); ++a)
+      if (problem_.activities[a].fixed && problem_.activities[a].resource)
+        standing_[*problem_.activities[a].resource].push_back({a, *problem_.activities[a].fixed});
+    ok_ = true;
+    put(anchor_, position);
+  }
+
+  void reset() {
+    std::fill(placed_.begin(), placed_.end(), false);
+    for (auto& standing : standing_) standing.clear();
+    trail_.clear();
+  }
+
+  // Places the activity at or before `latest`. Returns false where there is no room within a period.
+  bool put(std::size_t a, Ticks latest) {
+    ++found_.steps;
+    const Activity& activity = problem_.activities[a];
+    Ticks at =
+        activity.fixed ? latest - modulo(latest - *activity.fixed, activity.period) : latest_on_grid(grids_[a], latest);
+    if (a == anchor_ && at != latest) return ok_ = false;
+    if (!activity.fixed && activity.resource) {
+      const auto& standing = standing_[*activity.resource];
+      for (std::size_t i = 0; i < standing.size();) {
+        const Ticks back = in_the_way(activity, at, problem_.activities[standing[i].first], standing[i].second, true);
+        if (back == 0) {
+          ++i;
+          continue;
+        }
+        if (a == anchor_) return ok_ = false;
+        at = latest_on_grid(grids_[a], at - back);
+        if (latest - at > activity.period) return false;
+        i = 0;
+      }
+      standing_[*activity.resource].push_back({a, at});
+    }
+    at_[a] = at;
+    placed_[a] = true;
+    trail_.push_back(a);
+    return true;
+  }
+
+  void undo(std::size_t count) {
+    while (trail_.size() > count) {
+      const std::size_t a = trail_.back();
+      trail_.pop_back();
+      placed_[a] = false;
+      const Activity& activity = problem_.activities[a];
+      if (!activity.fixed && activity.resource) standing_[*activity.resource].pop_back();
+    }
+  }
+
+  // Returns the latest beginning that all who take its data allow; none while one of them is not placed.
+  std::optional<Ticks> latest(std::size_t a) const {
+    std::optional<Ticks> least;
+    for (const Edge& edge : graph_.after[a]) {
+      if (!main_[edge.other]) continue;
+      if (!placed_[edge.other]) return std::nullopt;
+      least = std::min(least.value_or(std::numeric_limits<Ticks>::max()), at_[edge.other] - edge.gap);
+    }
+    return least;
+  }
+
+  bool contended(std::size_t a) const {
+    const Activity& one = problem_.activities[a];
+    if (!one.resource || one.fixed) return false;
+    for (std::size_t b = 0; b < problem_.activities.size(); ++b) {
+      const Activity& other = problem_.activities[b];
+      if (b != a && !other.fixed && other.resource == one.resource) return true;
+    }
+    return false;
+  }
+
+  // Places all that wait for no order. Returns false where one has no room.
+  bool place_waiting() {
+    for (bool more = true; more && ok_;) {
+      more = false;
+      for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
+        if (placed_[a] || !main_[a] || contended(a)) continue;
+        const auto before = latest(a);
+        if (!before) continue;
+        if (!put(a, *before)) return false;
+        more = true;
+      }
+    }
+    return ok_;
+  }
+
+  // Whether the ages so far leave hope for something better than the best.
+  bool fits(bool placed) const {
+    if (!placed) return false;
+    Ticks worst = std::max<Ticks>(0, least_worst_), sum = 0;
+    const std::vector<Ticks> measured = in_order_so_far();
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c) {
+      Ticks least = least_[c];
+      const std::vector<std::size_t>& way = problem_.chains[c].activities;
+      if (way.back() == anchor_)
+        for (std::size_t i = 0; i < way.size(); ++i)
+          if (placed_[way[i]]) least = std::max(least, at_[anchor_] - measured[way[i]] + heads_[c][i]);
+      if (least > limit_of(c)) return false;
+      worst = std::max(worst, least + beyond(c));
+      sum += least;
+    }
+    if (limits_.sum_of_ages && sum > *limits_.sum_of_ages) return false;
+    return !found_.best || std::pair{worst, sum} < std::pair{best_worst_, best_sum_};
+  }
+
+  // Returns the beginnings, with measurements as early as the order of the lists placed so far demands.
+  std::vector<Ticks> in_order_so_far() const {
+    std::vector<Ticks> at = at_;
+    if (!reading_.fused.empty()) (void)measure_in_order(reading_, placed_, at);
+    return at;
+  }
+
+  std::size_t longest_head(std::size_t a) const {
+    Ticks longest = 0;
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c)
+      for (std::size_t i = 0; i < heads_[c].size(); ++i)
+        if (problem_.chains[c].activities[i] == a) longest = std::max(longest, heads_[c][i]);
+    return static_cast<std::size_t>(longest);
+  }
+
+  // Tries every order of those that may be placed next.
+  void descend() {
+    std::vector<std::pair<std::size_t, Ticks>> next;
+    bool all = true;
+    for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
+      if (placed_[a] || !main_[a]) continue;
+      all = false;
+      if (const auto before = latest(a)) next.push_back({a, *before});
+    }
+    if (all) return finish();
+    std::stable_sort(next.begin(), next.end(),
+                     [&](const auto& a, const auto& b) { return longest_head(a.first) > longest_head(b.first); });
+    for (const auto& [a, before] : next) {
+      if (done()) return;
+      const std::size_t count = trail_.size();
+      if (put(a, before) && fits(place_waiting())) descend();
+      undo(count);
+    }
+  }
+
+  // Places all that leads to no chain's end, as early as may be.
+  bool place_rest() {
+    for (bool more = true; more;) {
+      more = false;
+      for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
+        if (placed_[a]) continue;
+        const auto& before = graph_.before[a];
+        if (std::any_of(before.begin(), before.end(), [&](const Edge& edge) { return !placed_[edge.other]; })) continue;
+        Ticks earliest = std::numeric_limits<Ticks>::min();
+        for (const Edge& edge : before) earliest = std::max(earliest, at_[edge.other] + edge.gap);
+        if (before.empty()) earliest = at_[anchor_];
+        if (!put_early(a, earliest)) return false;
+        more = true;
+      }
+    }
+    return true;
+  }
+
+  bool put_early(std::size_t a, Ticks earliest) {
+    ++found_.steps;
+    const Activity& activity = problem_.activities[a];
+    const auto on_grid = [&](Ticks from) { return next_on_grid(grids_[a], from); };
+    Ticks at = activity.fixed ? earliest + modulo(*activity.fixed - earliest, activity.period) : on_grid(earliest);
+    if (!activity.fixed && activity.resource) {
+      const auto& standing = standing_[*activity.resource];
+      for (std::size_t i = 0; i < standing.size();) {
+        const Ticks on = in_the_way(activity, at, problem_.activities[standing[i].first], standing[i].second, false);
+        if (on == 0) {
+          ++i;
+          continue;
+        }
+        at = on_grid(at + on);
+        if (at - earliest > 2 * activity.period) return false;
+        i = 0;
+      }
+      standing_[*activity.resource].push_back({a, at});
+    }
+    at_[a] = at;
+    placed_[a] = true;
+    trail_.push_back(a);
+    return true;
+  }
+
+  void finish() {
+    const std::vector<Ticks> before = at_;
+    const std::size_t count = trail_.size();
+    if (place_rest() && measure_in_order(reading_, placed_, at_)) take();
+    undo(count);
+    at_ = before;
+  }
+
+  void take() {
+    Placed placed;
+    const Ticks shift = bound_to_cycles() ? 0 : at_[anchor_] - modulo(at_[anchor_], cycle());
+    for (std::size_t a = 0; a < at_.size(); ++a)
+      placed.solution.offsets.push_back(
+          problem_.activities[a].fixed.value_or(modulo(at_[a] - shift, problem_.activities[a].period)));
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c) {
+      const Ways found = ways(problem_, problem_.chains[c], placed.solution.offsets);
+      if (found.longest > limit_of(c)) return;
+      placed.ages.push_back(found.longest);
+      placed.least.push_back(found.shortest);
+    }
+    const Ticks worst = placed.worst_age(limits_.beyond), sum = placed.sum_of_ages();
+    if (limits_.sum_of_ages && sum > *limits_.sum_of_ages) return;
+    if (found_.best && std::pair{best_worst_, best_sum_} <= std::pair{worst, sum}) return;
+    best_worst_ = worst;
+    best_sum_ = sum;
+    found_.best = std::move(placed);
+  }
+
+  bool exact() const {
+    if (found_.best && best_worst_ == least_worst_) return true;
+    if (found_.steps >= kMostSteps || !one_anchor_ || raster_) return false;
+    const Ticks period = problem_.activities[anchor_].period;
+    const Ticks most = largest_possible();
+    for (const Chain& chain : problem_.chains)
+      for (const std::size_t a : chain.activities)
+        if (problem_.activities[a].period != period) return false;
+    for (std::size_t r = 0; r < problem_.resources.size(); ++r) {
+      Ticks longest = 0;
+      for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
+        const Activity& one = problem_.activities[a];
+        if (!one.fixed && one.resource == r && main_[a] && contended(a))
+          longest = std::max(longest, most - static_cast<Ticks>(longest_head(a)) + one.duration);
+      }
+      if (longest > period) return false;
+    }
+    return true;
+  }
+
+  // The largest age that a placement better than the best, or within the limits, could have.
+  Ticks largest_possible() const {
+    Ticks largest = 0;
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c)
+      largest = std::max(largest, found_.best ? best_worst_ - beyond(c) : std::min(limit_of(c), Ticks{1} << 40));
+    return largest;
+  }
+
+  const Reading& reading_;
+  const Problem& problem_;
+  Limits limits_;
+  bool any_;
+  Graph graph_;
+  std::vector<Ticks> at_;
+  std::vector<bool> placed_, main_;
+  std::vector<Grid> grids_;
+  std::vector<std::vector<std::pair<std::size_t, Ticks>>> standing_;  // by resource: activity, beginning
+  std::vector<std::vector<Ticks>> heads_;                             // by chain: from the sensor to each activity
+  std::vector<Ticks> least_;
+  Ticks least_worst_ = 0;
+  std::vector<std::size_t> trail_;
+  std::size_t anchor_ = 0;
+  bool one_anchor_ = true, raster_ = false, ok_ = true;
+  Ticks best_worst_ = 0, best_sum_ = 0;
+  Search found_;
+};
+
+}  // namespace
+
+Search place(const Reading& reading, const Limits& limits, bool any) { return Engine(reading, limits, any).run(); }
+
+}  // namespace ttf::schedules::synthesis::instants

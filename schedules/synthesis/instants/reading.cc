@@ -1,0 +1,310 @@
+#include "schedules/synthesis/instants/reading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/check.h"
+#include "core/int128.h"
+#include "schedules/analysis/can_load.h"
+#include "schedules/analysis/clock_bounds.h"
+#include "schedules/analysis/responses.h"
+#include "schedules/model/round.h"
+#include "schedules/model/wire_times.h"
+#include "schedules/synthesis/plan/ways.h"
+
+namespace ttf::schedules::synthesis::instants {
+
+using plan::by_time;
+using plan::fuses;
+using plan::Hop;
+using plan::Plan;
+using plan::PlannedChain;
+using plan::PlannedList;
+using plan::PlannedTask;
+using plan::task_at;
+using plan::TaskId;
+using plan::way_to;
+using plan::way_to_use;
+namespace {
+
+// Data of an activity, so long after its beginning at the latest.
+struct Source {
+  std::size_t activity = 0;
+  std::int64_t ns = 0;
+};
+
+class Reader {
+ public:
+  Reader(const Plan& plan, const Timed& timed)
+      : plan_(plan), timed_(timed), cluster_(timed.cluster), g_(cluster_.flexray),
+        clocks_(analysis::clock_bounds(cluster_)) {}
+
+  Reading read() {
+    add_resources();
+    add_sensors();
+    add_tasks();
+    add_planned_lists();
+    add_standing_frames();
+    add_precedences();
+    add_chains();
+    if (plan_.in_order) add_fused();
+    return std::move(made_);
+  }
+
+ private:
+  Problem& problem() { return made_.problem; }
+  Ticks cycle() const { return g_.gMacroPerCycle; }
+  Ticks at(int base_cycle, Ticks offset) const { return base_cycle * cycle() + offset; }
+  // An execution or a transfer, as another clock may measure it (schedules/analysis/age_stages.cc).
+  std::int64_t span(Duration worst) const { return worst.ns + clocks_.drift_ns(worst.ns) + model::kGranularity_ns; }
+
+  std::size_t add(Activity activity) {
+    problem().activities.push_back(std::move(activity));
+    return problem().activities.size() - 1;
+  }
+
+  void add_resources() {
+    problem().resources.push_back({"the static segment"});
+    for (const model::Node& node : cluster_.nodes)
+      problem().resources.push_back({fmt::format("the processor of {}", node.name)});
+  }
+
+  void add_sensors() {
+    for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
+      const model::Sensor& sensor = cluster_.sensors[s];
+      made_.sensors.emplace_back();
+      if (!sensor.scheduled) continue;
+      Activity activity{fmt::format("sensors.{}", sensor.name), sensor.line, std::nullopt, {}, 0, {}, {}, std::nullopt};
+      activity.period = sensor.at.repetition * cycle();
+      activity.window = {0, activity.period - 1};
+      if (!plan_.sensors[s].at.instant) activity.fixed = at(sensor.at.base_cycle, sensor.at.offset.value);
+      made_.sensors.back() = add(std::move(activity));
+    }
+  }
+
+  void add_tasks() {
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
+      const model::Node& node = cluster_.nodes[n];
+      made_.tasks.emplace_back(node.tasks.size());
+      for (std::size_t t = 0; t < node.tasks.size(); ++t) {
+        const model::Task& task = node.tasks[t];
+        if (!by_time(task)) continue;
+        const PlannedTask& planned = plan_.tasks[n][t];
+        Activity activity{
+            fmt::format("nodes.{}.tasks.{}", node.name, task.name), planned.line, n + 1, {}, 0, {}, {}, std::nullopt};
+        activity.period = task.activation.at.repetition * cycle();
+        activity.window = {0, activity.period - 1};
+        activity.duration = ticks(g_, analysis::least_apart(cluster_, node, task.worst_case).ns);
+        if (!planned.at.instant) activity.fixed = at(task.activation.at.base_cycle, task.activation.at.offset.value);
+        made_.tasks.back()[t] = add(std::move(activity));
+      }
+    }
+  }
+
+  // The last slot that may be in use: late frames of real-time media arrive within the static segment
+  // (schedules/check/real_time_rules.h, W2).
+  Ticks last_slot() const {
+    if (!cluster_.arrival_window) return g_.gNumberOfStaticSlots;
+    const Ticks late = ticks(g_, cluster_.arrival_window->late.ns) + g_.gdActionPointOffset;
+    return g_.gNumberOfStaticSlots + 1 - (late + g_.gdStaticSlot - 1) / g_.gdStaticSlot;
+  }
+
+  void add_planned_lists() {
+    for (const PlannedList& list : timed_.lists) {
+      const model::PduLayout& layout = cluster_.pdu(list.pdu);
+      const Ticks fragments = layout.max_fragments();
+      Activity activity{fmt::format("frames of {}", layout.name), list.line, 0, {}, 0, {}, {}, std::nullopt};
+      activity.period = list.repetition * cycle();
+      activity.window = {0, activity.period - 1};
+      activity.duration = fragments * g_.gdStaticSlot;
+      activity.grid = {cycle(), 0, (last_slot() - fragments) * g_.gdStaticSlot, g_.gdStaticSlot};
+      if (!list.at.instant) activity.fixed = at(list.base_cycle, (list.slot - 1) * Ticks{g_.gdStaticSlot});
+      made_.lists.push_back(add(std::move(activity)));
+      if (!slots_of_.contains(list.pdu)) slots_of_[list.pdu] = made_.lists.back();
+    }
+  }
+
+  // Frames that stand: each list's slots of one base and repetition are an activity.
+  void add_standing_frames() {
+    for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
+      const model::FrameSlot& frame = cluster_.frames[f];
+      if (is_dynamic(g_, frame) || (frame.pdu != kNoPdu && frame.fragment != 0)) continue;
+      Ticks slots = 1;
+      for (const model::FrameSlot& other : cluster_.frames)
+        if (frame.pdu != kNoPdu && other.pdu == frame.pdu && other.base_cycle == frame.base_cycle &&
+            other.repetition == frame.repetition)
+          slots = std::max<Ticks>(slots, other.slot - frame.slot + 1);
+      Activity activity{fmt::format("slot {}", frame.slot), frame.line, 0, {}, 0, {}, {}, std::nullopt};
+      activity.period = frame.repetition * cycle();
+      activity.window = {0, activity.period - 1};
+      activity.duration = slots * g_.gdStaticSlot;
+      activity.fixed = at(frame.base_cycle, (frame.slot - 1) * Ticks{g_.gdStaticSlot});
+      const std::size_t made = add(std::move(activity));
+      if (frame.pdu != kNoPdu && !slots_of_.contains(frame.pdu)) slots_of_[frame.pdu] = made;
+    }
+  }
+
+  // Returns the sources of a task's output, from their beginnings to its end.
+  std::vector<Source> ready(TaskId id, int hops = 0) {
+    const model::Task& task = task_at(cluster_, id);
+    if (hops > kMostHops) return {};
+    switch (task.activation.kind) {
+      case model::ActivationKind::kTime: return {{*made_.tasks[index_of(id.node)][id.task], span(task.worst_case)}};
+      case model::ActivationKind::kSensor: {
+        const auto sensor = made_.sensors[index_of(task.activation.sensor)];
+        if (!sensor) return {};
+        return {{*sensor, span(response(id))}};
+      }
+      case model::ActivationKind::kMessage: {
+        for (const model::PortBinding& in : task.reads)
+          if (activates(task, in)) return later(arrival(in, hops + 1), span(response(id)));
+        return {};
+      }
+      case model::ActivationKind::kCompletion: {
+        const std::vector<model::Task>& tasks = cluster_.node(id.node).tasks;
+        for (std::size_t t = 0; t < tasks.size(); ++t)
+          if (tasks[t].name == task.activation.after)
+            return later(ready({id.node, t}, hops + 1), span(task.worst_case));
+        return {};
+      }
+    }
+    return {};
+  }
+
+  // Returns the sources of a list, to its arrival at its readers.
+  std::vector<Source> arrival(const model::PortBinding& list, int hops = 0) {
+    if (list.medium.is_flexray()) {
+      const auto slots = slots_of_.find(list.pdu);
+      if (slots == slots_of_.end()) return {};
+      const std::int64_t ps = problem().activities[slots->second].duration * g_.gdMacrotick_ps;
+      return {{slots->second, (ps + 999) / 1'000}};
+    }
+    const model::CanBus& bus = cluster_.can(list.medium);
+    for (const model::CanMessage& message : bus.messages)
+      if (message.pdu == list.pdu)
+        if (const auto writer = writer_of(list))
+          if (const auto worst = analysis::can_worst_response(cluster_, bus, message))
+            return later(ready(*writer, hops + 1), span(*worst));
+    return {};
+  }
+
+  Duration response(TaskId id) const {
+    const auto responses = analysis::worst_responses(cluster_, id.node);
+    const Duration least = task_at(cluster_, id).worst_case;
+    return responses ? std::max(least, (*responses)[id.task].worst) : least;
+  }
+
+  std::optional<TaskId> writer_of(const model::PortBinding& list) const {
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t)
+        for (const model::PortBinding& out : cluster_.nodes[n].tasks[t].writes)
+          if (out.pdu == list.pdu && out.medium == list.medium) return TaskId{static_cast<NodeId>(n), t};
+    return std::nullopt;
+  }
+
+  static std::vector<Source> later(std::vector<Source> sources, std::int64_t ns) {
+    for (Source& source : sources) source.ns += ns;
+    return sources;
+  }
+
+  // `after` takes data that is there `ns` behind the beginning of `before`, by another clock.
+  void follow(std::size_t before, std::size_t after, std::int64_t ns, int line) {
+    const Ticks gap = ticks(g_, ns + clocks_.apart_ns) - problem().activities[before].duration;
+    follow_ticks(before, after, gap, line);
+  }
+  void follow_ticks(std::size_t before, std::size_t after, Ticks gap, int line) {
+    const auto [known, fresh] = precedence_.try_emplace({before, after}, problem().precedences.size());
+    if (fresh)
+      problem().precedences.push_back({before, after, gap, std::nullopt, line});
+    else
+      problem().precedences[known->second].gap = std::max(problem().precedences[known->second].gap, gap);
+  }
+
+  void add_precedences() {
+    for (const auto& [pdu, slots] : slots_of_)
+      if (const auto writer = writer_of({"", pdu, model::kFlexRay, 0}))
+        for (const Source& source : ready(*writer))
+          follow(source.activity, slots, source.ns, problem().activities[slots].line);
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
+      const auto node = static_cast<NodeId>(n);
+      for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) {
+        const auto activity = made_.tasks[n][t];
+        if (!activity) continue;
+        for (const model::PortBinding& in : cluster_.nodes[n].tasks[t].reads)
+          for (const Source& source : arrival(in)) follow(source.activity, *activity, source.ns, in.line);
+        if (fuses(cluster_, {node, t})) before_image(n, *activity);
+      }
+    }
+  }
+
+  // The image is written behind the task that fuses.
+  void before_image(std::size_t n, std::size_t fusing) {
+    for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) {
+      const model::Task& task = cluster_.nodes[n].tasks[t];
+      const bool writes_image = std::any_of(task.writes.begin(), task.writes.end(),
+                                            [&](const auto& out) { return cluster_.pdu(out.pdu).sensor == kNoSensor; });
+      if (const auto publisher = made_.tasks[n][t]; publisher && writes_image && *publisher != fusing)
+        follow_ticks(fusing, *publisher, 0, plan_.tasks[n][t].line);
+    }
+  }
+
+  void add_chains() {
+    for (const PlannedChain& planned : plan_.chains) {
+      Chain chain;
+      chain.name = planned.name;
+      chain.line = planned.line;
+      if (planned.largest_age) chain.largest_age = planned.largest_age->ns * 1'000 / g_.gdMacrotick_ps;
+      chain.activities.push_back(*made_.sensors[index_of(planned.from)]);
+      for (const Hop& hop : way_to(cluster_, planned.from, {planned.node, planned.task})) {
+        if (hop.list != nullptr && hop.list->medium.is_flexray())
+          if (const auto slots = slots_of_.find(hop.list->pdu); slots != slots_of_.end()) append(chain, slots->second);
+        if (const auto task = made_.tasks[index_of(hop.at.node)][hop.at.task]) append(chain, *task);
+      }
+      problem().chains.push_back(std::move(chain));
+    }
+  }
+
+  void append(Chain& chain, std::size_t activity) {
+    const auto known = precedence_.find({chain.activities.back(), activity});
+    chain.gaps.push_back(known == precedence_.end() ? 0 : problem().precedences[known->second].gap);
+    chain.activities.push_back(activity);
+  }
+
+  void add_fused() {
+    // A stamp is a reading of a clock, at most a macrotick old and rounded to a microsecond (schedules/analysis/settled.h).
+    made_.order = ticks(g_, clocks_.apart_ns + (g_.gdMacrotick_ps + 999) / 1'000 + 1'000);
+    for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
+      if (!made_.sensors[s] || cluster_.sensors[s].kind == model::SensorKind::kOdometry) continue;
+      for (const Hop& hop : way_to_use(cluster_, static_cast<SensorId>(s))) {
+        const auto activity = made_.tasks[index_of(hop.at.node)][hop.at.task];
+        if (!activity || !fuses(cluster_, hop.at)) continue;
+        made_.fused.push_back({*made_.sensors[s], *activity, hop.at.node});
+        break;
+      }
+    }
+  }
+
+  static constexpr int kMostHops = 64;
+
+  const Plan& plan_;
+  const Timed& timed_;
+  const model::Cluster& cluster_;
+  const model::GlobalParameters& g_;
+  analysis::ClockBounds clocks_;
+  std::map<PduId, std::size_t> slots_of_;
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> precedence_;
+  Reading made_;
+};
+
+}  // namespace
+
+Ticks ticks(const model::GlobalParameters& flexray, std::int64_t ns) {
+  return model::ceil_div(static_cast<Int128>(ns) * 1'000, flexray.gdMacrotick_ps);
+}
+
+Reading reading(const Plan& plan, const Timed& timed) { return Reader(plan, timed).read(); }
+
+}  // namespace ttf::schedules::synthesis::instants

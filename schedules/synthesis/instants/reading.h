@@ -1,0 +1,42 @@
+// A plan, with periods chosen, as a problem of offsets (schedules/synthesis/problem.h).
+//
+//   activities   a scheduled sensor's measurement, a task that time activates, a list's slots; ticks are macroticks
+//   resources    the processor of each node and the static segment; real-time media take late frames behind the last slot
+//   precedences  from each activity to those that take its data. Behind its end are executions that lists activate,
+//                transfers on CANs, and the difference of clocks: the bounds of schedules/analysis, stage by stage, so that
+//                what keeps the gaps passes the check
+//   chains       those of the plan; an age ends where the last task begins
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/ids.h"
+#include "schedules/synthesis/instants/candidates.h"
+#include "schedules/synthesis/plan/plan.h"
+#include "schedules/synthesis/problem.h"
+
+namespace ttf::schedules::synthesis::instants {
+
+// A sensor whose lists a task fuses that time activates.
+struct Fused {
+  std::size_t measuring = 0, fusing = 0;  // activities
+  NodeId node{};
+};
+
+struct Reading {
+  Problem problem;
+  std::vector<std::vector<std::optional<std::size_t>>> tasks;  // activity by node and task
+  std::vector<std::optional<std::size_t>> sensors;             // by sensor
+  std::vector<std::size_t> lists;                              // by planned list
+  std::vector<Fused> fused;                                    // for Plan::in_order; else empty
+  Ticks order = 0;                                             // so far apart stamps are certainly in order
+};
+
+Reading reading(const plan::Plan& plan, const Timed& timed);
+
+// Returns a duration in ticks, rounded up.
+Ticks ticks(const model::GlobalParameters& flexray, std::int64_t ns);
+
+}  // namespace ttf::schedules::synthesis::instants

@@ -1,0 +1,92 @@
+#include "schedules/synthesis/instants/written.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/check.h"
+#include "schedules/analysis/age_stages.h"
+#include "schedules/analysis/responses.h"
+#include "schedules/synthesis/plan/ways.h"
+
+namespace ttf::schedules::synthesis::instants {
+
+using plan::fuses;
+using plan::Hop;
+using plan::Plan;
+using plan::PlannedChain;
+using plan::PlannedList;
+using plan::PlannedTask;
+using plan::task_at;
+using plan::TaskId;
+using plan::way_to;
+namespace {
+
+void set_deadlines(const Plan& plan, model::Cluster& cluster) {
+  constexpr std::int64_t kGrain = 10'000;
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
+    const auto& planned = plan.tasks[n];
+    if (std::none_of(planned.begin(), planned.end(), [](const PlannedTask& task) { return task.deadline; })) continue;
+    const auto responses = analysis::worst_responses(cluster, static_cast<NodeId>(n));
+    for (std::size_t t = 0; t < planned.size(); ++t) {
+      model::Task& task = cluster.nodes[n].tasks[t];
+      if (!planned[t].deadline) continue;
+      const Duration worst = responses ? (*responses)[t].worst : task.worst_case;
+      task.deadline = {(worst.ns + kGrain - 1) / kGrain * kGrain};
+    }
+  }
+}
+
+}  // namespace
+
+model::Cluster with_instants(const Plan& plan, const Timed& timed, const Reading& reading, const Solution& solution) {
+  model::Cluster cluster = timed.cluster;
+  cluster.parameter_lines = plan.unchanging->parameter_lines;
+  for (std::size_t p = 0; p < cluster.pdus.size(); ++p) {
+    cluster.pdus[p].header = plan.unchanging->pdus[p].header;
+    cluster.pdus[p].element = plan.unchanging->pdus[p].element;
+  }
+  const model::GlobalParameters& g = cluster.flexray;
+  const auto set = [&](model::CycleInstant& at, std::size_t activity) {
+    at.base_cycle = static_cast<int>(solution.offsets[activity] / g.gMacroPerCycle);
+    at.offset = Macroticks{solution.offsets[activity] % g.gMacroPerCycle};
+  };
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (reading.sensors[s]) set(cluster.sensors[s].at, *reading.sensors[s]);
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    for (std::size_t t = 0; t < cluster.nodes[n].tasks.size(); ++t)
+      if (reading.tasks[n][t]) set(cluster.nodes[n].tasks[t].activation.at, *reading.tasks[n][t]);
+  for (std::size_t l = 0; l < timed.lists.size(); ++l) {
+    const PlannedList& list = timed.lists[l];
+    model::CycleInstant at;
+    set(at, reading.lists[l]);
+    const int slot = static_cast<int>(at.offset.value / g.gdStaticSlot) + 1;
+    for (int f = 0; f < cluster.pdu(list.pdu).max_fragments(); ++f)
+      cluster.frames.push_back(
+          {slot + f, list.channels, at.base_cycle, list.repetition, list.sender, list.pdu, f, list.line});
+  }
+  std::stable_sort(cluster.frames.begin(), cluster.frames.end(), [](const auto& a, const auto& b) {
+    return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
+  });
+  set_deadlines(plan, cluster);
+  return cluster;
+}
+
+AgeBounds age_bounds(const model::Cluster& cluster, const PlannedChain& chain) {
+  const TaskId to{chain.node, chain.task};
+  if (fuses(cluster, to)) {
+    for (const analysis::AgePath& path : analysis::measurement_ages(cluster))
+      if (path.sensor == chain.from) return {path.fused_best, path.fused_worst};
+    for (const analysis::AgePath& path : analysis::odometry_ages(cluster))
+      if (path.sensor == chain.from) return {path.fused_best, path.fused_worst};
+    return {};
+  }
+  std::vector<analysis::Reading> readings;
+  for (const Hop& hop : way_to(cluster, chain.from, to))
+    if (hop.list != nullptr) readings.push_back({hop.list, hop.at.node, &task_at(cluster, hop.at)});
+  const analysis::Path path = path_along(cluster, chain.from, readings);
+  if (path.stages.empty()) return {};
+  const auto ages = analysis::ages_along(cluster, {path});
+  return {ages.front().use_best, ages.front().use_worst};
+}
+
+}  // namespace ttf::schedules::synthesis::instants

@@ -1,0 +1,159 @@
+#include "schedules/synthesis/plan/left_out.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "core/decimal.h"
+
+namespace ttf::schedules::synthesis::plan {
+namespace {
+
+using Path = std::vector<std::string>;
+
+// Placeholders; each is within the range of its key.
+constexpr const char* kNone = "0";
+constexpr const char* kOnce = "1";
+
+class Filler {
+ public:
+  Filler(StrictYaml& file, Duration longest_cycle, Findings& findings)
+      : file_(file), root_(file.root(none_)), longest_cycle_(longest_cycle), findings_(findings) {}
+
+  LeftOutValues fill() {
+    flexray();
+    nodes();
+    sensors();
+    frames();
+    cans();
+    // All is asked before anything is put: aliases share their mapping.
+    for (const auto& [path, value] : values_) file_.put(path, value);
+    return std::move(found_);
+  }
+
+ private:
+  // Notes the placeholder if the key is left out.
+  bool leave(const YamlMap& map, const Path& path, const char* key, const std::string& value) {
+    if (map.has(key)) return false;
+    Path whole = path;
+    whole.emplace_back(key);
+    values_.emplace_back(std::move(whole), value);
+    return true;
+  }
+
+  // Both keys of an instant are said, or none.
+  bool leave_instant(YamlMap& map, const Path& path, const char* place, const char* value) {
+    const bool base = leave(map, path, "base_cycle", kNone), at = leave(map, path, place, value);
+    if (base != at)
+      findings_.add({map.file(), map.line(), fmt::format("{}.{}", map.path(), base ? "base_cycle" : place), "",
+                     fmt::format("is missing: a plan leaves out both base_cycle and {}, or none of them", place)});
+    return base && at;
+  }
+
+  void flexray() {
+    auto map = root_.map_if("flexray");
+    if (!map) return;
+    const Path path{"flexray"};
+    const std::string cycle_us = scaled_text(longest_cycle_.ns, 1'000);
+    found_.cycle = leave(*map, path, "gdCycle", cycle_us);
+    const std::int64_t cycle_ps =
+        found_.cycle ? longest_cycle_.ns * 1'000 : map->scaled("gdCycle", 1'000'000, {1, INT64_MAX}, "us");
+    const std::int64_t macrotick_ps = map->scaled("gdMacrotick", 1'000'000, {1'000'000, 6'000'000}, "us");
+    leave(*map, path, "gMacroPerCycle", fmt::format("{}", cycle_ps / macrotick_ps));
+    found_.parameters.static_slots = leave(*map, path, "gNumberOfStaticSlots", "1023");
+    found_.parameters.idle_time = leave(*map, path, "gdNIT", "2");
+    found_.parameters.correction_start = leave(*map, path, "gOffsetCorrectionStart", "9");
+  }
+
+  void nodes() {
+    const auto shared = root_.map_if("node_parameters");
+    for (auto& [name, map] : root_.named_maps("nodes")) {
+      LeftOutParameters::Controller left;
+      if (const auto own = map.map_if("flexray")) {
+        const Path path{"nodes", name, "flexray"};
+        const auto leave_own = [&, &own = *own](const char* key, const char* value) {
+          return !(shared && shared->has(key)) && leave(own, path, key, value);
+        };
+        left = {leave_own("pMicroPerCycle", "640"), leave_own("pRateCorrectionOut", "2"),
+                leave_own("pdListenTimeout", "1284")};
+      }
+      found_.parameters.controllers.push_back(left);
+      tasks(map, name);
+    }
+  }
+
+  void tasks(YamlMap& node, const std::string& name) {
+    std::vector<PlannedTask>& tasks = found_.tasks.emplace_back();
+    if (!node.has("tasks")) return;
+    for (auto& [task_name, task] : node.named_maps("tasks")) {
+      PlannedTask& planned = tasks.emplace_back();
+      Path path{"nodes", name, "tasks", task_name};
+      planned.deadline = leave(task, path, "deadline", "10 s");
+      auto activation = task.map_if("activation");
+      planned.line = activation ? activation->line() : task.line();
+      if (!activation || activation->text_or("kind", "") != "time") continue;
+      path.emplace_back("activation");
+      planned.at.instant = leave_instant(*activation, path, "offset", kNone);
+      planned.at.repetition = leave(*activation, path, "repetition", planned.at.instant ? kOnce : "64");
+    }
+  }
+
+  void sensors() {
+    for (auto& [name, map] : root_.named_maps("sensors")) {
+      LeftOut& left = found_.sensors.emplace_back();
+      if (map.text_or("measurement", "") != "scheduled") continue;
+      left.instant = leave_instant(map, {"sensors", name}, "offset", kNone);
+      left.repetition = leave(map, {"sensors", name}, "repetition", left.instant ? kOnce : "64");
+    }
+  }
+
+  void frames() {
+    const auto entries = root_.maps("frames");
+    for (std::size_t i = 0; i < entries.size(); ++i) frame(entries[i], {"frames", fmt::format("{}", i)});
+  }
+
+  void frame(YamlMap map, const Path& path) {
+    LeftOutValues::Frame& left = found_.frames.emplace_back();
+    left.is_list = map.has("pdu");
+    leave(map, path, "channels", "AB");
+    if (!left.is_list) {  // a status frame is of every cycle
+      leave(map, path, "base_cycle", kNone);
+      leave(map, path, "repetition", kOnce);
+      return;
+    }
+    left.slot = left.base_cycle = leave_instant(map, path, "slot", kOnce);
+    left.repetition = leave(map, path, "repetition", left.slot ? kOnce : "64");
+    leave(map, path, "fragments", kOnce);
+    for (const char* key : {"first_fragment", "fragment_step", "network_management", "message_id"})
+      if (map.has(key) && (left.slot || left.repetition))
+        findings_.add({map.file(), map.line(key), fmt::format("{}.{}", map.path(), key), "",
+                       "needs a slot, base_cycle and repetition: a plan chooses slots for whole lists alone"});
+  }
+
+  void cans() {
+    for (auto& [name, map] : root_.named_maps("can")) {
+      std::vector<bool>& periods = found_.shortest_periods.emplace_back();
+      const auto messages = map.maps("messages");
+      for (std::size_t i = 0; i < messages.size(); ++i)
+        periods.push_back(
+            leave(messages[i], {"can", name, "messages", fmt::format("{}", i)}, "shortest_period", "10 s"));
+    }
+  }
+
+  StrictYaml& file_;
+  Findings none_;  // the loader of cluster files reports them
+  YamlMap root_;
+  Duration longest_cycle_;
+  Findings& findings_;
+  std::vector<std::pair<Path, std::string>> values_;
+  LeftOutValues found_;
+};
+
+}  // namespace
+
+LeftOutValues fill_in(StrictYaml& file, Duration longest_cycle, Findings& findings) {
+  return Filler(file, longest_cycle, findings).fill();
+}
+
+}  // namespace ttf::schedules::synthesis::plan

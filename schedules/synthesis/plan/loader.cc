@@ -1,0 +1,162 @@
+#include "schedules/synthesis/plan/loader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/file_bytes.h"
+#include "core/strict_yaml.h"
+#include "core/yaml_merge.h"
+#include "schedules/file/loader.h"
+#include "schedules/synthesis/plan/left_out.h"
+#include "schedules/synthesis/plan/section.h"
+
+namespace ttf::schedules::synthesis::plan {
+namespace {
+
+constexpr std::size_t kMostBases = 16;
+
+// Moves the frames of lists with a value left out from the cluster to the plan.
+void take_lists(Plan& plan, const std::vector<LeftOutValues::Frame>& entries) {
+  std::vector<bool> taken(entries.size());
+  for (const model::FrameSlot& frame : plan.cluster.frames) {
+    const auto entry = static_cast<std::size_t>(frame.entry.value_or(0));
+    if (entry >= entries.size() || !entries[entry].is_list || taken[entry]) continue;
+    if (!entries[entry].slot && !entries[entry].repetition) continue;
+    taken[entry] = true;
+    plan.lists.push_back({frame.pdu,
+                          frame.sender,
+                          frame.channels,
+                          frame.base_cycle,
+                          frame.repetition,
+                          frame.slot,
+                          {entries[entry].slot, entries[entry].repetition},
+                          frame.line});
+  }
+  std::erase_if(plan.cluster.frames, [&](const model::FrameSlot& frame) {
+    return frame.entry && taken[static_cast<std::size_t>(*frame.entry)];
+  });
+  std::stable_sort(plan.lists.begin(), plan.lists.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+}
+
+// Returns the lengths of the cycle, or the one length that the cluster says.
+CycleLengths lengths_of(const StrictYaml& file, const std::optional<CycleLengths>& free, Findings& findings) {
+  Findings none;
+  YamlMap root = file.root(none);
+  const auto flexray = root.map_if("flexray");
+  for (const char* key : {"gdCycle", "gMacroPerCycle"})
+    if (free && flexray && flexray->has(key))
+      findings.add({file.name(), flexray->line(key), fmt::format("flexray.{}", key), "",
+                    fmt::format("must be left out: plan.cycle (line {}) has the lengths to choose from", free->line)});
+  if (free) return *free;
+  if (!flexray || !flexray->has("gdCycle")) {
+    findings.add({file.name(), flexray ? flexray->line() : 1, "flexray.gdCycle", "",
+                  "is missing: a plan without plan.cycle has one length of the cycle"});
+    return {Duration::milliseconds(5), Duration::milliseconds(5), Duration::milliseconds(5), 0};
+  }
+  YamlMap known = *flexray;
+  const Duration one{known.scaled("gdCycle", 1'000'000, {10'000'000, 16'000'000'000}, "us") / 1'000};
+  return {one, one, one, known.line("gdCycle")};
+}
+
+// Candidates copy the cluster: what they have in common is kept once.
+void set_aside(Plan& plan) {
+  auto kept = std::make_shared<Unchanging>();
+  kept->parameter_lines = std::move(plan.cluster.parameter_lines);
+  kept->pdus = plan.cluster.pdus;
+  plan.unchanging = std::move(kept);
+  plan.cluster.parameter_lines.clear();
+  plan.cluster.text.clear();
+  for (model::PduLayout& layout : plan.cluster.pdus) {
+    layout.header.clear();
+    layout.element.clear();
+  }
+}
+
+Plan read(StrictYaml file, TextOrigins origins) {
+  Findings findings;
+  YamlMap root = file.root(findings);
+  YamlMap section = root.map("plan");
+  Plan plan;
+  const auto free = read_cycle(section);
+  plan.free_cycle = free.has_value();
+  plan.cycle = lengths_of(file, free, findings);
+  LeftOutValues left = fill_in(file, plan.cycle.longest, findings);
+  file.take("plan");
+  try {
+    plan.cluster = file::read_cluster(file);
+  } catch (const InputError& error) {
+    for (const Finding& finding : error.findings()) findings.add(finding);
+  }
+  findings.throw_if_any();  // names have no meaning yet
+  plan.parameters = std::move(left.parameters);
+  plan.tasks = std::move(left.tasks);
+  plan.shortest_periods = std::move(left.shortest_periods);
+  for (const LeftOut& at : left.sensors) plan.sensors.push_back({at, std::nullopt, std::nullopt});
+  take_lists(plan, left.frames);
+  plan.origins = std::move(origins);
+  read_section(section, plan);
+  findings.throw_if_any();
+  set_aside(plan);
+  return plan;
+}
+
+std::vector<Finding> moved(const TextOrigins& origins, std::vector<Finding> findings) {
+  for (Finding& finding : findings) {
+    const TextPlace place = origins.place(finding.file, finding.line);
+    finding.file = place.file;
+    finding.line = place.line;
+  }
+  return findings;
+}
+
+Plan read(std::string text, const std::string& name, TextOrigins origins) {
+  try {
+    return read(StrictYaml::parse(std::move(text), name), origins);
+  } catch (const InputError& error) {
+    throw InputError(moved(origins, error.findings()));
+  }
+}
+
+// Returns the path of the plan that this one extends; none if it extends nothing.
+std::optional<std::string> base_of(const std::string& text, const std::string& path) {
+  Findings findings;
+  const StrictYaml file = StrictYaml::parse(text, path);
+  YamlMap root = file.root(findings);
+  if (!root.has("extends")) return std::nullopt;
+  const std::string base = root.text("extends");
+  findings.throw_if_any();
+  return (std::filesystem::path(path).parent_path() / base).lexically_normal().string();
+}
+
+}  // namespace
+
+Plan parse_plan(std::string text, std::string name) {
+  if (base_of(text, name))
+    throw InputError({name, 1, "extends", "", "needs a file: a text has no folder to begin from"});
+  return read(std::move(text), name, {});
+}
+
+std::vector<Finding> in_the_files(const Plan& plan, std::vector<Finding> findings) {
+  return moved(plan.origins, std::move(findings));
+}
+
+Plan load_plan(const std::string& path) {
+  std::vector<YamlLayer> layers{{read_file(path), path}};
+  while (const auto base = base_of(layers.back().text, layers.back().name)) {
+    if (layers.size() >= kMostBases)
+      throw InputError(
+          {path, 1, "extends", *base, fmt::format("must end after {} files, without a circle", kMostBases)});
+    layers.push_back({read_file(*base), *base});
+  }
+  if (layers.size() == 1) return read(std::move(layers.front().text), path, {});
+  std::reverse(layers.begin(), layers.end());
+  MergedYaml merged = merge_yaml(layers, "extends");
+  return read(std::move(merged.text), path, std::move(merged.origins));
+}
+
+}  // namespace ttf::schedules::synthesis::plan

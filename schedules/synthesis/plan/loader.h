@@ -1,0 +1,38 @@
+// Reads a plan: the keys of a cluster file (schedules/file/loader.h), of which these may be left out, and `plan`.
+//
+//   flexray           gdCycle and gMacroPerCycle with plan.cycle; gNumberOfStaticSlots, gdNIT, gOffsetCorrectionStart
+//   node_parameters   pMicroPerCycle, pRateCorrectionOut, pdListenTimeout, also in a node's own
+//   sensors           base_cycle and offset of a scheduled one; its repetition with plan.rates
+//   activation        base_cycle and offset of kind time; repetition
+//   tasks             deadline
+//   frames            slot and base_cycle of a list; repetition; channels (AB); fragments (all)
+//   can               shortest_period of messages
+//
+//   plan:
+//     cycle: {shortest: 5 ms, longest: 10 ms, step: 100 us}     lengths to choose from; instead of gdCycle
+//     rates: {SENSOR: {shortest: 34 ms, longest: 40 ms}}        allowed periods
+//     sensors: {NAME: {like: SENSOR, ...}}                      further sensors (schedules/synthesis/plan/likeness.h)
+//     chains: {NAME: {from: SENSOR, to: NODE.TASK, largest_age: 60 ms}}   all sensors to their use, if absent
+//     objective: [worst_age, data_age, slots, jitter, room]     in this order; worst_age, if absent
+//     in_order: false                                           lists may wait for older ones; true if absent
+//
+// A plan may begin from another one by `extends: OTHER.yaml`, and change it key by key (core/yaml_merge.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "schedules/synthesis/plan/plan.h"
+
+namespace ttf::schedules::synthesis::plan {
+
+// Throws InputError with all findings, each with the file and line of the plan.
+Plan load_plan(const std::string& path);
+// The same from a text, which cannot extend a file.
+Plan parse_plan(std::string text, std::string name);
+
+// Returns findings about the cluster of a plan with the files and lines that its values come from.
+std::vector<Finding> in_the_files(const Plan& plan, std::vector<Finding> findings);
+
+}  // namespace ttf::schedules::synthesis::plan

@@ -1,0 +1,115 @@
+// A plan: a cluster with values left out, and the section `plan` with the demands on them. Everything that the file says is
+// fixed; everything that it leaves out is free.
+//
+// The model is that of a cluster (schedules/model/cluster.h). Placeholders stand where the plan leaves a value out, and the
+// plan says where they stand. schedules/synthesis/instants/candidates.h replaces periods and FlexRay's parameters, and
+// schedules/synthesis/instants/written.h the instants.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/text_place.h"
+#include "core/time.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::schedules::synthesis::plan {
+
+// The parts of a periodic instant that the plan leaves out.
+struct LeftOut {
+  bool instant = false;     // base cycle and offset, or base cycle and slot
+  bool repetition = false;  // it follows from the rates of sensors
+};
+
+struct PlannedTask {
+  LeftOut at;
+  bool deadline = false;  // left out
+  int line = 0;           // the activation's
+};
+
+// A list's static slots, all in one cycle and one behind the other.
+struct PlannedList {
+  PduId pdu{};
+  NodeId sender{};
+  model::Channels channels = model::Channels::kAB;
+  int base_cycle = 0, repetition = 1, slot = 1;  // placeholders where they are left out
+  LeftOut at;
+  int line = 0;
+};
+
+// How often a sensor may measure.
+struct Rate {
+  Duration shortest{}, longest{};  // period
+  int line = 0;
+};
+
+struct PlannedSensor {
+  LeftOut at;
+  std::optional<Rate> rate;      // if its repetition is left out
+  std::optional<SensorId> like;  // a copy of this one
+};
+
+// The age of the sensor's measurements when the task begins that takes them, at first use.
+struct PlannedChain {
+  std::string name;
+  SensorId from{};
+  NodeId node{};
+  std::size_t task = 0;  // within the node
+  std::optional<Duration> largest_age;
+  int line = 0;
+};
+
+enum class Goal : std::uint8_t {
+  kWorstAge,  // least: the largest age over the chains
+  kDataAge,   // least: the largest age over the chains when the next output of the chain's end takes its place
+  kSlots,     // least: the last static slot in use
+  kJitter,    // least: the largest difference between the worst and the best age of a chain
+  kRoom,      // most: the share of the static segment's frames that stay free
+};
+
+// Possible lengths of the cycle: shortest, shortest + step, ..., at most longest.
+struct CycleLengths {
+  Duration shortest{}, longest{}, step{};
+  int line = 0;
+};
+
+// FlexRay's parameters that follow from the length of the cycle, where the plan leaves them out.
+struct LeftOutParameters {
+  bool static_slots = false, idle_time = false, correction_start = false;
+  struct Controller {
+    bool microticks = false, rate = false, listen = false;
+  };
+  std::vector<Controller> controllers;  // by node
+};
+
+// The parts that instants do not depend on, kept once for all candidates.
+struct Unchanging {
+  std::map<std::string, int, std::less<>> parameter_lines;
+  std::vector<model::PduLayout> pdus;  // with their signals
+};
+
+struct Plan {
+  model::Cluster cluster;  // without the frames of `lists`, and without what is in `unchanging`
+  std::shared_ptr<const Unchanging> unchanging;
+  CycleLengths cycle;  // one length, if the plan says gdCycle
+  bool free_cycle = false;
+  LeftOutParameters parameters;
+  std::vector<std::vector<PlannedTask>> tasks;      // by node and task
+  std::vector<PlannedSensor> sensors;               // by sensor
+  std::vector<PlannedList> lists;                   // those with a value left out
+  std::vector<std::vector<bool>> shortest_periods;  // by CAN and message: left out
+  std::vector<PlannedChain> chains;                 // in the plan's order
+  std::vector<Goal> objective;                      // the most important first
+  bool in_order = true;  // lists are fused in the order of their measurements, so that none waits for an older one
+  TextOrigins origins;   // the files and lines of its text, if it extends another plan
+
+  const model::Task& task(const PlannedChain& chain) const { return cluster.node(chain.node).tasks[chain.task]; }
+};
+
+}  // namespace ttf::schedules::synthesis::plan

@@ -1,0 +1,39 @@
+// The way of a sensor's lists from task to task, up to a task that a chain names.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/ids.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::schedules::synthesis::plan {
+
+struct TaskId {
+  NodeId node{};
+  std::size_t task = 0;
+  auto operator<=>(const TaskId&) const = default;
+};
+
+// The task, and the list by which the data comes to it. No list leads from a task that fuses to the one of its node that
+// writes the image, nor to the first task.
+struct Hop {
+  TaskId at;
+  const model::PortBinding* list = nullptr;  // as its writer binds it
+};
+
+// Returns the hops from the sensor's measuring task to `to`, both included: the first way in the order of tasks and lists.
+// Returns none if no list leads there. The bindings are the cluster's.
+std::vector<Hop> way_to(const model::Cluster& cluster, SensorId sensor, TaskId to);
+
+// Returns the first task that begins by time at the end of the sensor's way: the reader of the image, or else the task that
+// fuses; none if neither begins by time.
+std::vector<Hop> way_to_use(const model::Cluster& cluster, SensorId sensor);
+
+// Returns whether the task fuses: it reads lists and writes none, and another task of its node writes the image.
+bool fuses(const model::Cluster& cluster, TaskId id);
+
+const model::Task& task_at(const model::Cluster& cluster, TaskId id);
+bool by_time(const model::Task& task);
+
+}  // namespace ttf::schedules::synthesis::plan

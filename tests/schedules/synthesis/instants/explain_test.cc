@@ -1,0 +1,58 @@
+// Plans without a solution are explained in their own words: each statement of the core is needed, and each change is enough.
+#include "schedules/synthesis/instants/explain.h"
+
+#include <algorithm>
+
+#include "schedules/synthesis/instants/synthesize.h"
+#include "tests/schedules/synthesis/plans.h"
+
+namespace ttf::schedules::synthesis::instants {
+namespace {
+
+bool says(const std::vector<Explanation::Said>& list, const std::string& words) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const auto& one) { return one.text.find(words) != std::string::npos; });
+}
+
+TEST(Explain, AnAgeThatIsTooSmallAndByHowMuch) {
+  const std::string text = changed(plan_text("paper"), "largest_age: 60 ms", "largest_age: 50 ms");
+  const plan::Plan plan = plan::parse_plan(text, "plan.yaml");
+  const Synthesis made = synthesize(plan);
+  EXPECT_FALSE(made.found);
+  EXPECT_TRUE(made.exact);
+  const Explanation why = explain(plan);
+  EXPECT_TRUE(why.proven);
+  ASSERT_TRUE(says(why.core, "plan.chains.laser.largest_age: 50 ms"));
+  for (const auto& one : why.core) EXPECT_TRUE(one.line > 0 || one.text == "plan.in_order: true") << one.text;
+  EXPECT_FALSE(says(why.core, "camera"));  // the camera has no part in it
+  // The least age of the laser is 54.91 ms: the sum of its way, without a wait.
+  EXPECT_TRUE(says(why.changes, "plan.chains.laser.largest_age: 54."));
+}
+
+TEST(Explain, APeriodThatIsShorterThanTheExecution) {
+  const std::string text = changed(plan_text("paper"), "laser: \\{shortest: 34 ms, longest: [^}]*\\}",
+                                   "laser: {shortest: 30 ms, longest: 33 ms}");
+  const Explanation why = explain(plan::parse_plan(text, "plan.yaml"));
+  EXPECT_TRUE(says(why.core, "plan.rates.laser.longest: 33 ms") || says(why.core, "plan.cycle"));
+}
+
+// The least change of a number is enough, and the next smaller one is not.
+TEST(Explain, ChangesAreTheLeastOnes) {
+  const std::string text = changed(plan_text("paper"), "largest_age: 60 ms", "largest_age: 54 ms");
+  const Explanation why = explain(plan::parse_plan(text, "plan.yaml"));
+  const std::string key = "plan.chains.laser.largest_age: ";
+  for (const auto& one : why.changes) {
+    if (!one.text.starts_with(key)) continue;
+    const std::string value = one.text.substr(key.size());
+    EXPECT_TRUE(feasible(plan::parse_plan(changed(text, "largest_age: 54 ms", "largest_age: " + value), "p")).found);
+    const double less = std::stod(value) - 0.01;
+    EXPECT_FALSE(feasible(plan::parse_plan(
+                              changed(text, "largest_age: 54 ms", "largest_age: " + std::to_string(less) + " ms"), "p"))
+                     .found);
+    return;
+  }
+  FAIL() << "no change of the laser's age";
+}
+
+}  // namespace
+}  // namespace ttf::schedules::synthesis::instants

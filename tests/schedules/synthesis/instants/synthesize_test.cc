@@ -1,0 +1,147 @@
+#include "schedules/synthesis/instants/synthesize.h"
+
+#include <algorithm>
+
+#include "schedules/analysis/ages.h"
+#include "schedules/check/checker.h"
+#include "schedules/check/real_time_rules.h"
+#include "schedules/exchange/cluster_yaml.h"
+#include "schedules/file/loader.h"
+#include "tests/schedules/cluster_file.h"
+#include "tests/schedules/synthesis/plans.h"
+
+namespace ttf::schedules::synthesis::instants {
+namespace {
+
+double worst_use_ms(const model::Cluster& cluster) {
+  Duration worst{};
+  for (const analysis::AgePath& path : analysis::measurement_ages(cluster)) worst = std::max(worst, path.use_worst);
+  return in_ms(worst);
+}
+
+// The schedule that was fitted by hand (schedules/paper_fitted.yaml) is beaten, and nothing beats what was found.
+TEST(SynthesizePaper, BeatsTheScheduleByHandAndIsProvenBest) {
+  const plan::Plan plan = plan::load_plan(plan_path("paper"));
+  const Synthesis made = synthesize(plan);
+  ASSERT_TRUE(made.found);
+  EXPECT_TRUE(check::check(made.cluster).empty());
+  EXPECT_TRUE(check::check_real_time(made.cluster, check::kTimeScaleOne).empty());
+  const model::Cluster by_hand = check::load_checked_cluster(shipped_path("paper_fitted"));
+  EXPECT_LT(worst_use_ms(made.cluster), worst_use_ms(by_hand) - 0.3);
+  EXPECT_LT(made.cluster.sensors[0].period, by_hand.sensors[0].period);
+  for (const Reached& one : made.reached) {
+    EXPECT_TRUE(one.proven) << name_of(one.goal);
+    EXPECT_EQ(one.value, one.bound) << name_of(one.goal);
+  }
+  // The value is that of `schedule check`, by its own walk.
+  EXPECT_DOUBLE_EQ(made.reached[1].value, worst_use_ms(made.cluster));
+}
+
+TEST(SynthesizePaper, WrittenAndReadAgainItIsTheSame) {
+  const Synthesis made = synthesize(plan::load_plan(plan_path("paper")));
+  const std::string text = exchange::cluster_yaml(made.cluster, "A heading\nof two lines");
+  const model::Cluster again = file::parse_cluster(text, "made.yaml");
+  EXPECT_TRUE(check::check(again).empty());
+  EXPECT_EQ(exchange::cluster_yaml(again, "A heading\nof two lines"), text);
+  EXPECT_EQ(worst_use_ms(again), worst_use_ms(made.cluster));
+}
+
+TEST(SynthesizePaper, TheSamePlanHasTheSameCluster) {
+  const auto text = [] { return exchange::cluster_yaml(synthesize(plan::load_plan(plan_path("paper"))).cluster, ""); };
+  EXPECT_EQ(text(), text());
+}
+
+TEST(SynthesizePaper, FurtherSensorsFit) {
+  const plan::Plan plan = plan::load_plan(plan_path("paper_two_lasers_radar"));
+  const Synthesis made = synthesize(plan);
+  ASSERT_TRUE(made.found);
+  EXPECT_TRUE(check::check(made.cluster).empty());
+  EXPECT_EQ(analysis::measurement_ages(made.cluster).size(), 4u);
+  for (const Reached& one : made.reached) EXPECT_LE(one.bound, one.value);
+  // Four tasks of 2 ms stand on one processor, so the oldest list cannot be as new as in the paper's plan.
+  EXPECT_GT(made.reached[0].value, 90.5);
+}
+
+// Lists are fused in the order of their measurements, as far as clocks can tell.
+TEST(SynthesizePaper, ListsAreFusedInTheOrderOfTheirMeasurements) {
+  const Synthesis made = synthesize(plan::load_plan(plan_path("paper_two_lasers_radar")));
+  struct Fused {
+    Duration at, measured;
+  };
+  std::vector<Fused> all;
+  const model::Node& fusion = made.cluster.node(*made.cluster.find_node("fusion"));
+  for (const analysis::AgePath& path : analysis::measurement_ages(made.cluster)) {
+    const model::Sensor& sensor = made.cluster.sensor(path.sensor);
+    for (const model::Task& task : fusion.tasks)
+      for (const model::PortBinding& in : task.reads)
+        if (made.cluster.pdu(in.pdu).sensor == path.sensor) {
+          const auto at = time_of(made.cluster.flexray, 64 + task.activation.at.base_cycle, task.activation.at.offset);
+          const auto measured = time_of(made.cluster.flexray, sensor.at.base_cycle, sensor.at.offset);
+          const std::int64_t period = sensor.period.ns;
+          all.push_back(
+              {Duration{at.ns}, Duration{measured.ns + (at.ns - path.fused_best.ns - measured.ns) / period * period}});
+        }
+  }
+  ASSERT_EQ(all.size(), 4u);
+  for (const Fused& a : all)
+    for (const Fused& b : all) EXPECT_EQ(a.at < b.at, a.measured < b.measured);
+}
+
+// Instants and slots that a plan says stay where they are.
+TEST(SynthesizeFixed, PartsDoNotMove) {
+  std::string text = plan_text("paper");
+  const Synthesis free = synthesize(plan::parse_plan(text, "plan.yaml"));
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
+  text = changed(text, "\\{sender: fusion, pdu: image\\}", "{slot: 30, base_cycle: 1, sender: fusion, pdu: image}");
+  text = changed(text, "(step: laser_preprocessing\n *activation: \\{kind: time)", "$1, base_cycle: 0, offset: 5000");
+  const Synthesis made = synthesize(plan::parse_plan(text, "plan.yaml"));
+  ASSERT_TRUE(made.found);
+  EXPECT_TRUE(check::check(made.cluster).empty());
+  EXPECT_EQ(made.cluster.cycle(), Duration::microseconds(8600));
+  const PduId image = *made.cluster.find_pdu("image");
+  for (const model::FrameSlot& frame : made.cluster.frames)
+    if (frame.pdu == image) {
+      EXPECT_EQ(frame.slot, 30 + frame.fragment);
+      EXPECT_EQ(frame.base_cycle, 1);
+    }
+  const model::Task& task = made.cluster.node(*made.cluster.find_node("laser_pre")).tasks[0];
+  EXPECT_EQ(task.activation.at.base_cycle, 0);
+  EXPECT_EQ(task.activation.at.offset.value, 5000);
+  EXPECT_GE(made.reached[0].value, free.reached[0].value);
+}
+
+// A shipped cluster with all instants said is a plan without choices: its own instants come out.
+TEST(SynthesizeFixed, AClusterWithoutChoicesIsItself) {
+  const std::string text = shipped_text("paper_fitted") + "\nplan: {objective: [worst_age, jitter, room]}\n";
+  const Synthesis made = synthesize(plan::parse_plan(text, "plan.yaml"));
+  ASSERT_TRUE(made.found);
+  const model::Cluster by_hand = check::load_checked_cluster(shipped_path("paper_fitted"));
+  EXPECT_EQ(exchange::cluster_yaml(made.cluster, ""), exchange::cluster_yaml(by_hand, ""));
+  EXPECT_DOUBLE_EQ(made.reached[0].value, worst_use_ms(by_hand));
+}
+
+// The slots that a plan needs are found from both sides: fewer do not suffice.
+TEST(SynthesizeSlots, FewerSlotsDoNotSuffice) {
+  std::string text = changed(plan_text("paper"), "objective: \\[[^\\]]*\\]", "objective: [slots]");
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
+  const Synthesis made = synthesize(plan::parse_plan(text, "plan.yaml"));
+  ASSERT_TRUE(made.found && made.reached[0].proven);
+  int last = 0;
+  for (const model::FrameSlot& frame : made.cluster.frames) last = std::max(last, frame.slot);
+  EXPECT_EQ(made.reached[0].value, last);
+  EXPECT_EQ(last, 18);  // five key slots, and the image's thirteen; the other lists lie in other cycles
+}
+
+TEST(SynthesizeFinds, ContradictionsOfTheBusAtOnce) {
+  const std::string text = changed(plan_text("paper"), "gPayloadLengthStatic: 28 ", "gPayloadLengthStatic: 20 ");
+  try {
+    (void)synthesize(plan::parse_plan(text, "plan.yaml"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.findings()[0].sentence().find("must fit the payload of 40 bytes"), std::string::npos);
+    EXPECT_GT(error.findings()[0].line, 0);
+  }
+}
+
+}  // namespace
+}  // namespace ttf::schedules::synthesis::instants

@@ -1,0 +1,113 @@
+#include "schedules/synthesis/plan/loader.h"
+
+#include <algorithm>
+
+#include "tests/schedules/synthesis/plans.h"
+
+namespace ttf::schedules::synthesis::plan {
+namespace {
+
+TEST(PlanLoader, KnowsWhatThePaperPlanLeavesOut) {
+  const Plan plan = load_plan(plan_path("paper"));
+  EXPECT_TRUE(plan.free_cycle);
+  EXPECT_TRUE(plan.parameters.static_slots && plan.parameters.idle_time && plan.parameters.correction_start);
+  ASSERT_EQ(plan.lists.size(), 3u);
+  for (const PlannedList& list : plan.lists) EXPECT_TRUE(list.at.instant && list.at.repetition);
+  ASSERT_EQ(plan.cluster.frames.size(), 5u);  // the key slots
+  for (const PlannedSensor& sensor : plan.sensors) EXPECT_TRUE(sensor.at.instant && sensor.rate);
+  ASSERT_EQ(plan.chains.size(), 2u);
+  EXPECT_EQ(plan.cluster.node(plan.chains[0].node).name, "feature");
+}
+
+struct Mistake {
+  const char* name;
+  const char* pattern;
+  const char* replacement;
+  const char* key;    // the finding's
+  const char* words;  // in its sentence
+};
+
+// Every mistake is one sentence with line and key.
+TEST(PlanLoader, NamesEachMistake) {
+  const Mistake mistakes[] = {
+      {"no section", "plan:\n", "plans:\n", "plan", "is missing"},
+      {"cycle twice", "  gdMacrotick: 1 ", "  gdCycle: 5000\n  gdMacrotick: 1 ", "flexray.gdCycle", "must be left out"},
+      {"cycle backwards", "longest: 9 ms, step", "longest: 8 ms, step", "plan.cycle.longest", "8500 us"},
+      {"no step", ", step: [^}]*", "", "plan.cycle.step", "is missing"},
+      {"tiny step", "longest: 9 ms, step: [^}]*", "longest: 16 ms, step: 100 ns", "plan.cycle.step", "must be"},
+      {"too long a cycle", "longest: 9 ms, step", "longest: 90 ms, step", "plan.cycle.longest", "16 ms"},
+      {"negative age", "largest_age: 60 ms", "largest_age: -1 ms", "plan.chains.laser.largest_age", "must be"},
+      {"absurd age", "largest_age: 60 ms", "largest_age: 90 s", "plan.chains.laser.largest_age", "must be"},
+      {"from nowhere", "from: laser, to", "from: lidar, to", "plan.chains.laser.from", "is not the name of a sensor"},
+      {"to nowhere", "to: feature.use", "to: feature.abuse", "plan.chains.laser.to", "must be NODE.TASK"},
+      {"no way there", "from: laser, to: feature.use", "from: laser, to: camera_pre.preprocess", "plan.chains.laser.to",
+       "no list leads there"},
+      {"to a measurement", "from: laser, to: feature.use", "from: laser, to: laser.measure", "plan.chains.laser.to",
+       "must be a task that time activates"},
+      {"unknown objective", "objective: \\[data_age", "objective: [beauty", "plan.objective[0]", "must be one of"},
+      {"objective twice", "objective: \\[data_age", "objective: [slots", "plan.objective", "once"},
+      {"no rate", "    laser: \\{shortest: [^}]*\\}\n", "", "plan.rates", "must say how often laser measures"},
+      {"rate of nothing", "    laser: \\{shortest", "    lidar: {shortest", "plan.rates.lidar", "is not the name"},
+      {"rate backwards", "laser: \\{shortest: 34 ms", "laser: {shortest: 54 ms", "plan.rates.laser.longest", "must be"},
+      {"half an instant", "measurement: scheduled\\}", "measurement: scheduled, offset: 5}", "sensors.laser.base_cycle",
+       "leaves out both"},
+      {"half a task's instant", "\\{kind: time\\}", "{kind: time, base_cycle: 0}",
+       "nodes.laser_pre.tasks.preprocess.activation.offset", "leaves out both"},
+      {"half a slot", "\\{sender: fusion, pdu: image\\}", "{sender: fusion, pdu: image, slot: 9}",
+       "frames[7].base_cycle", "leaves out both"},
+      {"a part of a list", "\\{sender: fusion, pdu: image\\}", "{sender: fusion, pdu: image, first_fragment: 1}",
+       "frames[7].first_fragment", "whole lists"},
+      {"unknown key", "  objective:", "  objectives: 1\n  objective:", "plan.objectives", ""},
+      {"key of a cluster", "draw: worst", "draw: often", "nodes.laser.tasks.measure.draw", "must be one of"},
+      {"range of a cluster", "gPayloadLengthStatic: 28", "gPayloadLengthStatic: 200", "flexray.gPayloadLengthStatic",
+       "0..127"},
+      {"like nothing", "  objective:", "  sensors: {rear: {like: lidar}}\n  objective:", "plan.sensors.rear.like",
+       "is not the name of an earlier sensor"},
+      {"like itself", "  objective:", "  sensors: {laser: {like: laser}}\n  objective:", "plan.sensors.laser",
+       "is the name of an earlier sensor"},
+  };
+  const std::string original = plan_text("paper");
+  ASSERT_TRUE(plan_findings(original).empty());
+  for (const Mistake& mistake : mistakes) {
+    SCOPED_TRACE(mistake.name);
+    const std::string text = changed(original, mistake.pattern, mistake.replacement);
+    const auto findings = plan_findings(text);
+    const bool named = std::any_of(findings.begin(), findings.end(), [&](const Finding& one) {
+      return one.file == "plan.yaml" && one.line > 0 && one.key == mistake.key &&
+             one.sentence().find(mistake.words) != std::string::npos;
+    });
+    EXPECT_TRUE(named) << mistake.key << ": " << mistake.words;
+    if (!named)
+      for (const Finding& one : findings) ADD_FAILURE() << one.sentence();
+  }
+}
+
+// A finding about what a base says names the base's file and line.
+TEST(PlanLoader, AnExtendingPlanNamesItsBase) {
+  EXPECT_NO_THROW((void)load_plan(plan_path("paper_two_lasers_radar")));
+  EXPECT_THROW((void)parse_plan(plan_text("paper_two_lasers_radar"), "plan.yaml"), InputError);  // no folder
+}
+
+TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
+  const Plan plan = load_plan(plan_path("paper_two_lasers_radar"));
+  ASSERT_EQ(plan.cluster.sensors.size(), 4u);
+  const auto rear = plan.cluster.find_sensor("rear_laser"), radar = plan.cluster.find_sensor("front_radar");
+  ASSERT_TRUE(rear && radar);
+  EXPECT_EQ(plan.cluster.sensor(*radar).kind, model::SensorKind::kRadar);
+  const model::Node& host = plan.cluster.node(plan.cluster.sensor(*radar).host);
+  EXPECT_EQ(host.tasks[0].step, "radar_preprocessing");
+  EXPECT_FALSE(host.flexray->pKeySlotUsedForSync);
+  EXPECT_NE(host.flexray->pKeySlotId, plan.cluster.node(plan.cluster.sensor(*rear).host).flexray->pKeySlotId);
+  EXPECT_EQ(plan.lists.size(), 5u);
+  EXPECT_EQ(plan.cluster.can_buses.size(), 4u);
+  EXPECT_EQ(plan.chains.size(), 4u);
+  for (const model::CanBus& bus : plan.cluster.can_buses)
+    for (const model::CanMessage& message : bus.messages) {
+      const model::Node& sender = plan.cluster.node(message.sender);
+      ASSERT_EQ(sender.tasks.size(), 1u);
+      EXPECT_EQ(sender.tasks[0].writes[0].pdu, message.pdu);
+    }
+}
+
+}  // namespace
+}  // namespace ttf::schedules::synthesis::plan

@@ -1,0 +1,43 @@
+// The shipped plans, and changes to them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "core/errors.h"
+#include "schedules/synthesis/plan/loader.h"
+
+namespace ttf::schedules::synthesis {
+
+inline std::string plan_path(const std::string& name) { return TTF_SOURCE_DIR "/schedules/plans/" + name + ".yaml"; }
+
+inline std::string plan_text(const std::string& name) {
+  std::ifstream stream(plan_path(name), std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Returns the plan's text with the first match of a pattern replaced.
+inline std::string changed(const std::string& text, const std::string& pattern, const std::string& replacement) {
+  const std::string made =
+      std::regex_replace(text, std::regex(pattern), replacement, std::regex_constants::format_first_only);
+  EXPECT_NE(made, text) << pattern << " does not occur";
+  return made;
+}
+
+// Returns the findings of a plan's loader.
+inline std::vector<Finding> plan_findings(const std::string& text) {
+  try {
+    (void)plan::parse_plan(text, "plan.yaml");
+    return {};
+  } catch (const InputError& error) {
+    return error.findings();
+  }
+}
+
+}  // namespace ttf::schedules::synthesis
