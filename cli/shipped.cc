@@ -43,7 +43,9 @@ std::string_view without_end(std::string_view name) {
 
 // Returns the word for one file of a folder: "scenarios" are scenarios.
 std::string one_of_folder(std::string_view folder) {
-  return folder == kTaskSets ? "task set" : std::string(folder.substr(0, folder.size() - 1));
+  if (folder == kTaskSets) return "task set";
+  const std::string_view last = folder.substr(folder.rfind('/') + 1);
+  return std::string(last.substr(0, last.size() - 1));
 }
 
 [[noreturn]] void refuse(const std::string& typed, const std::vector<std::string_view>& folders) {

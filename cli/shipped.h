@@ -9,7 +9,7 @@
 namespace ttf::cli {
 
 inline constexpr std::string_view kScenarios = "scenarios", kSchedules = "schedules", kExperiments = "experiments";
-inline constexpr std::string_view kTaskSets = "schedules/task_sets";
+inline constexpr std::string_view kTaskSets = "schedules/task_sets", kPlans = "schedules/plans";
 
 // Returns the path of the file that `typed` means, with or without .yaml, or .csv for a task set. A file of one's own goes first. Else it is a
 // shipped file by its name, or by folder and name: "scenarios/crowd.yaml". Throws InputError if there is neither. Paths

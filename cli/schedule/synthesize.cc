@@ -5,34 +5,44 @@
 
 #include "cli/argument_checks.h"
 #include "cli/schedule/packing/command.h"
+#include "cli/schedule/planning/command.h"
 #include "core/errors.h"
 
 namespace ttf::cli::schedule {
 namespace {
 
 struct SynthesizeOptions {
+  std::string plan;
   packing::PackingOptions packing;
   std::string out;
   bool json = false;
 };
 
 int synthesize(const SynthesizeOptions& options) {
+  if (!options.plan.empty()) return planning::synthesize_plan(options.plan, options.out, options.json);
   if (!options.packing.signals.empty()) return packing::pack_signals(options.packing, options.out, options.json);
-  throw InputError({"command line", 0, "--signals", "", "must name the signals to pack"});
+  throw InputError({"command line", 0, "plan", "", "must name a plan, or --signals the signals to pack"});
 }
 
 }  // namespace
 
 void add_synthesize(CLI::App& schedule, Action& action) {
   auto options = std::make_shared<SynthesizeOptions>();
-  CLI::App* command = schedule.add_subcommand("synthesize", "Pack signals into the fewest slots of the static segment");
+  CLI::App* command = schedule.add_subcommand(
+      "synthesize", "Choose the instants and slots that a plan leaves out, or pack signals into the fewest slots");
   command->footer(
-      "Examples: ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o packing.csv\n"
+      "Examples: ttfusion schedule synthesize schedules/plans/paper.yaml -o paper_planned.yaml\n"
+      "          ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o packing.csv\n"
       "          ttfusion schedule synthesize --signals examples/packing/grown_signals.csv --fixed packing.csv "
-      "--payload "
-      "8byte -o grown.csv");
+      "--payload 8byte -o grown.csv");
+  CLI::Option* plan =
+      command->add_option("plan", options->plan, "Plan (docs/synthesis.md), or a shipped one's name")->check(named());
   packing::add_packing_options(*command, options->packing);
-  command->add_option("-o,--out", options->out, "File to write: CSV (docs/packing.md)")->check(named());
+  plan->excludes("--signals");
+  command
+      ->add_option("-o,--out", options->out,
+                   "File to write: a cluster file, or CSV (docs/packing.md); without it, a plan's values are printed")
+      ->check(named());
   command->add_flag("--json", options->json, "Result as JSON on standard output");
   command->callback([options, &action] { action = [options] { return synthesize(*options); }; });
 }

@@ -1,0 +1,135 @@
+#include "cli/schedule/planning/command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "cli/output.h"
+#include "cli/shipped.h"
+#include "core/errors.h"
+#include "drives/step_catalog.h"
+#include "schedules/exchange/cluster_yaml.h"
+#include "schedules/file/loader.h"
+#include "schedules/synthesis/instants/explain.h"
+#include "schedules/synthesis/instants/synthesize.h"
+#include "schedules/synthesis/plan/loader.h"
+
+namespace ttf::cli::schedule::planning {
+namespace {
+
+namespace instants = schedules::synthesis::instants;
+namespace plans = schedules::synthesis::plan;
+using instants::Synthesis;
+using plans::Goal;
+using plans::Plan;
+
+std::string value_text(Goal goal, double value) {
+  if (goal == Goal::kSlots) return fmt::format("{:.0f}", value);
+  if (goal == Goal::kRoom) return fmt::format("{:.1f} %", 100.0 * value);
+  return fmt::format("{:.3f} ms", value);
+}
+
+std::string proof_text(const instants::Reached& one) {
+  if (one.proven) return "proven best";
+  const double off = one.goal == Goal::kRoom ? one.bound - one.value : one.value - one.bound;
+  return fmt::format("at most {} off", value_text(one.goal, off));
+}
+
+std::string report(const Plan& plan, const Synthesis& made) {
+  const auto& cluster = made.cluster;
+  std::string text = fmt::format("{}: a cycle of {:g} ms, chosen among {} cycles and rates\n", cluster.name,
+                                 in_ms(cluster.cycle()), made.candidates);
+  text += fmt::format("{:<22}{:>12}{:>12}\n", "objective", "value", "bound");
+  for (const instants::Reached& one : made.reached)
+    text += fmt::format("{:<22}{:>12}{:>12}  {}\n", instants::name_of(one.goal), value_text(one.goal, one.value),
+                        value_text(one.goal, one.bound), proof_text(one));
+  text += fmt::format("{:<22}{:>12}{:>12}{:>12}{:>12}\n", "chain [ms]", "best age", "worst age", "largest", "every");
+  for (std::size_t c = 0; c < plan.chains.size(); ++c) {
+    const plans::PlannedChain& chain = plan.chains[c];
+    text +=
+        fmt::format("{:<22}{:>12.3f}{:>12.3f}{:>12}{:>12.3f}\n", chain.name, in_ms(made.ages[c].best),
+                    in_ms(made.ages[c].worst), chain.largest_age ? fmt::format("{:g}", in_ms(*chain.largest_age)) : "-",
+                    in_ms(cluster.sensor(chain.from).period));
+  }
+  return text;
+}
+
+nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
+  nlohmann::ordered_json json{{"cluster", made.cluster.name},
+                              {"found", true},
+                              {"cycle_ms", in_ms(made.cluster.cycle())},
+                              {"candidates", made.candidates}};
+  for (const instants::Reached& one : made.reached)
+    json["objective"].push_back(
+        {{"name", instants::name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
+  for (std::size_t c = 0; c < plan.chains.size(); ++c)
+    json["chains"].push_back({{"name", plan.chains[c].name},
+                              {"age_ms", {in_ms(made.ages[c].best), in_ms(made.ages[c].worst)}},
+                              {"period_ms", in_ms(made.cluster.sensor(plan.chains[c].from).period)}});
+  return json;
+}
+
+std::string said(const instants::Explanation::Said& one) {
+  return one.line > 0 ? fmt::format("{}:{}: {}", one.file, one.line, one.text) : one.text;
+}
+
+int explain(const std::string& file, const Plan& plan, const Synthesis& made, bool json) {
+  if (!made.refused.empty()) {
+    std::vector<std::string> reasons;
+    for (const Finding& finding : in_the_files(plan, made.refused)) reasons.push_back(finding.sentence());
+    return print_reasons(file, "no instants were found that pass the check", reasons);
+  }
+  const instants::Explanation why = instants::explain(plan);
+  std::vector<std::string> core, changes;
+  for (const auto& one : why.core) core.push_back(said(one));
+  for (const auto& one : why.changes) changes.push_back(said(one));
+  if (json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"cluster", plan.cluster.name},
+                                              {"found", false},
+                                              {"proven", why.proven},
+                                              {"cannot_hold_together", core},
+                                              {"one_change_is_enough", changes}}
+                           .dump(2));
+  if (core.empty())
+    return print_reasons(file, "no solution was found, and dropping all that the plan says of instants does not help",
+                         {"the lengths of the cycle allow no period for its sensors"});
+  const int code = print_reasons(file,
+                                 why.proven ? "has no solution: these statements cannot hold together"
+                                            : "no solution was found with these statements together",
+                                 core);
+  if (!changes.empty()) print_reasons(file, "one of these changes alone is enough", changes);
+  return code;
+}
+
+}  // namespace
+
+int synthesize_plan(const std::string& typed, const std::string& out, bool json) {
+  const std::string file = file_named(typed, {kPlans});
+  if (!out.empty()) refuse_overwriting(file, out, "--out");
+  const Plan plan = plans::load_plan(file);
+  const Synthesis made = instants::synthesize(plan);
+  if (!made.found) return explain(file, plan, made, json);
+  try {
+    drives::check_steps(made.cluster);
+  } catch (const InputError& error) {
+    throw InputError(in_the_files(plan, error.findings()));
+  }
+  const std::string text = report(plan, made);
+  if (!out.empty()) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    const std::string yaml = schedules::exchange::cluster_yaml(
+        made.cluster, fmt::format("Made from {} by `ttfusion schedule synthesize`.\n{}", name, text));
+    schedules::file::parse_cluster(yaml, out);  // it can be read back
+    write_file(out, yaml);
+    say_written(out);
+  }
+  if (json)
+    fmt::print("{}\n", report_json(plan, made).dump(2));
+  else
+    fmt::print("{}", text);
+  return 0;
+}
+
+}  // namespace ttf::cli::schedule::planning
