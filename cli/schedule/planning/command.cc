@@ -12,13 +12,14 @@
 #include "drives/step_catalog.h"
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/file/loader.h"
-#include "schedules/synthesis/instants/explain.h"
+#include "schedules/synthesis/explanation/explain.h"
 #include "schedules/synthesis/instants/synthesize.h"
 #include "schedules/synthesis/plan/loader.h"
 
 namespace ttf::cli::schedule::planning {
 namespace {
 
+namespace explanation = schedules::synthesis::explanation;
 namespace instants = schedules::synthesis::instants;
 namespace plans = schedules::synthesis::plan;
 using instants::Synthesis;
@@ -71,7 +72,7 @@ nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
   return json;
 }
 
-std::string said(const instants::Explanation::Said& one) {
+std::string said(const explanation::Explanation::Said& one) {
   return one.line > 0 ? fmt::format("{}:{}: {}", one.file, one.line, one.text) : one.text;
 }
 
@@ -81,7 +82,7 @@ int explain(const std::string& file, const Plan& plan, const Synthesis& made, bo
     for (const Finding& finding : in_the_files(plan, made.refused)) reasons.push_back(finding.sentence());
     return print_reasons(file, "no instants were found that pass the check", reasons);
   }
-  const instants::Explanation why = instants::explain(plan);
+  const explanation::Explanation why = explanation::explain(plan);
   std::vector<std::string> core, changes;
   for (const auto& one : why.core) core.push_back(said(one));
   for (const auto& one : why.changes) changes.push_back(said(one));

@@ -40,11 +40,13 @@ class Engine {
   Search run() {
     found_.exact = !possible();
     if (found_.exact) return std::move(found_);
-    for (const Ticks position : positions()) {
-      begin(position);
+    const std::vector<Ticks> all = positions();
+    for (std::size_t p = 0; p < all.size() && !(any_ && found_.best); ++p) {
+      // Each position has its share of the steps that are left.
+      until_ = found_.steps + (kMostSteps - found_.steps) / static_cast<std::int64_t>(all.size() - p);
+      begin(all[p]);
       if (fits(place_waiting()) && !done()) descend();
       reset();
-      if (done()) break;
     }
     found_.exact = exact();
     return std::move(found_);
@@ -52,7 +54,10 @@ class Engine {
 
  private:
   static bool is_list(const Activity& activity) { return activity.grid.step > 1; }
-  bool done() const { return found_.steps >= kMostSteps || (any_ && found_.best); }
+  bool done() {
+    cut_ = cut_ || found_.steps >= until_;
+    return found_.steps >= until_ || (any_ && found_.best);
+  }
 
   // The end of most chains, and all that leads there.
   void choose_anchor() {
@@ -242,12 +247,12 @@ class Engine {
     return at;
   }
 
-  std::size_t longest_head(std::size_t a) const {
+  Ticks longest_head(std::size_t a) const {
     Ticks longest = 0;
     for (std::size_t c = 0; c < problem_.chains.size(); ++c)
       for (std::size_t i = 0; i < heads_[c].size(); ++i)
         if (problem_.chains[c].activities[i] == a) longest = std::max(longest, heads_[c][i]);
-    return static_cast<std::size_t>(longest);
+    return longest;
   }
 
   // Tries every order of those that may be placed next.
@@ -291,8 +296,8 @@ class Engine {
   bool put_early(std::size_t a, Ticks earliest) {
     ++found_.steps;
     const Activity& activity = problem_.activities[a];
-    const auto on_grid = [&](Ticks from) { return next_on_grid(grids_[a], from); };
-    Ticks at = activity.fixed ? earliest + modulo(*activity.fixed - earliest, activity.period) : on_grid(earliest);
+    Ticks at = activity.fixed ? earliest + modulo(*activity.fixed - earliest, activity.period)
+                              : next_on_grid(grids_[a], earliest);
     if (!activity.fixed && activity.resource) {
       const auto& standing = standing_[*activity.resource];
       for (std::size_t i = 0; i < standing.size();) {
@@ -301,7 +306,7 @@ class Engine {
           ++i;
           continue;
         }
-        at = on_grid(at + on);
+        at = next_on_grid(grids_[a], at + on);
         if (at - earliest > 2 * activity.period) return false;
         i = 0;
       }
@@ -314,8 +319,7 @@ class Engine {
   }
 
   void finish() {
-    const std::vector<Ticks> before = at_;
-    const std::size_t count = trail_.size();
+    const auto [before, count] = std::pair{at_, trail_.size()};
     if (place_rest() && measure_in_order(reading_, placed_, at_)) take();
     undo(count);
     at_ = before;
@@ -343,7 +347,7 @@ class Engine {
 
   bool exact() const {
     if (found_.best && best_worst_ == least_worst_) return true;
-    if (found_.steps >= kMostSteps || !one_anchor_ || raster_) return false;
+    if (cut_ || !one_anchor_ || raster_) return false;
     const Ticks period = problem_.activities[anchor_].period;
     const Ticks most = largest_possible();
     for (const Chain& chain : problem_.chains)
@@ -354,7 +358,7 @@ class Engine {
       for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
         const Activity& one = problem_.activities[a];
         if (!one.fixed && one.resource == r && main_[a] && contended(a))
-          longest = std::max(longest, most - static_cast<Ticks>(longest_head(a)) + one.duration);
+          longest = std::max(longest, most - longest_head(a) + one.duration);
       }
       if (longest > period) return false;
     }
@@ -383,7 +387,8 @@ class Engine {
   Ticks least_worst_ = 0;
   std::vector<std::size_t> trail_;
   std::size_t anchor_ = 0;
-  bool one_anchor_ = true, raster_ = false, ok_ = true;
+  bool one_anchor_ = true, raster_ = false, ok_ = true, cut_ = false;
+  std::int64_t until_ = 0;  // steps of the position that is tried
   Ticks best_worst_ = 0, best_sum_ = 0;
   Search found_;
 };

@@ -256,7 +256,7 @@ class Reader {
       Chain chain;
       chain.name = planned.name;
       chain.line = planned.line;
-      if (planned.largest_age) chain.largest_age = planned.largest_age->ns * 1'000 / g_.gdMacrotick_ps;
+      if (planned.largest_age) chain.largest_age = nominal(*planned.largest_age);
       chain.activities.push_back(*made_.sensors[index_of(planned.from)]);
       for (const Hop& hop : way_to(cluster_, planned.from, {planned.node, planned.task})) {
         if (hop.list != nullptr && hop.list->medium.is_flexray())
@@ -265,6 +265,14 @@ class Reader {
       }
       problem().chains.push_back(std::move(chain));
     }
+  }
+
+  // Returns the longest way by one clock whose age is within the bound by any clock: both ends' difference, and the drift
+  // (schedules/analysis/ages.h, A2).
+  Ticks nominal(Duration largest) const {
+    const std::int64_t ns = static_cast<std::int64_t>(static_cast<Int128>(largest.ns - clocks_.apart_ns - 1) *
+                                                      1'000'000'000 / (1'000'000'000 + 2 * clocks_.drift_ppb));
+    return ns < 0 ? -1 : static_cast<Ticks>(static_cast<Int128>(ns) * 1'000 / g_.gdMacrotick_ps);
   }
 
   void append(Chain& chain, std::size_t activity) {

@@ -10,6 +10,7 @@
 #include "schedules/check/checker.h"
 #include "schedules/model/limits.h"
 #include "schedules/synthesis/instants/bounds.h"
+#include "schedules/synthesis/instants/measured.h"
 #include "schedules/synthesis/instants/placement.h"
 #include "schedules/synthesis/instants/reading.h"
 #include "schedules/synthesis/plan/loader.h"
@@ -273,8 +274,11 @@ void refuse_contradictions(const Plan& plan, const Timed& timed) {
   int slot = 1;
   for (const model::FrameSlot& frame : cluster.frames) slot = std::max(slot, frame.slot + 1);
   for (const PlannedList& list : plan.lists)
+    if (!list.at.instant) slot = std::max(slot, list.slot + cluster.pdu(list.pdu).max_fragments());
+  for (const PlannedList& list : plan.lists)
     for (int f = 0; f < cluster.pdu(list.pdu).max_fragments(); ++f)
-      cluster.frames.push_back({slot++, list.channels, 0, 1, list.sender, list.pdu, f, list.line});
+      cluster.frames.push_back({list.at.instant ? slot++ : list.slot + f, list.channels, 0,
+                                list.at.instant ? 1 : list.repetition, list.sender, list.pdu, f, list.line});
   std::stable_sort(cluster.frames.begin(), cluster.frames.end(),
                    [](const auto& a, const auto& b) { return a.slot < b.slot; });
   cluster.flexray.gNumberOfStaticSlots = std::max(cluster.flexray.gNumberOfStaticSlots, slot);
@@ -298,28 +302,6 @@ std::vector<Candidate> checked_candidates(const Plan& plan) {
       break;
     }
   return all;
-}
-
-void complete(const Plan& plan, const Optimiser& optimiser, Synthesis& made) {
-  Duration worst{}, jitter{}, data{};
-  for (const PlannedChain& chain : plan.chains) {
-    made.ages.push_back(age_bounds(made.cluster, chain));
-    const Duration period =
-        made.cluster.cycle() * made.cluster.node(chain.node).tasks[chain.task].activation.at.repetition;
-    data = std::max(data, made.ages.back().worst + period);
-    worst = std::max(worst, made.ages.back().worst);
-    jitter = std::max(jitter, made.ages.back().worst - made.ages.back().best);
-  }
-  const double tick_ms = static_cast<double>(made.cluster.flexray.gdMacrotick_ps) / 1e9;
-  made.reached = optimiser.reached();
-  for (Reached& one : made.reached) {
-    const double off = one.value - one.bound;
-    if (one.goal == Goal::kWorstAge) one.value = in_ms(worst);
-    if (one.goal == Goal::kDataAge) one.value = in_ms(data);
-    if (one.goal == Goal::kJitter) one.value = in_ms(jitter);
-    if (one.goal == Goal::kWorstAge || one.goal == Goal::kDataAge || one.goal == Goal::kJitter)
-      one.bound = one.value - off * tick_ms;
-  }
 }
 
 }  // namespace
@@ -351,10 +333,13 @@ Synthesis synthesize(const Plan& plan) {
     made.cluster = with_instants(plan, read->timed, read->reading, trial.placed->solution);
     std::vector<Finding> findings = check::check(made.cluster);
     if (findings.empty()) {
-      made.found = true;
+      made.ages.clear();
+      const Measured measured = measure(plan, *trial.placed, made);
+      findings = too_old(plan, made);
+      made.found = findings.empty();
       made.candidate = trial.candidate;
-      complete(plan, optimiser, made);
-      return made;
+      made.reached = in_units(optimiser.reached(), measured, made.cluster);
+      if (made.found) return made;
     }
     if (made.refused.empty()) made.refused = std::move(findings);
     refused.insert(*chosen);

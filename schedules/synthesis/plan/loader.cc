@@ -43,6 +43,26 @@ void take_lists(Plan& plan, const std::vector<LeftOutValues::Frame>& entries) {
   std::stable_sort(plan.lists.begin(), plan.lists.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
 }
 
+// A node without another frame in its key slot sends a list of one frame there, in every cycle.
+void use_key_slots(Plan& plan) {
+  for (PlannedList& list : plan.lists) {
+    const auto& flexray = plan.cluster.node(list.sender).flexray;
+    const bool every_cycle = list.at.repetition || list.repetition == 1;
+    if (!list.at.instant || !flexray || !every_cycle || plan.cluster.pdu(list.pdu).max_fragments() > 1) continue;
+    const int slot = flexray->pKeySlotId;
+    const auto taken = [&](const model::FrameSlot& frame) { return frame.slot == slot; };
+    if (std::any_of(plan.cluster.frames.begin(), plan.cluster.frames.end(), taken)) continue;
+    const bool promised = std::any_of(plan.lists.begin(), plan.lists.end(), [&](const PlannedList& other) {
+      return !other.at.instant && other.slot == slot;
+    });
+    if (promised) continue;
+    list.base_cycle = 0;
+    list.repetition = 1;
+    list.slot = slot;
+    list.at = {};
+  }
+}
+
 // Returns the lengths of the cycle, or the one length that the cluster says.
 CycleLengths lengths_of(const StrictYaml& file, const std::optional<CycleLengths>& free, Findings& findings) {
   Findings none;
@@ -98,6 +118,7 @@ Plan read(StrictYaml file, TextOrigins origins) {
   plan.shortest_periods = std::move(left.shortest_periods);
   for (const LeftOut& at : left.sensors) plan.sensors.push_back({at, std::nullopt, std::nullopt});
   take_lists(plan, left.frames);
+  use_key_slots(plan);
   plan.origins = std::move(origins);
   read_section(section, plan);
   findings.throw_if_any();

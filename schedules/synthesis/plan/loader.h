@@ -8,6 +8,8 @@
 //   frames            slot and base_cycle of a list; repetition; channels (AB); fragments (all)
 //   can               shortest_period of messages
 //
+// A list of one frame without a slot stands in its sender's key slot, if no other frame does.
+//
 //   plan:
 //     cycle: {shortest: 5 ms, longest: 10 ms, step: 100 us}     lengths to choose from; instead of gdCycle
 //     rates: {SENSOR: {shortest: 34 ms, longest: 40 ms}}        allowed periods

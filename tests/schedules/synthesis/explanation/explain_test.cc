@@ -1,12 +1,17 @@
 // Plans without a solution are explained in their own words: each statement of the core is needed, and each change is enough.
-#include "schedules/synthesis/instants/explain.h"
+#include "schedules/synthesis/explanation/explain.h"
 
 #include <algorithm>
 
 #include "schedules/synthesis/instants/synthesize.h"
 #include "tests/schedules/synthesis/plans.h"
 
-namespace ttf::schedules::synthesis::instants {
+namespace ttf::schedules::synthesis::explanation {
+
+using instants::feasible;
+using instants::Feasible;
+using instants::Synthesis;
+using instants::synthesize;
 namespace {
 
 bool says(const std::vector<Explanation::Said>& list, const std::string& words) {
@@ -36,6 +41,22 @@ TEST(Explain, APeriodThatIsShorterThanTheExecution) {
   EXPECT_TRUE(says(why.core, "plan.rates.laser.longest: 33 ms") || says(why.core, "plan.cycle"));
 }
 
+// A largest age is one by any clock, as `schedule check` bounds it: just above the best it holds, just below it does not.
+TEST(Explain, LargestAgesAreThoseOfTheCheck) {
+  const std::string one_cycle =
+      changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8535 us, longest: 8535 us, step: 100 us}");
+  const Synthesis made = synthesize(plan::parse_plan(one_cycle, "plan.yaml"));
+  ASSERT_TRUE(made.found);
+  const auto with = [&](std::int64_t us) {
+    const std::string age = "largest_age: " + std::to_string(us) + " us";
+    return feasible(
+        plan::parse_plan(changed(changed(one_cycle, "largest_age: 60 ms", age), "largest_age: 60 ms", age), "p"));
+  };
+  const std::int64_t best_us = std::max(made.ages[0].worst, made.ages[1].worst).ns / 1'000;
+  EXPECT_TRUE(with(best_us + 2).found);
+  EXPECT_FALSE(with(best_us - 2).found);
+}
+
 // The least change of a number is enough, and the next smaller one is not.
 TEST(Explain, ChangesAreTheLeastOnes) {
   const std::string text = changed(plan_text("paper"), "largest_age: 60 ms", "largest_age: 54 ms");
@@ -55,4 +76,4 @@ TEST(Explain, ChangesAreTheLeastOnes) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules::synthesis::instants
+}  // namespace ttf::schedules::synthesis::explanation

@@ -1,4 +1,4 @@
-#include "schedules/synthesis/instants/statements.h"
+#include "schedules/synthesis/explanation/statements.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "core/decimal.h"
 #include "schedules/synthesis/plan/ways.h"
 
-namespace ttf::schedules::synthesis::instants {
+namespace ttf::schedules::synthesis::explanation {
 
 using plan::by_time;
 using plan::Plan;
@@ -194,4 +194,4 @@ class Collector {
 
 std::vector<Statement> statements(const Plan& plan) { return Collector(plan).collect(); }
 
-}  // namespace ttf::schedules::synthesis::instants
+}  // namespace ttf::schedules::synthesis::explanation

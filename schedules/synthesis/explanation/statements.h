@@ -10,7 +10,7 @@
 
 #include "schedules/synthesis/plan/plan.h"
 
-namespace ttf::schedules::synthesis::instants {
+namespace ttf::schedules::synthesis::explanation {
 
 // A number that a statement sets, and in which direction it eases the plan.
 struct Dial {
@@ -30,4 +30,4 @@ struct Statement {
 // instants that stand, and ages at last.
 std::vector<Statement> statements(const plan::Plan& plan);
 
-}  // namespace ttf::schedules::synthesis::instants
+}  // namespace ttf::schedules::synthesis::explanation

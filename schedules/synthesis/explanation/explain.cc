@@ -1,13 +1,15 @@
-#include "schedules/synthesis/instants/explain.h"
+#include "schedules/synthesis/explanation/explain.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "schedules/synthesis/instants/statements.h"
+#include "schedules/synthesis/explanation/statements.h"
 #include "schedules/synthesis/instants/synthesize.h"
 
-namespace ttf::schedules::synthesis::instants {
+namespace ttf::schedules::synthesis::explanation {
 
+using instants::feasible;
+using instants::Feasible;
 using plan::Plan;
 namespace {
 
@@ -82,4 +84,4 @@ class Explainer {
 
 Explanation explain(const Plan& plan) { return Explainer(plan).run(); }
 
-}  // namespace ttf::schedules::synthesis::instants
+}  // namespace ttf::schedules::synthesis::explanation

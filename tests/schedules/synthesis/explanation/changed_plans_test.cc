@@ -1,10 +1,15 @@
 // Two changes at a time to the paper's plan: hundreds of plans, most of which have no solution.
 #include "schedules/check/checker.h"
-#include "schedules/synthesis/instants/explain.h"
+#include "schedules/synthesis/explanation/explain.h"
 #include "schedules/synthesis/instants/synthesize.h"
 #include "tests/schedules/synthesis/plans.h"
 
-namespace ttf::schedules::synthesis::instants {
+namespace ttf::schedules::synthesis::explanation {
+
+using instants::feasible;
+using instants::Feasible;
+using instants::Synthesis;
+using instants::synthesize;
 namespace {
 
 struct Mutation {
@@ -72,4 +77,4 @@ TEST(Explain, HundredsOfChangedPlansAreSolvedOrExplained) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules::synthesis::instants
+}  // namespace ttf::schedules::synthesis::explanation

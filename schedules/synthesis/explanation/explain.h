@@ -9,7 +9,7 @@
 
 #include "schedules/synthesis/plan/plan.h"
 
-namespace ttf::schedules::synthesis::instants {
+namespace ttf::schedules::synthesis::explanation {
 
 struct Explanation {
   struct Said {
@@ -26,4 +26,4 @@ struct Explanation {
 // Needs a plan without solution. Returns an empty core if no statement helps when it is dropped.
 Explanation explain(const plan::Plan& plan);
 
-}  // namespace ttf::schedules::synthesis::instants
+}  // namespace ttf::schedules::synthesis::explanation

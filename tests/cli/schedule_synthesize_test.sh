@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# `ttfusion schedule synthesize PLAN.yaml`: the shipped plans become clusters that pass the check and drive, a plan without
+# solution is explained, and one sentence for each mistake.
+#   schedule_synthesize_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+plans=$source/schedules/plans
+
+expect 0 '^data_age .* proven best$' schedule synthesize "$plans/paper.yaml" -o "$work/paper.yaml"
+says '^worst_age .* proven best$'
+expect 0 '^paper_planned: consistent$' schedule check "$work/paper.yaml"
+expect 0 '^front_radar ' schedule synthesize "$plans/paper_two_lasers_radar.yaml" -o "$work/four.yaml"
+expect 0 '^paper_two_lasers_radar: consistent$' schedule check "$work/four.yaml"
+for cluster in paper four; do
+  sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
+    >"$work/drive.yaml"
+  expect 0 'deadlines missed +0$' run "$work/drive.yaml" --strategy tt --no-log --out "$work/out"
+  says 'arrived out of sequence +0$'
+done
+
+# A plan without solution.
+sed '/ laser: {from/s/60 ms/50 ms/' "$plans/paper.yaml" >"$work/tight.yaml"
+expect 1 'cannot hold together: .*tight.yaml:[0-9]+: plan.chains.laser.largest_age: 50 ms$' \
+  schedule synthesize "$work/tight.yaml" -o "$work/none.yaml"
+says 'one of these changes alone is enough: .*largest_age: 54\.[0-9]+ ms$'
+[[ ! -e $work/none.yaml ]] || fail "a plan without solution leaves a file"
+"$program" schedule synthesize "$work/tight.yaml" --json >"$work/why.json" 2>/dev/null && fail "no solution exits with 0"
+"$program" schedule synthesize "$plans/paper.yaml" --json >"$work/found.json" || fail "a result as JSON fails"
+python3 - "$work/why.json" "$work/found.json" <<'PY' || fail "a result is no JSON"
+import json, sys
+why, found = (json.load(open(path)) for path in sys.argv[1:])
+assert not why["found"] and why["proven"] and why["cannot_hold_together"] and why["one_change_is_enough"], why
+assert found["found"] and all(one["proven"] for one in found["objective"]), found
+assert [chain["name"] for chain in found["chains"]] == ["laser", "camera"], found
+PY
+
+# Mistakes.
+expect 2 'is neither a file nor the name of a shipped plan' schedule synthesize papyrus
+expect 2 'plan: is missing' schedule synthesize "$source/schedules/paper_fitted.yaml"
+sed 's/from: laser, to/from: lidar, to/' "$plans/paper.yaml" >"$work/lidar.yaml"
+expect 2 'lidar.yaml:[0-9]+: plan.chains.laser.from = lidar: is not the name of a sensor' schedule synthesize "$work/lidar.yaml"
+expect 2 '' schedule synthesize "$work/paper.yaml" -o "$work/paper.yaml"
+
+[[ $failures -eq 0 ]] && echo "schedule synthesize: all as documented"
+exit $((failures > 0))
