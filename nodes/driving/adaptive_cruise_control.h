@@ -25,9 +25,9 @@ struct CruiseConfig {
 CruiseConfig load_cruise(YamlMap& yaml);
 
 // Ports `image` and `odometry` -> `command`. Each execution issues a command; it is invalid without a view of the way
-// ahead. After a gap within the last command's life the acceleration goes on from there, with the jerk of one execution, or of
-// `memory` at most. After a longer one a deceleration does so, too: giving up the brakes at once would be a jerk beyond all limits,
-// and the vehicle brakes meanwhile. An acceleration begins anew with zero.
+// ahead. After a gap within the last command's life the acceleration goes on from there, with the jerk of one
+// execution, or of `memory` at most. After a longer one a deceleration does so, too: giving up the brakes at once would
+// be a jerk beyond all limits, and the vehicle brakes meanwhile. An acceleration begins anew with zero.
 class AdaptiveCruiseControl final : public host::Step {
  public:
   AdaptiveCruiseControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

@@ -50,17 +50,18 @@ struct View {
 // Returns the place of a task's input among its `reads`; the port is bound.
 std::size_t place_of(const schedules::model::Task& task, std::string_view port);
 
-// Returns the object `dt_s` seconds later, when the vehicle has gone `way_m`. It keeps its acceleration until it stands.
+// Returns the object `dt_s` seconds later, when the vehicle has gone `way_m`. It keeps its acceleration until it
+// stands.
 ObjectAhead predicted(const ObjectAhead& ahead, double dt_s, double way_m);
 
 // Ports `image` and `odometry`.
 class WayAhead {
  public:
   WayAhead(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const PathConfig& config);
-  // Returns nothing without an image and a list of odometry that are fresh enough, or without global time. Call it at each
-  // execution. A new image is taken as it is: the fusion has predicted it to its use. In one that was there before, the object
-  // ahead is predicted on, until the image is older than `max_image_age` and `prediction` together. Tracks that images have had
-  // for less than `known_for` are not ahead.
+  // Returns nothing without an image and a list of odometry that are fresh enough, or without global time. Call it at
+  // each execution. A new image is taken as it is: the fusion has predicted it to its use. In one that was there
+  // before, the object ahead is predicted on, until the image is older than `max_image_age` and `prediction` together.
+  // Tracks that images have had for less than `known_for` are not ahead.
   std::optional<View> look(const host::StepContext& context, Duration known_for = {});
   // Returns the own speed alone, without prediction, for a service that judges the image's objects itself.
   std::optional<double> own_speed(const host::StepContext& context);
@@ -83,8 +84,8 @@ class WayAhead {
   std::array<std::size_t, 4> motion_;  // the signals of odometry
   fusion::ImageSignals signals_;
   KnownTracks known_;
-  // The newest image's instant, on this node's local time: the count of the cluster's rounds may be another one after a loss of
-  // global time.
+  // The newest image's instant, on this node's local time: the count of the cluster's rounds may be another one after a
+  // loss of global time.
   std::optional<LocalTime> valid_at_;
   GlobalTime measured_at_{};  // the newest list's of odometry
   // The own way since the newest image's instant, up to an instant at which the speed was known.

@@ -1,6 +1,6 @@
-// How long an image has had a track. A new track may be a second one of an object that is there already, and its speed is
-// hardly more than the tracker's prior: it looks like an approach. Where no track was before, as in a service's first image, a
-// new one is no second one.
+// How long an image has had a track. A new track may be a second one of an object that is there already, and its speed
+// is hardly more than the tracker's prior: it looks like an approach. Where no track was before, as in a service's
+// first image, a new one is no second one.
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,8 @@ class KnownTracks {
     if (now_.size() >= now_.capacity()) return;
     now_.push_back({track, before_.empty() ? at_ - kLong : since(before_, track, at_)});
   }
-  // Returns the time between the first and the newest of the images in a row that have the track; zero, if it is in none. It is
-  // long, if the image before the first one had no track.
+  // Returns the time between the first and the newest of the images in a row that have the track; zero, if it is in
+  // none. It is long, if the image before the first one had no track.
   Duration known_for(TrackId track) const { return at_ - since(now_, track, at_); }
 
  private:
