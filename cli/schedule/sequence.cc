@@ -209,10 +209,8 @@ void add_sequence(CLI::App& schedule, Action& action) {
       "          ttfusion schedule sequence --sensors ABC --interest A --beta 500ms --primary 46.3ms --secondary "
       "27.7ms "
       "--best-beta\n"
-      "          ttfusion schedule sequence --sensors ABC --interest A --beta 0ms --mode 200ms --primary 59ms "
-      "--secondary "
-      "39ms "
-      "--cluster adaptive_loop_synchronised --task detector.detect --offset 3500 --yaml");
+      "          ttfusion schedule sequence --sensors ABC --interest A --beta 0ms --mode 260ms --primary 59ms "
+      "--secondary 39ms --cluster adaptive_loop_synchronised --task detector.detect --offset 3500 --yaml");
   command->add_option("--sensors", options->sensors, "A capital letter for each sensor")->required()->check(named());
   command->add_option("--interest", options->interest, "The sensors with a region of interest (default: none)");
   command->add_option("--beta", options->bound, "Bound of a frame")->required();
