@@ -27,8 +27,8 @@ class Z3Prover final : public solver::Prover {
   solver::Verdict decide(const solver::Question& question, double share, const solver::Repair& repair) override;
 
  private:
-  Logic logic_;
-  std::uint32_t steps_;
+  [[maybe_unused]] Logic logic_;  // a build without Z3 uses neither
+  [[maybe_unused]] std::uint32_t steps_;
 };
 
 }  // namespace ttf::schedules::synthesis::smt

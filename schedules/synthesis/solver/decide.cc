@@ -97,7 +97,7 @@ std::optional<Solution> Decider::repaired(const Question& question, const Soluti
   for (const auto& [a, b] : overlaps(question.problem, almost))
     for (const std::size_t at : {a, b}) held.activities[at].fixed = question.problem.activities[at].fixed;
   const Effort all = effort_;
-  effort_ = {.steps = all.steps / 10, .exhaustion = all.exhaustion / 10, .seeds = all.seeds};
+  effort_ = {.steps = all.steps / 10, .exhaustion = all.exhaustion / 10, .seeds = all.seeds, .proofs = all.proofs};
   Verdict verdict = search({held, question.sums, question.spans});
   effort_ = all;
   if (verdict.kind != Verdict::Kind::kFeasible || !keeps(question, verdict.solution)) return std::nullopt;

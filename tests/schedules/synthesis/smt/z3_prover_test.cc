@@ -17,7 +17,7 @@ std::optional<Solution> unrepaired(const Solution&) { return std::nullopt; }
 TEST(SynthesisZ3, AgreesWithAllOffsetsTried) {
   if (!Z3Prover::there()) GTEST_SKIP() << "built without Z3";
   int feasible = 0, infeasible = 0;
-  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+  for (std::uint64_t seed = 0; seed < 80; ++seed) {
     const Problem problem = by_hand::drawn(seed, seed % 2 == 0);
     const bool expected = by_hand::feasible(problem);
     for (const Logic logic : {Logic::kIntegers, Logic::kDifferences}) {
@@ -28,8 +28,8 @@ TEST(SynthesisZ3, AgreesWithAllOffsetsTried) {
     }
     (expected ? feasible : infeasible) += 1;
   }
-  EXPECT_GT(feasible, 20);
-  EXPECT_GT(infeasible, 20);
+  EXPECT_GT(feasible, 10);
+  EXPECT_GT(infeasible, 10);
 }
 
 TEST(SynthesisZ3, KeepsSumsAndSpans) {

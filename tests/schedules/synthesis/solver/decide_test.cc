@@ -11,7 +11,7 @@ namespace {
 
 TEST(SynthesisDecide, AgreesWithAllOffsetsTried) {
   int feasible = 0, infeasible = 0;
-  for (std::uint64_t seed = 0; seed < 1200; ++seed) {
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
     const Problem problem = by_hand::drawn(seed, seed % 2 == 0);
     Decider decider({}, nullptr);
     const Verdict verdict = decider.decide({problem, {}, {}});
@@ -21,8 +21,8 @@ TEST(SynthesisDecide, AgreesWithAllOffsetsTried) {
     (expected ? feasible : infeasible) += 1;
     EXPECT_TRUE(!expected || by_hand::keeps(problem, verdict.solution.offsets)) << seed;
   }
-  EXPECT_GT(feasible, 200);
-  EXPECT_GT(infeasible, 200);
+  EXPECT_GT(feasible, 100);
+  EXPECT_GT(infeasible, 100);
 }
 
 TEST(SynthesisDecide, TermsOfChainsBoundEveryAgeAndMeetItIfPairwise) {
