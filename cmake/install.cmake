@@ -54,7 +54,7 @@ install(DIRECTORY scenarios experiments schedules DESTINATION ${data}
   PATTERN experiments/campaign EXCLUDE PATTERN experiments/cost EXCLUDE PATTERN experiments/mpi EXCLUDE PATTERN experiments/results EXCLUDE
   PATTERN experiments/sweep EXCLUDE PATTERN schedules/analysis EXCLUDE PATTERN schedules/check EXCLUDE
   PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/model EXCLUDE PATTERN schedules/modes EXCLUDE
-  PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
+  PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
 install(DIRECTORY schemas DESTINATION ${data})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -14,7 +14,6 @@
 #include "cli/schedule/sequence.h"
 #include "cli/schedule/synthesize.h"
 #include "cli/schedule/task_set_check.h"
-#include "cli/schedule/synthesize.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/scenario.h"
