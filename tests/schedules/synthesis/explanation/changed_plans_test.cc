@@ -17,8 +17,7 @@ struct Mutation {
   std::vector<const char*> values;
 };
 
-// Hundreds of changed plans: each has a solution that passes the check, or is refused in one sentence, or is explained, and no
-// statement of the explanation is idle.
+// Each changed plan is solved, and its cluster passes the check. Or one sentence refuses it. Or it is explained.
 TEST(Explain, HundredsOfChangedPlansAreSolvedOrExplained) {
   const std::string shorter =
       changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8.5 ms, longest: 8.6 ms, step: 100 us}");

@@ -1,4 +1,4 @@
-// Plans without a solution are explained in their own words: each statement of the core is needed, and each change is enough.
+// Plans without a solution are explained in their own words.
 #include "schedules/synthesis/explanation/explain.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ TEST(Explain, APeriodThatIsShorterThanTheExecution) {
   EXPECT_TRUE(says(why.core, "plan.rates.laser.longest: 33 ms") || says(why.core, "plan.cycle"));
 }
 
-// A largest age is one by any clock, as `schedule check` bounds it: just above the best it holds, just below it does not.
+// A largest age is one by any clock, as `schedule check` bounds it. Just above the best it holds. Just below it does not.
 TEST(Explain, LargestAgesAreThoseOfTheCheck) {
   const std::string one_cycle =
       changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8535 us, longest: 8535 us, step: 100 us}");

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Ticks kCycle = 24;
 
-// Sensors whose lists share a segment of slots and a processor, with one user: measure -> list -> fuse -> use.
+// Two sensors share a segment and a processor. Each has measure -> list -> fuse -> image -> use.
 Reading drawn(int seed) {
   RandomStream random(StreamKey{.seed = static_cast<std::uint64_t>(seed)});
   const auto within = [&](Ticks low, Ticks high) {
