@@ -187,6 +187,7 @@ class Writer {
         return fmt::format("kind: sensor, sensor: {}", yaml_scalar(cluster_.sensor(activation.sensor).name));
       case model::ActivationKind::kCompletion:
         return fmt::format("kind: completion, after: {}", yaml_scalar(activation.after));
+      case model::ActivationKind::kModes: return fmt::format("kind: modes, {}", instant(activation.at));
     }
     return "";
   }
@@ -200,8 +201,22 @@ class Writer {
     say("        draw: {}", task.draw == model::ExecutionDraw::kWorst ? "worst" : "uniform");
     say("        deadline: {}", duration_words(task.deadline));
     if (task.holds > Duration{}) say("        holds: {}", duration_words(task.holds));
+    if (!task.modes.empty()) write_modes(task);
     ports("reads", task.reads);
     ports("writes", task.writes);
+  }
+
+  void write_modes(const model::Task& task) {
+    const std::vector<const model::PortBinding*> cameras = camera_ports(task);
+    say("        modes:");
+    for (const model::TaskMode& mode : task.modes) {
+      say("          {}:", yaml_scalar(mode.name));
+      say("            frame: {}", mode.cycles);
+      say("            detections:");
+      for (const model::ModeInstant& one : mode.instants)
+        say("              - {{cycle: {}, camera: {}, look: {}, lasts: {}}}", one.cycle,
+            yaml_scalar(cameras[one.camera]->port), one.secondary ? "secondary" : "primary", duration_words(one.lasts));
+    }
   }
 
   void ports(std::string_view key, const std::vector<model::PortBinding>& bindings) {

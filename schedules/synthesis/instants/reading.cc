@@ -163,6 +163,7 @@ class Reader {
           if (activates(task, in)) return later(arrival(in, hops + 1), span(response(id)));
         return {};
       }
+      case model::ActivationKind::kModes: return {};  // its instants differ from frame to frame
       case model::ActivationKind::kCompletion: {
         const std::vector<model::Task>& tasks = cluster_.node(id.node).tasks;
         for (std::size_t t = 0; t < tasks.size(); ++t)
