@@ -11,6 +11,7 @@
 #include "core/decimal.h"
 #include "core/yaml_merge.h"
 #include "schedules/file/parameter_table.h"
+#include "schedules/model/ports.h"
 
 namespace ttf::schedules::exchange {
 namespace {
