@@ -57,7 +57,7 @@ printf 'signal,node,period_ms,bits\na,a,0.08,32\nb,b,0.08,32\nc,c,0.08,32\n' >"$
 mistake() {  # WORDS ARGS...
   expect 2 "$1" schedule synthesize "${@:2}"
 }
-mistake '--signals: must name the signals to pack'
+mistake 'plan: must name a plan, or --signals the signals to pack'
 mistake '--payload = 3 words: must be 1..2032bit or 1..254byte' --signals "$signals" --payload '3 words'
 mistake '--payload = 255byte: must be' --signals "$signals" --payload 255byte
 mistake '--cycle = 5: must be 0.01..16 ms with its unit' --signals "$signals" --cycle 5

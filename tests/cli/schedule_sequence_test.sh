@@ -87,7 +87,7 @@ mistake '--interest = D: must be different letters among ABC' --sensors ABC --in
 mistake '--interest = AA: must be different letters among ABC' --sensors ABC --interest AA --beta 200ms "${times[@]}"
 mistake '--beta = 0.2: must be 0..100 s with its unit, as in 200ms' --sensors ABC --beta 0.2 "${times[@]}"
 mistake '--primary = 0ms: must be 0.000001..10 s with its unit' --sensors ABC --beta 200ms --primary 0ms --secondary 1ms
-mistake '--secondary = fast: must be 0.000001..10 s' --sensors ABC --beta 200ms --primary 1ms --secondary fast
+mistake '--secondary = fast: must be 0.000001..0.001 s' --sensors ABC --beta 200ms --primary 1ms --secondary fast
 mistake '--slots.*text' --sensors ABC --beta 200ms "${times[@]}" --slots ceil
 mistake '--interest: must name a sensor' --sensors ABC --beta 200ms "${times[@]}" --best-beta
 mistake '--share = 2: must be a decimal number 0..1' "${best[@]}" --share 2

@@ -3,16 +3,17 @@ import pathlib
 import shutil
 import subprocess
 
-FOLDERS = ["scenarios", "schedules", "experiments"]
+FOLDERS = ["scenarios", "schedules", "experiments", "examples"]
 
 
 def make(folder: pathlib.Path, repository: pathlib.Path, program: pathlib.Path) -> None:
     for name in FOLDERS:
-        for file in (repository / name).rglob("*.yaml"):
+        for file in sorted((repository / name).rglob("*")):
+            if file.suffix not in (".yaml", ".csv"):
+                continue
             copy = folder / file.relative_to(repository)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(file, copy)
-    shutil.copytree(repository / "examples/packing", folder / "examples/packing")
     if (repository / ".gitignore").exists():
         shutil.copy(repository / ".gitignore", folder)
     (folder / "build/release").mkdir(parents=True)

@@ -133,6 +133,7 @@ TEST(SensorEntries, SayHowPicturesShowThem) {
 schedules::model::Cluster without_odometry(std::string_view step, const std::string& file = "moving") {
   schedules::model::Cluster cluster = schedules::file::load_cluster(kFolder + file + "_synchronised.yaml");
   cluster.file = file + ".yaml";
+  cluster.origins = {};
   for (schedules::model::Node& node : cluster.nodes)
     for (schedules::model::Task& task : node.tasks)
       if (task.step == step) std::erase_if(task.reads, [](const auto& read) { return read.port == "odometry"; });

@@ -145,8 +145,8 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
   };
   EXPECT_EQ(shown(" x: -400, y: 300, width: 5100, height: 100"), "taken");
   EXPECT_THAT(shown(" x: 400, y: -180, width: 5100, height: 360"),
-              HasSubstr("adaptive_camera.regions[0].x = 400 px: must be from -5459.92 to 359.923 px: the picture of "
-                        "camera_a reaches 359.923 px from its middle"));
+              HasSubstr("adaptive_camera.regions[0].x = 400 px: must be from -5459.9 to 359.896 px: the picture of "
+                        "camera_a reaches 359.896 px from its middle"));
   EXPECT_THAT(shown(" x: -180, y: -470, width: 360, height: 100"),
               HasSubstr("adaptive_camera.regions[0].y = -470 px: must be from -460 to 360 px"));
 }
