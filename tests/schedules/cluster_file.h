@@ -18,6 +18,7 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "paper_free_running",
                                                "paper_free_flexray",
                                                "paper_fitted",
+                                               "paper_planned",
                                                "paper_dynamic",
                                                "laser_radar",
                                                "laser_radar_synchronised",
