@@ -32,7 +32,7 @@ if(TTF_BUILD_PROGRAM)
   install(DIRECTORY core timebase schedules recording DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
     PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE
     PATTERN schedules/synthesis/smt EXCLUDE
-    PATTERN schedules/task_sets EXCLUDE)
+    PATTERN schedules/plans EXCLUDE PATTERN schedules/task_sets EXCLUDE)
   install(DIRECTORY bus/wire DESTINATION ${headers}/bus FILES_MATCHING PATTERN "*.h")
 endif()
 configure_package_config_file(cmake/ttfusionConfig.cmake.in ${PROJECT_BINARY_DIR}/ttfusionConfig.cmake
