@@ -29,24 +29,28 @@ class ModeLoader {
     if (mode.cycles % grid_ != 0)
       map.fail("frame", fmt::format("must be a multiple of {}, the repetition of the activation", grid_));
     std::vector<YamlMap> entries = map.maps("detections");
+    knows_cameras_ = true;
     for (YamlMap& entry : entries) mode.instants.push_back(load_instant(entry, mode));
     if (entries.empty() && map.has("detections")) map.fail("detections", "must have at least one detection");
-    if (!entries.empty()) must_look_at_all(map, mode);
+    if (!entries.empty() && knows_cameras_) must_look_at_all(map, mode);
     map.finish();
     return mode;
   }
 
  private:
-  model::ModeInstant load_instant(YamlMap& entry, const model::TaskMode& mode) const {
+  model::ModeInstant load_instant(YamlMap& entry, const model::TaskMode& mode) {
     model::ModeInstant instant;
     instant.line = entry.line();
     instant.cycle = static_cast<int>(entry.integer("cycle", {0, kLongestFrame - 1}));
     const std::string camera = entry.text("camera");
     instant.secondary = entry.choice<bool>("look", {{"primary", false}, {"secondary", true}});
     instant.lasts = entry.duration("lasts", {task_.best_case, std::max(task_.best_case, task_.worst_case)});
-    if (const auto found = std::ranges::find(cameras_, camera); found != cameras_.end())
+    const auto found = std::ranges::find(cameras_, camera);
+    if (found != cameras_.end())
       instant.camera = static_cast<std::size_t>(found - cameras_.begin());
-    else if (entry.has("camera"))
+    else
+      knows_cameras_ = false;
+    if (found == cameras_.end() && entry.has("camera"))
       entry.fail("camera", cameras_.empty()
                                ? "needs a port of a camera among reads, and one for its objects among writes"
                                : fmt::format("must be a camera of the task: {}{}", joined(cameras_, " or "),
@@ -80,6 +84,7 @@ class ModeLoader {
   const model::Task& task_;
   int grid_;
   std::vector<std::string> cameras_;
+  bool knows_cameras_ = true;  // each detection of the mode names one
 };
 
 }  // namespace

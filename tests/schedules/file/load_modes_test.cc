@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/file_bytes.h"
 #include "schedules/modes/stated.h"
 #include "tests/schedules/cluster_file.h"
 
@@ -13,6 +14,7 @@ namespace ttf::schedules::file {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr const char* kModes = "adaptive_loop_modes";
 const std::string kPath = "nodes.detector.tasks.detect.";
@@ -68,7 +70,7 @@ TEST(LoadModes, AMistakeIsNamedWithItsLine) {
   EXPECT_EQ(sentence_after({{kSecond, "{cycle: 13, camera: camera_b, look: primary, lasts: 59 ms}"}}),
             key + "cycle = 13: must be a multiple of 2, the repetition of the activation");
   EXPECT_THAT(sentence_after({{kSecond, "{cycle: 12, camera: camera_d, look: primary, lasts: 59 ms}"}}),
-              HasSubstr(key + "camera = camera_d: must be a camera of the task: camera_a, camera_b or camera_c"));
+              StartsWith(key + "camera = camera_d: must be a camera of the task: camera_a, camera_b or camera_c"));
   EXPECT_THAT(sentence_after({{kSecond, "{cycle: 12, camera: regions, look: primary, lasts: 59 ms}"}}),
               HasSubstr("camera = regions: must be a camera of the task"));
   EXPECT_THAT(sentence_after({{kSecond, "{cycle: 12, camera: camera_b, look: twice, lasts: 59 ms}"}}),
@@ -86,7 +88,7 @@ TEST(LoadModes, AMistakeIsNamedWithItsLine) {
 TEST(LoadModes, AFrameHasDetectionsAndATaskHasModes) {
   const std::string text = shipped_text(kModes);
   const std::size_t from = text.find("        modes:\n"), abc = text.find("          ABC:\n"),
-                    other = text.find("          AaBaCa:\n"), reads = text.find("        reads: {camera_a");
+                    other = text.find("          AaBaCa:\n"), reads = text.find("        reads:", other);
   const auto words = [](const std::string& changed_text) { return sentences(findings_of(changed_text)); };
   EXPECT_THAT(words(text.substr(0, abc) + "          ABC: {frame: 36, detections: []}\n" + text.substr(other)),
               HasSubstr("modes.ABC.detections: must have at least one detection"));
@@ -94,7 +96,7 @@ TEST(LoadModes, AFrameHasDetectionsAndATaskHasModes) {
               HasSubstr(kPath + "modes: must have at least one mode"));
   EXPECT_THAT(words(text.substr(0, from) + text.substr(reads)),
               HasSubstr(kPath + "activation = modes: needs the key modes, with at least one mode"));
-  EXPECT_THAT(sentence_after({{"kind: modes, base_cycle: 0", "kind: time, base_cycle: 0"}}),
+  EXPECT_THAT(sentence_after({{"kind: modes\n", "kind: time\n"}}),
               HasSubstr(kPath + "modes: must be absent: the task's activation is of another kind"));
 }
 
@@ -137,7 +139,7 @@ TEST(StatedModes, AreThoseThatWerePrinted) {
     placed.back().name = sequence::letters(one);
   }
   const std::string yaml = modes::yaml_text(cluster, detector, placed, grid);
-  EXPECT_NE(shipped_text(kModes).find(yaml), std::string::npos) << "the shipped cluster has these lines:\n" << yaml;
+  EXPECT_THAT(read_file(shipped_path(kModes)), HasSubstr(yaml));
   const model::Cluster pasted = load_cluster(shipped_path(kModes));
   const std::vector<modes::StatedModes> stated = modes::stated_modes(pasted);
   ASSERT_EQ(stated.size(), 1u);
