@@ -11,8 +11,9 @@
 //   steps     a step is a whole number of cycles, as the slots of the lists repeat with cycles
 //   ends      each detection ends before its steps do, by any clock
 //   lists     each list is in its slots, or given to its CAN, before the next one is written: none is torn or
-//             replaced. Two detections in a row may be of the same camera, in any modes. In the dynamic segment its turn comes in every cycle of its frames, and its latest turn counts.
-//             This holds for all modes at once, and so where they change.
+//             replaced. Two detections in a row may be of the same camera, in any modes. In the dynamic segment its
+//             turn comes in every cycle of its frames, and its latest turn counts. This holds for all modes at once,
+//             and so where they change.
 // For a sound mode, the chain from a picture to the actuator is bounded over every cycle in which its detection may
 // begin (schedules/analysis/chain).
 #pragma once
@@ -72,8 +73,8 @@ struct Detector {
   bool stated = false;  // its modes are those of the cluster's file (schedules/modes/stated.h), and not options'
 };
 
-// Returns what is wrong with the modes in this cluster, each in one sentence: about a key of its file, or about an option of
-// `schedule sequence`. The cluster must have passed all other rules of check().
+// Returns what is wrong with the modes in this cluster, each in one sentence: about a key of its file, or about an option
+// of `schedule sequence`. The cluster must have passed all other rules of check().
 std::vector<Finding> unsound(const model::Cluster& cluster, const Detector& detector, const std::vector<Mode>& modes,
                              const Grid& grid);
 
@@ -85,11 +86,11 @@ struct CameraBound {
   // From the event itself: where the region of interest shows it, and where only whole pictures do.
   Duration reaction_in_region{}, reaction{};
 };
-// Returns the bounds of a sound mode, by camera, for one chain: by its place among rests_behind() of the task. If the task
-// reads the lists of several cameras, the chain is one camera's, and so are its bounds.
+// Returns the bounds of a sound mode, by camera, for one chain: by its place among rests_behind() of the task. If the
+// task reads the lists of several cameras, the chain is one camera's, and so are its bounds.
 //
-// If time activates the task, it looks at the newest picture, which is older than the detection's beginning. Bounds then count
-// from the picture. A task that a picture activates begins with it.
+// If time activates the task, it looks at the newest picture, which is older than the detection's beginning. Bounds then
+// count from the picture. A task that a picture activates begins with it.
 std::vector<CameraBound> bounds(const model::Cluster& cluster, const Detector& detector, const Mode& mode,
                                 const Grid& grid, std::size_t chain);
 // Returns them for an event that comes about when `before` ends and `after` begins. The first pictures are those of

@@ -18,18 +18,17 @@ using analysis::ClockBounds;
 
 std::string ms(Duration time) { return scaled_text(time.ns, 1'000'000) + " ms"; }
 
-// The shortest time between the lists of two detections, one directly behind the other, in any modes.
+// The shortest time between the lists of two detections, one directly behind the other. Any two may be, where modes change.
 Duration shortest_between_lists(const model::Cluster& cluster, const std::vector<Mode>& modes) {
-  std::optional<Duration> shortest;
-  const ClockBounds clocks = analysis::clock_bounds(cluster);
+  std::optional<std::int64_t> rest, begun;  // behind the first one's list, and until the second one's
   for (const Mode& mode : modes)
-    for (const PlacedDetection& one : mode.detections)
-      for (const Mode& next_mode : modes)
-        for (const PlacedDetection& next : next_mode.detections) {
-          const std::int64_t apart = (one.occupied - one.worst_case + next.best_case).ns;
-          shortest = std::min(shortest.value_or(Duration{apart}), Duration{apart - clocks.drift_ns(apart)});
-        }
-  return std::max(Duration{}, shortest.value_or(Duration{}));
+    for (const PlacedDetection& one : mode.detections) {
+      rest = std::min(rest.value_or(INT64_MAX), (one.occupied - one.worst_case).ns);
+      begun = std::min(begun.value_or(INT64_MAX), one.best_case.ns);
+    }
+  if (!rest) return {};
+  const std::int64_t apart = *rest + *begun;
+  return std::max(Duration{}, Duration{apart - analysis::clock_bounds(cluster).drift_ns(apart)});
 }
 
 // Whether a list is in its slots before the next one is written.
