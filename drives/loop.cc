@@ -134,9 +134,12 @@ std::string unused_sections(const Scenario& scenario, std::span<const Cluster> c
   for (const StepSection& section : scenario.step_sections) {
     if (std::ranges::any_of(clusters, [&](const Cluster& one) { return has_step(one, section.step); })) continue;
     if (!text.empty()) text += '\n';
-    text +=
-        Finding{scenario.file, section.line, section.step, "", "has no effect: no task of the cluster has this step"}
-            .sentence();
+    // The judge measures the error of the gap against this service's gap (experiments/sweep/driving.h).
+    const bool judges = section.step == "adaptive_cruise_control" && scenario.world.ego && scenario.world.ego->actuator;
+    text += Finding{scenario.file, section.line, section.step, "",
+                    fmt::format("has no effect{}: no task of the cluster has this step",
+                                judges ? " but on the judged error of the gap" : "")}
+                .sentence();
   }
   return text;
 }

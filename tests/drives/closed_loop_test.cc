@@ -248,6 +248,12 @@ TEST(ClosedLoop, ASectionWithoutItsStepIsTold) {
   EXPECT_THAT(told, HasSubstr("vehicle_control: has no effect"));
   EXPECT_EQ(told.find("emergency_braking"), std::string::npos);
   EXPECT_EQ(unused_sections(braking(StrategyKind::kTt).scenario, {&drive.cluster, 1}), "");
+  // The gap is judged by that of adaptive cruise control, whichever service keeps it.
+  const std::string file = shipped("scenarios/adaptive_detection.yaml");
+  const Drive planned("scenarios/adaptive_detection.yaml", StrategyKind::kTt);
+  EXPECT_THAT(
+      unused_sections(parse_scenario(read_file(file) + "\nadaptive_cruise_control: {}\n", file), {&planned.cluster, 1}),
+      HasSubstr("adaptive_cruise_control: has no effect but on the judged error of the gap: no task"));
 }
 
 }  // namespace
