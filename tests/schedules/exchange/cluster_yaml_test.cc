@@ -17,7 +17,9 @@ TEST_P(Written, IsReadAsTheSameCluster) {
   const std::string text = cluster_yaml(original, "A comment");
   const model::Cluster again = file::parse_cluster(text, "again.yaml");
   EXPECT_EQ(cluster_yaml(again, "A comment"), text);
-  EXPECT_EQ(show_text(again), show_text(original));
+  model::Cluster whole = original;
+  whole.derived.clear();  // the written text leaves nothing out
+  EXPECT_EQ(show_text(again), show_text(whole));
   EXPECT_EQ(analysis::ages_text(again), analysis::ages_text(original));
   ASSERT_EQ(again.frames.size(), original.frames.size());
   for (std::size_t f = 0; f < again.frames.size(); ++f) {
