@@ -36,8 +36,8 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
     EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1]) << "BUFF and ADVA share their configuration";
     // Drives that compare the strategies have a separate schedule for TT. Those that start up, compare
     // phases of a schedule, or drive by modes have one cluster.
-    const bool one_cluster = scenario.startup.cold || scenario.name == "twin_cameras" ||
-                             scenario.name == "adaptive_detection_modes";
+    const bool one_cluster =
+        scenario.startup.cold || scenario.name == "twin_cameras" || scenario.name == "adaptive_detection_modes";
     EXPECT_EQ(scenario.cluster_files[0] == scenario.cluster_files[2], one_cluster);
   }
 }
