@@ -67,38 +67,23 @@ std::string with_value(const std::string& text, const std::string& name, std::st
   return edited;
 }
 
-std::string with_keys(const std::string& text, const std::string& name, const std::vector<NewKey>& keys,
-                      std::vector<int>* lines) {
+std::string with_key(const std::string& text, const std::string& name, std::string_view path, std::string_view value,
+                     int* line) {
   const YAML::Node root = parsed(text, name);
-  struct Insertion {
-    std::size_t at;
-    std::string text;
-    int line;  // 0: within its line
-  };
-  std::vector<Insertion> insertions;
-  for (const NewKey& key : keys) {
-    const std::size_t last = key.path.rfind('.');
-    const YAML::Node map = last == std::string::npos ? root : at(root, std::string_view(key.path).substr(0, last));
-    if (!map.IsDefined() || !map.IsMap())
-      throw InputError({name, 0, key.path, key.value, "must be in a mapping that the file has"});
-    std::string entry = key.path.substr(last == std::string::npos ? 0 : last + 1) + ": " + key.value;
-    const bool empty = map.size() == 0;  // {}
-    const YAML::Mark first = empty ? map.Mark() : map.begin()->first.Mark();
-    const bool flow = empty || map.Style() == YAML::EmitterStyle::Flow;
-    entry += flow ? ", " : "\n" + std::string(static_cast<std::size_t>(first.column), ' ');
-    insertions.push_back(
-        {static_cast<std::size_t>(first.pos) + (empty ? 1 : 0), std::move(entry), flow ? 0 : first.line + 1});
-  }
-  std::stable_sort(insertions.begin(), insertions.end(),
-                   [](const Insertion& a, const Insertion& b) { return a.at < b.at; });
-  std::string edited;
-  std::size_t done = 0;
-  for (const Insertion& one : insertions) {
-    edited += text.substr(done, one.at - done) + one.text;
-    done = one.at;
-    if (lines != nullptr && one.line > 0) lines->push_back(one.line);
-  }
-  return edited + text.substr(done);
+  const std::size_t last = path.rfind('.');
+  const YAML::Node map = last == std::string_view::npos ? root : at(root, path.substr(0, last));
+  if (!map.IsDefined() || !map.IsMap())
+    throw InputError({name, 0, std::string(path), std::string(value), "must be in a mapping that the file has"});
+  std::string entry = std::string(path.substr(last == std::string_view::npos ? 0 : last + 1)) + ": ";
+  entry += value;
+  const bool empty = map.size() == 0;  // {}, maybe behind an anchor
+  const YAML::Mark first = empty ? map.Mark() : map.begin()->first.Mark();
+  const auto begin = static_cast<std::size_t>(first.pos);
+  const bool flow = empty || map.Style() == YAML::EmitterStyle::Flow;
+  entry += flow ? ", " : "\n" + std::string(static_cast<std::size_t>(first.column), ' ');
+  if (!flow) *line = first.line + 1;
+  std::string edited = text;
+  return edited.insert(empty ? text.find('{', begin) + 1 : begin, entry);
 }
 
 }  // namespace ttf

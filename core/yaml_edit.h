@@ -4,7 +4,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace ttf {
 
@@ -13,15 +12,10 @@ namespace ttf {
 // Throws InputError, which names the file `name`.
 std::string with_value(const std::string& text, const std::string& name, std::string_view path, std::string_view value);
 
-struct NewKey {
-  std::string path;  // "world.objects[0].speed": its mapping is there, without this key
-  std::string value;
-};
-
-// Returns `text` with the keys added, in front of the first key of their mappings and in this order. A mapping in braces
-// keeps its line. Elsewhere a key has a new line, and `lines` receives the old line behind it. Throws InputError for a
-// missing mapping. It names the file `name`.
-std::string with_keys(const std::string& text, const std::string& name, const std::vector<NewKey>& keys,
-                      std::vector<int>* lines = nullptr);
+// Returns `text` with the key at `path` added, in front of the first key of its mapping: "world.objects[0].speed". The
+// mapping is there, without this key. One in braces keeps its line. Elsewhere the key has a new line, and `line` receives
+// the old line behind it. Throws InputError for a missing mapping. It names the file `name`.
+std::string with_key(const std::string& text, const std::string& name, std::string_view path, std::string_view value,
+                     int* line);
 
 }  // namespace ttf

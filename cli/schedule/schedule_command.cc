@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -24,11 +25,11 @@
 #include "schedules/analysis/chain/chains.h"
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/check/rules.h"
+#include "schedules/exchange/cluster_yaml.h"
 #include "schedules/exchange/dbc.h"
 #include "schedules/exchange/fibex/export.h"
 #include "schedules/exchange/fibex/import.h"
 #include "schedules/exchange/text.h"
-#include "schedules/file/derive.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
 #include "schedules/modes/stated.h"
@@ -263,7 +264,10 @@ int export_cluster(const ScheduleOptions& options) {
     return 0;
   }
   if (is_cluster_file(options.file)) {
-    write_text(schedules::file::explicit_text(consistent_cluster(options.file)), options.out);
+    const std::string name = std::filesystem::path(options.file).filename().string();
+    write_text(schedules::exchange::cluster_yaml(consistent_cluster(options.file),
+                                                 fmt::format("{} with all that it inherits and derives.", name)),
+               options.out);
     return 0;
   }
   const schedules::exchange::fibex::FibexImport import = fibex_input(options.file);

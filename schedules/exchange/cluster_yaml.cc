@@ -223,9 +223,10 @@ class Writer {
   void ports(std::string_view key, const std::vector<model::PortBinding>& bindings) {
     std::string list;
     for (const model::PortBinding& binding : bindings)
-      list += fmt::format("{}{}: {} on {}", list.empty() ? "" : ", ", yaml_scalar(binding.port),
-                          cluster_.pdu(binding.pdu).name,
-                          binding.medium.is_can() ? cluster_.can(binding.medium).name : "flexray");
+      list += fmt::format(
+          "{}{}: {}", list.empty() ? "" : ", ", yaml_scalar(binding.port),
+          yaml_scalar(fmt::format("{} on {}", cluster_.pdu(binding.pdu).name,
+                                  binding.medium.is_can() ? cluster_.can(binding.medium).name : "flexray")));
     if (!list.empty()) say("        {}: {{{}}}", key, list);
   }
 

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
-#include <vector>
 
-#include "core/yaml_edit.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/minislots.h"
 
@@ -167,12 +164,6 @@ std::span<const NodeRule> node_rules() { return kNodeRules; }
 
 bool is_derived(std::string_view parameter) {
   return has_rule(global_rules(), parameter) || has_rule(clock_rules(), parameter) || has_rule(node_rules(), parameter);
-}
-
-std::string explicit_text(const model::Cluster& cluster) {
-  std::vector<NewKey> keys;
-  for (const model::DerivedValue& one : cluster.derived) keys.push_back({one.path, one.value});
-  return with_keys(cluster.text, cluster.file, keys);
 }
 
 }  // namespace ttf::schedules::file

@@ -46,8 +46,4 @@ std::span<const NodeRule> clock_rules();
 std::span<const NodeRule> node_rules();
 bool is_derived(std::string_view parameter);
 
-// Returns the cluster's text with the values that it leaves out. It says the same, and leaves nothing out. Throws
-// InputError where a name has a dot: a path cannot lead there.
-std::string explicit_text(const model::Cluster& cluster);
-
 }  // namespace ttf::schedules::file

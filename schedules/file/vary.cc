@@ -1,8 +1,6 @@
 #include "schedules/file/vary.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "core/errors.h"
 #include "core/yaml_edit.h"
@@ -25,9 +23,9 @@ bool leaves_out(const ClusterText& text, std::string_view path) {
 }
 
 ClusterText with_key(ClusterText text, std::string_view path, std::string_view value) {
-  std::vector<int> lines;
-  text.text = with_keys(text.text, text.name, {{std::string(path), std::string(value)}}, &lines);
-  for (const int line : lines) text.origins.insert(line);
+  int line = 0;
+  text.text = ttf::with_key(text.text, text.name, path, value, &line);
+  if (line > 0) text.origins.insert(line);
   return text;
 }
 

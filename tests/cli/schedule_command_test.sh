@@ -47,7 +47,8 @@ expect 0 '^heir: consistent$' schedule check "$work/schedules/heir.yaml"
 expect 0 '^  flexray.gdNIT = 386$' schedule show "$work/schedules/heir.yaml"
 expect 0 '^wrote .*/whole.yaml$' schedule export "$work/schedules/heir.yaml" --format yaml -o "$work/whole.yaml"
 grep -q '^  gdNIT: 386$' "$work/whole.yaml" || fail "the whole file lacks the derived gdNIT"
-! grep -q 'extends' "$work/whole.yaml" || fail "the whole file extends another"
+grep -q '^# heir.yaml with all that it inherits and derives.$' "$work/whole.yaml" || fail "the whole file lacks its origin"
+! grep -q '^extends' "$work/whole.yaml" || fail "the whole file extends another"
 expect 0 '^heir: consistent$' schedule check "$work/whole.yaml"
 # An experiment varies what the file inherits and leaves out. The rest follows.
 cat >"$work/slots.yaml" <<'END'

@@ -59,27 +59,22 @@ TEST(YamlEdit, AValueStaysAValue) {
     EXPECT_THAT(refusal("world.objects[0].x", value), testing::HasSubstr("must be a plain scalar")) << value;
 }
 
-TEST(YamlEdit, KeysAreAddedInFrontOfTheirMappingsFirst) {
-  std::vector<int> lines;
-  EXPECT_EQ(
-      with_keys(kText, "a.yaml",
-                {{"world.seed", "3"}, {"world.objects[0].speed", "4"}, {"world.objects[1].y", "5"}, {"world.end", "6"}},
-                &lines),
-      "# Grüße\n"
-      "name: a name   # what it is called\n"
-      "world:\n"
-      "  seed: 3\n"
-      "  end: 6\n"
-      "  noise: 2.0   # stays\n"
-      "  objects:\n"
-      "    - {speed: 4, name: car, x: 1, period: 40 ms}\n"
-      "    - y: 5\n"
-      "      name: other\n"
-      "      x: 7\n"
-      "quoted: \"2\"\n");
-  EXPECT_EQ(lines, (std::vector<int>{4, 4, 7}));
-  EXPECT_EQ(with_keys("a: {}\n", "a.yaml", {{"a.b", "1"}, {"a.c", "2"}, {"d", "3"}}), "d: 3\na: {b: 1, c: 2, }\n");
-  EXPECT_THROW((void)with_keys(kText, "a.yaml", {{"nothing.here", "1"}}), InputError);
+std::string added(const std::string& text, const std::string& path, const std::string& value, int at) {
+  int line = 0;
+  std::string edited = with_key(text, "a.yaml", path, value, &line);
+  EXPECT_EQ(line, at) << path;
+  return edited;
+}
+
+TEST(YamlEdit, AKeyIsAddedInFrontOfItsMappingsFirst) {
+  EXPECT_EQ(added(kText, "world.seed", "3", 4), replaced("  noise", "  seed: 3\n  noise"));
+  EXPECT_EQ(added(kText, "world.objects[0].speed", "4", 0), replaced("{name", "{speed: 4, name"));
+  EXPECT_EQ(added(kText, "world.objects[1].y", "5", 7), replaced("name: other", "y: 5\n      name: other"));
+  EXPECT_EQ(added("a: {}\n", "d", "3", 1), "d: 3\na: {}\n");
+  EXPECT_EQ(added("a: {}\n", "a.b", "1", 0), "a: {b: 1, }\n");
+  EXPECT_EQ(added("a: &anchor {}\n", "a.b", "1", 0), "a: &anchor {b: 1, }\n");
+  int line = 0;
+  EXPECT_THROW((void)with_key(kText, "a.yaml", "nothing.here", "1", &line), InputError);
 }
 
 }  // namespace

@@ -28,6 +28,12 @@ inline std::string dump(const std::string& start, const model::Task& task) {
       fmt::format("{} step {} {}..{} draw {} deadline {} holds {} by {} {} port {} sensor {} after {}\n", start,
                   task.step, task.best_case.ns, task.worst_case.ns, static_cast<int>(task.draw), task.deadline.ns,
                   task.holds.ns, static_cast<int>(a.kind), dump(a.at), a.port, static_cast<int>(a.sensor), a.after);
+  for (const model::TaskMode& mode : task.modes) {
+    text += fmt::format("{} mode {} of {} cycles\n", start, mode.name, mode.cycles);
+    for (const model::ModeInstant& one : mode.instants)
+      text += fmt::format("{} cycle {} camera {} secondary {} lasts {}\n", start, one.cycle, one.camera, one.secondary,
+                          one.lasts.ns);
+  }
   for (const auto* ports : {&task.reads, &task.writes})
     for (const model::PortBinding& port : *ports)
       text += fmt::format("{} {} {} = {} on {}\n", start, ports == &task.reads ? "reads" : "writes", port.port,
