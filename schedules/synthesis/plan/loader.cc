@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "core/errors.h"
-#include "core/file_bytes.h"
 #include "core/strict_yaml.h"
-#include "core/yaml_merge.h"
+#include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
 #include "schedules/synthesis/plan/left_out.h"
 #include "schedules/synthesis/plan/section.h"
 
 namespace ttf::schedules::synthesis::plan {
 namespace {
-
-constexpr std::size_t kMostBases = 16;
 
 // Moves the frames of lists with a value left out from the cluster to the plan.
 void take_lists(Plan& plan, const std::vector<LeftOutValues::Frame>& entries) {
@@ -143,41 +139,17 @@ Plan read(std::string text, const std::string& name, TextOrigins origins) {
   }
 }
 
-// Returns the path of the plan that this one extends; none if it extends nothing.
-std::optional<std::string> base_of(const std::string& text, const std::string& path) {
-  Findings findings;
-  const StrictYaml file = StrictYaml::parse(text, path);
-  YamlMap root = file.root(findings);
-  if (!root.has("extends")) return std::nullopt;
-  const std::string base = root.text("extends");
-  findings.throw_if_any();
-  return (std::filesystem::path(path).parent_path() / base).lexically_normal().string();
-}
-
 }  // namespace
 
-Plan parse_plan(std::string text, std::string name) {
-  if (base_of(text, name))
-    throw InputError({name, 1, "extends", "", "needs a file: a text has no folder to begin from"});
-  return read(std::move(text), name, {});
-}
+Plan parse_plan(std::string text, std::string name) { return read(std::move(text), name, {}); }
 
 std::vector<Finding> in_the_files(const Plan& plan, std::vector<Finding> findings) {
   return moved(plan.origins, std::move(findings));
 }
 
 Plan load_plan(const std::string& path) {
-  std::vector<YamlLayer> layers{{read_file(path), path}};
-  while (const auto base = base_of(layers.back().text, layers.back().name)) {
-    if (layers.size() >= kMostBases)
-      throw InputError(
-          {path, 1, "extends", *base, fmt::format("must end after {} files, without a circle", kMostBases)});
-    layers.push_back({read_file(*base), *base});
-  }
-  if (layers.size() == 1) return read(std::move(layers.front().text), path, {});
-  std::reverse(layers.begin(), layers.end());
-  MergedYaml merged = merge_yaml(layers, "extends");
-  return read(std::move(merged.text), path, std::move(merged.origins));
+  file::ClusterText whole = file::inherited(path);
+  return read(std::move(whole.text), path, std::move(whole.origins));
 }
 
 }  // namespace ttf::schedules::synthesis::plan

@@ -18,7 +18,7 @@
 //     objective: [worst_age, data_age, slots, jitter, room]     in this order; worst_age, if absent
 //     in_order: false                                           lists may wait for older ones; true if absent
 //
-// A plan may begin from another one by `extends: OTHER.yaml`, and change it key by key (core/yaml_merge.h).
+// A plan may begin from another one by `extends: OTHER.yaml`, and change it key by key, as a cluster file may (schedules/file/inherit.h).
 #pragma once
 
 #include <string>

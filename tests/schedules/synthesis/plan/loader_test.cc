@@ -1,6 +1,7 @@
 #include "schedules/synthesis/plan/loader.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "tests/schedules/synthesis/plans.h"
 
@@ -82,10 +83,45 @@ TEST(PlanLoader, NamesEachMistake) {
   }
 }
 
+// Returns the findings of a plan in a folder of its own, beside the paper's plan with one change.
+std::vector<Finding> findings_beside(const std::string& base, const std::string& heir) {
+  const std::string folder = testing::TempDir() + "plans";
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, text] : {std::pair{"base.yaml", base}, std::pair{"heir.yaml", heir}})
+    std::ofstream(folder + "/" + name, std::ios::binary) << text;
+  try {
+    (void)load_plan(folder + "/heir.yaml");
+    return {};
+  } catch (const InputError& error) {
+    return error.findings();
+  }
+}
+
 // A finding about what a base says names the base's file and line.
 TEST(PlanLoader, AnExtendingPlanNamesItsBase) {
-  EXPECT_NO_THROW((void)load_plan(plan_path("paper_two_lasers_radar")));
+  const std::string paper = plan_text("paper");
+  EXPECT_TRUE(findings_beside(paper, "extends: base.yaml\nname: heir\n").empty());
+  const std::string wrong = changed(paper, "draw: worst", "draw: often");
+  const auto line =
+      1 + std::count(wrong.begin(), wrong.begin() + static_cast<std::ptrdiff_t>(wrong.find("often")), '\n');
+  const auto findings = findings_beside(wrong, "extends: base.yaml\nname: heir\n");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].file.ends_with("base.yaml")) << findings[0].file;
+  EXPECT_EQ(findings[0].line, line);
   EXPECT_THROW((void)parse_plan(plan_text("paper_two_lasers_radar"), "plan.yaml"), InputError);  // no folder
+}
+
+// The entry of the heir is the mistake, if its base cannot be read or leads back.
+TEST(PlanLoader, ABaseThatCannotBeIsAMistakeOfItsHeir) {
+  const std::pair<const char*, const char*> mistakes[] = {{"extends: nothing.yaml\nname: heir\n", "nothing.yaml"},
+                                                          {"name: heir\nextends: base.yaml\n", "lead back"}};
+  for (const auto& [heir, words] : mistakes) {
+    const auto findings = findings_beside("extends: heir.yaml\n", heir);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings[0].key, "extends");
+    EXPECT_GT(findings[0].line, 0);
+    EXPECT_NE(findings[0].sentence().find(words), std::string::npos) << findings[0].sentence();
+  }
 }
 
 TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
