@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/decimal.h"
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::explanation {
@@ -86,11 +87,19 @@ class Collector {
       say("plan.in_order: true", 0, [](Plan& plan) { plan.in_order = false; });
   }
 
+  // So many static slots fit into the longest cycle, beside the other segments and the shortest idle time.
+  std::int64_t most_slots() const {
+    const model::GlobalParameters& g = cluster_.flexray;
+    const std::int64_t others = analysis::segments_sum(g) - std::int64_t{g.gNumberOfStaticSlots} * g.gdStaticSlot;
+    const std::int64_t macroticks = plan_.cycle.longest.ns * 1'000 / g.gdMacrotick_ps;
+    return std::min<std::int64_t>((macroticks - others - 2) / g.gdStaticSlot, 1023);
+  }
+
   void slots() {
     if (plan_.parameters.static_slots) return;
     const int now = cluster_.flexray.gNumberOfStaticSlots;
     const auto free_rest = [](Plan& plan) { plan.parameters.idle_time = plan.parameters.correction_start = true; };
-    const Dial dial{now, 1023, 1,
+    const Dial dial{now, most_slots(), 1,
                     [free_rest](Plan& plan, std::int64_t slots) {
                       plan.cluster.flexray.gNumberOfStaticSlots = static_cast<int>(slots);
                       free_rest(plan);

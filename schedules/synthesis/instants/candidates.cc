@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
-#include "core/int128.h"
 #include "schedules/analysis/clock_bounds.h"
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/analysis/responses.h"
 #include "schedules/analysis/sensor_loop.h"
-#include "schedules/model/wire_times.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::instants {
@@ -29,8 +28,7 @@ bool set_parameters(const Plan& plan, Duration cycle, model::Cluster& cluster) {
   if (cycle_ps % g.gdMacrotick_ps != 0 || cycle_ps / g.gdMacrotick_ps > 16'000) return false;
   g.gdCycle_ps = cycle_ps;
   g.gMacroPerCycle = static_cast<int>(cycle_ps / g.gdMacrotick_ps);
-  const int rest =
-      g.gMacroPerCycle - action_point_difference(g) - g.gNumberOfMinislots * g.gdMinislot - g.gdSymbolWindow;
+  const int rest = g.gMacroPerCycle - analysis::segments_sum(g) + g.gNumberOfStaticSlots * g.gdStaticSlot;
   if (plan.parameters.static_slots) {
     const int idle = plan.parameters.idle_time ? kCorrectionRoom : g.gdNIT;
     g.gNumberOfStaticSlots = std::min((rest - idle) / g.gdStaticSlot, 1023);
@@ -49,13 +47,12 @@ void set_controllers(const Plan& plan, model::Cluster& cluster) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     if (!cluster.nodes[n].flexray) continue;
     model::NodeParameters& p = *cluster.nodes[n].flexray;
+    const analysis::Terms terms{cluster.flexray, p, analysis::worst_drift_ppb(cluster.nodes[n]), worst};
     const LeftOutParameters::Controller& left = plan.parameters.controllers[n];
     if (left.microticks) p.pMicroPerCycle = static_cast<int>(cluster.flexray.gdCycle_ps / p.pdMicrotick_ps);
     if (left.rate)
-      p.pRateCorrectionOut = static_cast<int>(
-          model::ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (analysis::worst_drift_ppb(cluster.nodes[n]) + worst),
-                          1'000'000'000 - worst));
-    if (left.listen) p.pdListenTimeout = 2 * (p.pMicroPerCycle + p.pRateCorrectionOut);
+      p.pRateCorrectionOut = static_cast<int>(std::max<std::int64_t>(analysis::least_rate_correction(terms), 2));
+    if (left.listen) p.pdListenTimeout = static_cast<int>(analysis::listen_timeout(terms));
   }
 }
 

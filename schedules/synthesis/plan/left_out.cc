@@ -57,10 +57,13 @@ class Filler {
     const Path path{"flexray"};
     const std::string cycle_us = scaled_text(longest_cycle_.ns, 1'000);
     found_.cycle = leave(*map, path, "gdCycle", cycle_us);
-    const std::int64_t cycle_ps =
-        found_.cycle ? longest_cycle_.ns * 1'000 : map->scaled("gdCycle", 1'000'000, {1, INT64_MAX}, "us");
-    const std::int64_t macrotick_ps = map->scaled("gdMacrotick", 1'000'000, {1'000'000, 6'000'000}, "us");
-    leave(*map, path, "gMacroPerCycle", fmt::format("{}", cycle_ps / macrotick_ps));
+    // Without gdMacrotick there is nothing to count by: the loader says what is missing.
+    if (map->has("gdMacrotick")) {
+      const std::int64_t cycle_ps =
+          found_.cycle ? longest_cycle_.ns * 1'000 : map->scaled("gdCycle", 1'000'000, {1, INT64_MAX}, "us");
+      const std::int64_t macrotick_ps = map->scaled("gdMacrotick", 1'000'000, {1'000'000, 6'000'000}, "us");
+      leave(*map, path, "gMacroPerCycle", fmt::format("{}", cycle_ps / macrotick_ps));
+    }
     found_.parameters.static_slots = leave(*map, path, "gNumberOfStaticSlots", "1023");
     found_.parameters.idle_time = leave(*map, path, "gdNIT", "2");
     found_.parameters.correction_start = leave(*map, path, "gOffsetCorrectionStart", "9");

@@ -46,6 +46,18 @@ class Copier {
     return "";
   }
 
+  // Returns the key whose number a list cannot have, and the most that it can; none if all fit.
+  std::optional<std::pair<const char*, std::int64_t>> too_many() const {
+    for (std::size_t p = 0; p < cluster_.pdus.size(); ++p) {
+      if (!own(static_cast<PduId>(p))) continue;
+      const bool raw = writes(cluster_.sensor(from_).device, static_cast<PduId>(p));
+      const std::int64_t most = most_elements(layout_like(p, raw));
+      if (const auto& wanted = raw ? wanted_.raw : wanted_.objects; wanted && *wanted > most)
+        return std::pair{raw ? "raw" : "objects", most};
+    }
+    return std::nullopt;
+  }
+
   void copy() {
     const auto sensor = static_cast<SensorId>(cluster_.sensors.size());
     copy_lists(sensor);
@@ -94,6 +106,22 @@ class Copier {
     return at == std::string::npos ? name_ + "_" + text : std::string(text).replace(at, old_.size(), name_);
   }
 
+  model::PduLayout layout_like(std::size_t pdu, bool raw) const {
+    const auto known = wanted_.kind ? known_kind(*wanted_.kind) : std::nullopt;
+    if (!known) return cluster_.pdus[pdu];
+    return raw ? known->raw : known->objects;
+  }
+
+  // The header counts elements and numbers fragments.
+  static std::int64_t most_elements(const model::PduLayout& layout) {
+    const auto values = [&](std::string_view name) {
+      const auto found = find_signal(layout.header, name);
+      return std::int64_t{1} << (found ? layout.header[*found].bits : 0);
+    };
+    const std::int64_t fragments = std::min<std::int64_t>(model::kMostFragments, values("fragment"));
+    return std::min(values("count") - 1, fragments * layout.elements_per_fragment);
+  }
+
   void copy_lists(SensorId sensor) {
     const NodeId device = cluster_.sensor(from_).device;
     const std::size_t before = cluster_.pdus.size();
@@ -101,9 +129,7 @@ class Copier {
     for (std::size_t p = 0; p < before; ++p) {
       if (!own(static_cast<PduId>(p))) continue;
       const bool raw = writes(device, static_cast<PduId>(p));
-      model::PduLayout made = cluster_.pdus[p];
-      if (wanted_.kind)
-        if (auto known = known_kind(*wanted_.kind)) made = raw ? known->raw : known->objects;
+      model::PduLayout made = layout_like(p, raw);
       made.name = renamed(cluster_.pdus[p].name);
       made.sensor = sensor;
       made.line = wanted_.line;
@@ -207,6 +233,8 @@ class Copier {
     if (!cluster_.node(host).flexray) return;
     std::set<int> taken;
     for (const model::FrameSlot& frame : cluster_.frames) taken.insert(frame.slot);
+    for (const PlannedList& list : plan_.lists)  // a list may stand in a key slot
+      for (int f = 0; !list.at.instant && f < cluster_.pdu(list.pdu).max_fragments(); ++f) taken.insert(list.slot + f);
     int free = 1;
     while (taken.contains(free)) ++free;
     model::NodeParameters& parameters = *cluster_.nodes[index_of(host)].flexray;
@@ -272,6 +300,8 @@ void add_alike(const std::string& name, YamlMap& map, Plan& plan) {
   }
   Copier copier(plan, *from, name, wanted);
   if (const std::string refusal = copier.refusal(); !refusal.empty()) return map.fail("like", refusal);
+  if (const auto most = copier.too_many())
+    return map.fail(most->first, fmt::format("must be at most {}: the list's header holds no more", most->second));
   copier.copy();
 }
 

@@ -75,5 +75,17 @@ TEST(Explain, ChangesAreTheLeastOnes) {
   FAIL() << "no change of the laser's age";
 }
 
+// With fewer slots the idle time is too long in this cycle of 8,535 macroticks: 7,551 - 80 * 84 > 805.
+TEST(Explain, TooFewSlotsAndHowManyAreEnough) {
+  const std::string one_cycle =
+      changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8535 us, longest: 8535 us, step: 100 us}");
+  const std::string text = changed(one_cycle, "  gdSymbolWindow:", "  gNumberOfStaticSlots: 60\n  gdSymbolWindow:");
+  const plan::Plan plan = plan::parse_plan(text, "plan.yaml");
+  EXPECT_FALSE(feasible(plan).found);
+  const Explanation why = explain(plan);
+  EXPECT_TRUE(says(why.core, "flexray.gNumberOfStaticSlots: 60"));
+  EXPECT_TRUE(says(why.changes, "flexray.gNumberOfStaticSlots: 81"));
+}
+
 }  // namespace
 }  // namespace ttf::schedules::synthesis::explanation

@@ -33,6 +33,7 @@ TEST(PlanLoader, NamesEachMistake) {
   const Mistake mistakes[] = {
       {"no section", "plan:\n", "plans:\n", "plan", "is missing"},
       {"cycle twice", "  gdMacrotick: 1 ", "  gdCycle: 5000\n  gdMacrotick: 1 ", "flexray.gdCycle", "must be left out"},
+      {"no macrotick", "  gdMacrotick: 1 [^\n]*\n", "", "flexray.gdMacrotick", "is missing"},
       {"cycle backwards", "longest: 9 ms, step", "longest: 8 ms, step", "plan.cycle.longest", "8500 us"},
       {"no step", ", step: [^}]*", "", "plan.cycle.step", "is missing"},
       {"tiny step", "longest: 9 ms, step: [^}]*", "longest: 16 ms, step: 100 ns", "plan.cycle.step", "must be"},
@@ -64,6 +65,9 @@ TEST(PlanLoader, NamesEachMistake) {
        "0..127"},
       {"like nothing", "  objective:", "  sensors: {rear: {like: lidar}}\n  objective:", "plan.sensors.rear.like",
        "is not the name of an earlier sensor"},
+      {"more than a header counts",
+       "  objective:", "  sensors: {rear: {like: laser, objects: 255}, left: {like: camera, raw: 65}}\n  objective:",
+       "plan.sensors.left.raw", "at most 63"},
       {"like itself", "  objective:", "  sensors: {laser: {like: laser}}\n  objective:", "plan.sensors.laser",
        "is the name of an earlier sensor"},
   };
@@ -143,6 +147,21 @@ TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
       ASSERT_EQ(sender.tasks.size(), 1u);
       EXPECT_EQ(sender.tasks[0].writes[0].pdu, message.pdu);
     }
+}
+
+// A list of one frame stands in its sender's key slot: a further sensor's host needs another one.
+TEST(PlanLoader, AFurtherSensorsKeySlotIsFreeOfLists) {
+  const std::string one_frame =
+      changed(changed(plan_text("paper"), "  - \\{slot: 2, sender: camera_pre\\}\n", ""),
+              "(camera_objects:\n +sensor: camera\n +fragment_bytes: 56\n +max_elements:) 25", "$1 4");
+  const Plan plan =
+      parse_plan(changed(one_frame, "  objective:", "  sensors: {rear: {like: laser}}\n  objective:"), "p");
+  const auto list = std::find_if(plan.lists.begin(), plan.lists.end(), [](const auto& one) { return !one.at.instant; });
+  ASSERT_NE(list, plan.lists.end());
+  EXPECT_EQ(list->slot, 2);
+  const auto host = plan.cluster.find_node("rear_pre");
+  ASSERT_TRUE(host);
+  EXPECT_EQ(plan.cluster.node(*host).flexray->pKeySlotId, 6);
 }
 
 }  // namespace
