@@ -48,11 +48,10 @@ def driven(program, repository, name, paradigm, seed):
         begin = random.Random(seed).randrange(FIRST_MS, LAST_MS)
         text += f"faults:\n  - {{{fault}, from: {begin} ms, duration: {DURATION_MS} ms}}\n"
     with tempfile.TemporaryDirectory() as folder:
-        for cluster in (repository / "schedules").glob("closed_loop_*.yaml"):
+        for cluster in (repository / "schedules").glob("*.yaml"):
             schedule = cluster.read_text(encoding="utf-8")
-            if name.endswith(GUARDED):
-                schedule = schedule.replace("synchronisation: true\n",
-                                            "synchronisation: true\ntopology: star\nguardian: true\n")
+            if name.endswith(GUARDED) and cluster.name.startswith("closed_loop_"):
+                schedule += "\ntopology: star\nguardian: true\n"
             pathlib.Path(folder, cluster.name).write_text(schedule, encoding="utf-8")
         scenario = pathlib.Path(folder) / "drive.yaml"
         scenario.write_text(text.replace("../schedules/", ""), encoding="utf-8")

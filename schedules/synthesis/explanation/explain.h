@@ -1,4 +1,4 @@
-// Why a plan has no solution: a smallest set of its statements that cannot hold together, and the changes that help.
+// Why a plan has no solution: statements that cannot hold together, none of them too many, and the changes that help.
 //
 // The set is found by deletion: a statement without which the others still cannot hold is left out, one after the other. Any
 // one of those that remain makes the others possible when it is dropped.
@@ -18,7 +18,7 @@ struct Explanation {
     std::string text;
   };
   std::vector<Said> core;
-  bool proven = true;  // every search behind it was exact
+  bool proven = true;  // every search behind it was exact, over the lengths and rates that stand for any (statements.h)
   // The least change of each statement of the core that has a number; one of them is enough.
   std::vector<Said> changes;
 };

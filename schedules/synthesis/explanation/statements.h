@@ -22,6 +22,7 @@ struct Dial {
 struct Statement {
   std::string text;  // "chains.laser.largest_age: 40 ms"
   int line = 0;      // in the plan's text
+  // Lengths of 1 to 16 ms in steps of 0.1 ms (or the plan's, if longer) stand for any cycle, four times a rate for any.
   std::function<void(plan::Plan&)> drop;
   std::optional<Dial> dial;
 };

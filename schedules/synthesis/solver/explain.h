@@ -1,4 +1,4 @@
-// Says why a problem has no solution: a smallest set of statements that cannot hold together, and the smallest change that helps.
+// Says why a problem has no solution: statements that cannot hold together, none of them too many, and the smallest change that helps.
 #pragma once
 
 #include <compare>

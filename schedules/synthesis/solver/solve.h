@@ -46,9 +46,10 @@ struct Effort {
 
 // How well an objective was met. Values are whole ticks, except of kFunction.
 struct Reached {
-  double value = 0, bound = 0;  // no offsets that keep the earlier objectives' values are better than the bound
-  bool proven = false;          // value == bound; of kFunction: no offsets on the raster are better
-  std::string way;              // "placement meets the bound", "exhausted", "integers", "not proven"
+  // No offsets that keep the earlier objectives' values (of kFunction: the offsets that it chose) are better than the bound.
+  double value = 0, bound = 0;
+  bool proven = false;  // value == bound; of kFunction: no offsets on the raster are better
+  std::string way;      // "placement meets the bound", "exhausted", "integers", "not proven"
 };
 
 struct Outcome {
