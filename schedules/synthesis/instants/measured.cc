@@ -60,8 +60,12 @@ std::vector<Reached> in_units(std::vector<Reached> reached, const Measured& meas
     const double off = one.value - one.bound;
     if (one.goal == Goal::kWorstAge) one.value = in_ms(measured.worst);
     if (one.goal == Goal::kDataAge) one.value = in_ms(measured.data);
-    if (one.goal == Goal::kJitter) one.value = in_ms(measured.jitter);
     if (one.goal == Goal::kSlots || one.goal == Goal::kRoom) continue;
+    if (one.goal == Goal::kJitter) {  // clocks make jitter, too: its bound stays 0
+      one.value = in_ms(measured.jitter);
+      one.proven = one.value == one.bound;
+      continue;
+    }
     one.bound = one.value - off * tick_ms - in_ms(measured.beyond);
     one.proven = one.value == one.bound;
   }

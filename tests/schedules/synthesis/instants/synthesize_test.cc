@@ -152,6 +152,17 @@ INSTANTIATE_TEST_SUITE_P(Clusters, Shipped,
                          [](const auto& parameter) { return parameter.param; });
 
 // The slots that a plan needs are found from both sides: fewer do not suffice.
+// Clocks make jitter, too, in proportion to the age. So no jitter above 0 is proven.
+TEST(SynthesizeJitter, HasNoBetterBoundThanZero) {
+  std::string text = changed(plan_text("paper"), "objective: \\[[^\\]]*\\]", "objective: [jitter]");
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
+  const Synthesis made = synthesize(plan::parse_plan(text, "plan.yaml"));
+  ASSERT_TRUE(made.found);
+  EXPECT_GT(made.reached[0].value, 0.0);
+  EXPECT_EQ(made.reached[0].bound, 0.0);
+  EXPECT_FALSE(made.reached[0].proven);
+}
+
 TEST(SynthesizeSlots, FewerSlotsDoNotSuffice) {
   std::string text = changed(plan_text("paper"), "objective: \\[[^\\]]*\\]", "objective: [slots]");
   text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
