@@ -15,4 +15,9 @@ inline YAML::Node child(const YAML::Node& node, std::string_view key) {
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
+// Returns the line, counted from 1; 0 for a node of no text.
+inline int line_of(const YAML::Node& node) {
+  return node.IsDefined() && node.Mark().line >= 0 ? node.Mark().line + 1 : 0;
+}
+
 }  // namespace ttf
