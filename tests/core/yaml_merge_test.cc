@@ -163,5 +163,20 @@ TEST(YamlMerge, AgreesWithAnotherImplementationOfRfc7396) {
   EXPECT_GT(changed, 1000);
 }
 
+// All kinds of scalars, keys and nesting mean the same when they are written anew.
+TEST(YamlMerge, AValueStaysWhatItIsInEveryStyle) {
+  for (const std::string text :
+       {"a: |\n  two\n  lines\nb: >-\n  folded\n  text\n", "a: 'it''s'\nb: \"tab\\t\\u00e4 \\\" \\\\\"\n",
+        "a: [1, [2, {b: 3, c: [ ]}], {}]\n", "a:\n- b\n-\n  - c\n  - d: 1\n    e:\n    - 2\n",
+        "a: \"- x\"\nb: '? y'\nc: '& z'\nd: '!t'\ne: 'a: b'\nf: 'a #b'\ng: '@x'\n", "'a b': 1\n'c: d': 2\n\"\": 3\n",
+        "a: 'true'\nb: '~'\nc: ''\nd: 'null'\ne: -5\nf: -.5\ng: 1e-3\nh: '...'\n",
+        "a: &x [1,\n 2]\nb: *x\nc: {d: *x}\n", "a: {b: 1,\n  c: 2}\n'---': äöü\n",
+        "a: 'x\n\n  y'\nb: ' x '\nc: \"\\x01\"\n"}) {
+    YAML::Node again = YAML::Load(merged(text, "z: 1\n"));
+    again.remove("z");
+    EXPECT_EQ(as_json(again), as_json(YAML::Load(text))) << text;
+  }
+}
+
 }  // namespace
 }  // namespace ttf
