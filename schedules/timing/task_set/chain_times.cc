@@ -6,11 +6,15 @@
 #include <cstddef>
 #include <map>
 
+#include "core/int128.h"
 #include "schedules/timing/chain/stage.h"
+#include "schedules/timing/chain/timetable.h"
 #include "schedules/timing/task_set/simulated_jobs.h"
 
 namespace ttf::schedules::timing::task_set {
 namespace {
+
+constexpr Duration kLongestSum{chain::kLongest.ns / 2};  // offsets and periods come on top of the responses
 
 class Stages {
  public:
@@ -33,6 +37,13 @@ class Stages {
     if (task.communication == Communication::kLet && !meets_deadline(set_, responses_, t))
       return fmt::format("{} may not have ended when it is to write", task.name);
     return "";
+  }
+
+  // Returns whether the responses of the stages, each of which is bounded, are too long to add up.
+  bool too_long(const std::vector<std::size_t>& stages) const {
+    Int128 sum = 0;
+    for (const std::size_t t : stages) sum += responses_.tasks[t].response.longest;
+    return sum > kLongestSum.ns;
   }
 
   // The stage at place `s` of a chain.
@@ -78,7 +89,8 @@ class Stages {
     stage.cycle = simulated->hyperperiod;
     stage.jobs = simulated->jobs[rank_[t]];
     const std::vector<std::size_t>& order = responses_.resources[task.resource].by_priority;
-    stage.exact = std::all_of(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(rank_[t]) + 1,
+    stage.exact = is_alone(t) ||
+                  std::all_of(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(rank_[t]) + 1,
                               [&](std::size_t other) { return set_.tasks[other].best == set_.tasks[other].worst; });
     return stage;
   }
@@ -123,6 +135,7 @@ std::vector<ChainTiming> chain_times(const TaskSet& set, const Responses& respon
       timing.why_none = maker.why_none(chain.stages[s]);
       if (timing.why_none.empty()) stages.push_back(maker.stage(chain.stages, s));
     }
+    if (timing.why_none.empty() && maker.too_long(chain.stages)) timing.why_none = "its responses sum up to days";
     if (timing.why_none.empty()) timing.times = chain::end_to_end(stages);
   }
   return found;

@@ -9,7 +9,8 @@
 //   message         takes its value at its release, as it is queued
 //   activated       ends its response behind its earliest release, which its activator's shortest time precedes
 //
-// A resource with a single task is exact, too. A periodic task without an offset has any phase against the others.
+// A resource with a single task is exact, too. A periodic task without an offset has any phase against the others. A
+// chain whose responses sum up to more than half of chain::kLongest has no times.
 #pragma once
 
 #include <optional>

@@ -115,15 +115,35 @@ class Analysis {
   void respond(std::size_t r) {
     const std::vector<std::size_t>& order = found_.resources[r].by_priority;
     const std::vector<Response> responses = responses_on(r);
+    const bool apart = set_.resources[r].is_can() && has_offsets(order);  // can.h knows no offsets
     bool bounded = true, activated = false;
     for (std::size_t p = 0; p < order.size(); ++p) {
       TaskTiming& timing = found_.tasks[order[p]];
       bounded = bounded && !unknown_[order[p]];
       activated = activated || set_.tasks[order[p]].activator;
       timing.response = bounded ? responses[p] : Response{};
-      // The activators' worst cases may never come together.
-      if (activated && timing.bounded()) timing.response.quality = Quality::kBound;
+      // The activators' worst cases may never come together, nor messages with known offsets.
+      const bool may_be_less = activated || apart || blocked_by_activated(r, p);
+      if (may_be_less && timing.bounded()) timing.response.quality = Quality::kBound;
     }
+  }
+
+  bool has_offsets(const std::vector<std::size_t>& tasks) const {
+    return std::ranges::any_of(tasks, [&](std::size_t t) { return set_.tasks[t].offset.has_value(); });
+  }
+
+  // Returns whether the longest of the lower priorities, which blocks the task at place `p`, is an activated one: it
+  // may never begin just before the task's release.
+  bool blocked_by_activated(std::size_t r, std::size_t p) const {
+    if (set_.resources[r].policy == Policy::kPreemptive) return false;
+    const std::vector<std::size_t>& order = found_.resources[r].by_priority;
+    Duration activated{}, free{};
+    for (std::size_t lower = p + 1; lower < order.size(); ++lower) {
+      const Task& task = set_.tasks[order[lower]];
+      Duration& longest = task.activator ? activated : free;
+      longest = std::max(longest, task.worst);
+    }
+    return activated > free;
   }
 
   std::vector<Response> responses_on(std::size_t r) const {

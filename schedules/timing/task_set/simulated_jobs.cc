@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/int128.h"
+#include "schedules/timing/chain/timetable.h"
 
 namespace ttf::schedules::timing::task_set {
 namespace {
@@ -15,7 +16,7 @@ std::optional<std::int64_t> short_hyperperiod(std::span<const PeriodicTask> task
   std::int64_t hyperperiod = 1;
   for (const PeriodicTask& task : tasks) {
     const Int128 next = Int128{hyperperiod} / std::gcd(hyperperiod, task.period.ns) * task.period.ns;
-    if (next > std::numeric_limits<std::int64_t>::max() / 1000) return std::nullopt;
+    if (next > chain::kLongest.ns / 4) return std::nullopt;  // the last ends are less than two hyperperiods later
     hyperperiod = static_cast<std::int64_t>(next);
   }
   Int128 jobs = 0, work = 0;

@@ -29,8 +29,8 @@ struct SimulatedJobs {
 
 inline constexpr std::int64_t kMostSimulated = 400'000;  // jobs in two hyperperiods
 
-// Takes the tasks by priority, the highest first. Returns none if the load exceeds one or the jobs exceed
-// kMostSimulated.
+// Takes the tasks by priority, the highest first. Returns none if the load exceeds one, the jobs exceed kMostSimulated
+// or the hyperperiod exceeds a quarter of chain::kLongest.
 std::optional<SimulatedJobs> simulated_jobs(std::span<const PeriodicTask> by_priority);
 
 }  // namespace ttf::schedules::timing::task_set

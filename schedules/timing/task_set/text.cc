@@ -18,14 +18,14 @@ std::string resource_text(const TaskSet& set, const Verdict& verdict, std::size_
                                  word(resource.policy), here.load * 100);
   const bool table = resource.policy == Policy::kTable;
   text += table ? "\n" : fmt::format(", priorities {}\n", words(here.assignment));
-  text += fmt::format("  {:<36}{:>10}{:>10}{:>10}{:>10}\n",
+  text += fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}\n",
                       table ? "time-triggered [ms]" : "the highest priority first [ms]", "period", "jitter", "response",
                       "deadline");
   for (const std::size_t t : here.by_priority) {
     const Task& task = set.tasks[t];
     const TaskTiming& timing = verdict.responses.tasks[t];
     const std::string longest = timing.bounded() ? milliseconds(Duration{timing.response.longest}) : "-";
-    text += fmt::format("  {:<36}{:>10}{:>10}{:>10}{:>10}  {}{}\n", task.name, milliseconds(set.period_of(t)),
+    text += fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}  {}{}\n", task.name, milliseconds(set.period_of(t)),
                         milliseconds(timing.jitter), longest, milliseconds(task.deadline),
                         response::word(timing.response.quality),
                         meets_deadline(set, verdict.responses, t) ? "" : ", missed");

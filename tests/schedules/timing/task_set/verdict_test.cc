@@ -81,6 +81,53 @@ TEST(TaskSetVerdict, JittersOfActivations) {
   EXPECT_EQ(ends.reduced_age->time, Duration::milliseconds(5 + 3));
 }
 
+// m2 comes 5 ms behind m1, so it never waits for it: 0.54 ms is no case.
+TEST(TaskSetVerdict, OffsetsOnACanMakeBounds) {
+  const auto response = [](const std::string& first, const std::string& second) {
+    return Judged("bus,can,can,500000\nmessage,m1,can,10 ms," + first + ",,,8\nmessage,m2,can,10 ms," + second +
+                  ",,,8\n")
+        .verdict.responses.tasks[1]
+        .response;
+  };
+  EXPECT_EQ(response("0 ms", "5 ms"), (response::Response{response::Quality::kBound, 540'000}));
+  EXPECT_EQ(response("", ""), (response::Response{response::Quality::kExact, 540'000}));
+}
+
+// Task b begins as a ends and has ended before a comes again, so it never blocks a. Task d may.
+TEST(TaskSetVerdict, BlockingByAnActivatedTaskIsABound) {
+  const std::string text =
+      "processor,p,non_preemptive\ntask,a,p,10 ms,,,1 ms,1 ms,,1\ntask,b,p,,,,4 ms,4 ms,,2,event\nchain,ab,a > b\n";
+  const response::Response blocked = Judged(text).verdict.responses.tasks[0].response;
+  EXPECT_EQ(blocked, (response::Response{response::Quality::kBound, 5'000'000 - 1}));
+  const response::Response same = Judged(text + "task,d,p,40 ms,,,,4 ms,,3\n").verdict.responses.tasks[0].response;
+  EXPECT_EQ(same, (response::Response{response::Quality::kExact, 5'000'000 - 1}));
+}
+
+// Hyperperiods and responses of days.
+TEST(TaskSetVerdict, DaysAreTooLongForChains) {
+  const Judged sampled(
+      "processor,p,preemptive\ntask,a,p,500 s,0 s,,,1 s\ntask,b,p,499.9 s,0 s,,,1 s\nchain,ab,a > b\n");
+  EXPECT_TRUE(sampled.verdict.holds());
+  EXPECT_FALSE(sampled.verdict.chains[0].times->exact);
+  const std::string text =
+      "processor,p,preemptive\ntask,h,p,1000 s,,,,500 s,,1\ntask,i,p,998.9 s,,,,499449999001 ns,,2\n"
+      "task,low,p,1000 s,,,,900 ns,,3,COMMUNICATION\nchain,c,low\n";
+  for (const std::string communication : {"implicit", "event"}) {
+    const Judged late(std::string(text).replace(text.find("COMMUNICATION"), 13, communication));
+    ASSERT_TRUE(late.verdict.responses.tasks[2].bounded());
+    EXPECT_EQ(late.verdict.chains[0].why_none, "its responses sum up to days");
+    EXPECT_THAT(verdict_text(late.set, late.verdict), HasSubstr(" 1000000.000 "));
+  }
+}
+
+TEST(TaskSetVerdict, ATaskAloneIsExact) {
+  for (const std::string offset : {"", "3 ms"}) {
+    const Judged alone("processor,p,preemptive\ntask,a,p,10 ms," + offset + ",,1 ms,2 ms\nchain,c,a\n");
+    EXPECT_TRUE(alone.verdict.chains[0].times->exact);
+    EXPECT_EQ(alone.verdict.chains[0].times->age->time, Duration::milliseconds(12));
+  }
+}
+
 TEST(TaskSetVerdict, LogicalExecutionTime) {
   const std::string tasks =
       "processor,p,preemptive\ntask,a,p,10 ms,0 ms,,,2 ms,,,let\ntask,b,p,20 ms,0 ms,,,WORK,,,let\nchain,ab,a > "
