@@ -45,6 +45,13 @@ expect 0 'bus.xml: 35 frames with signals, and 4 slots more: key slots, without 
 expect 0 '^signals: consistent$' schedule check "$work/bus.xml"
 expect 0 '^signals: cycle of 5 ms, 5000 macroticks: static 9 x 35' schedule show "$work/bus.xml"
 
+# A slot that stands beyond those given leaves none of them free.
+sed 's/^rain,\(.*\),[0-9]*,\([0-9]*\),\([0-9]*\),A$/rain,\1,20,\2,\3,A/' "$work/packing.csv" >"$work/far.csv"
+expect 1 'need 6 static slots with numbers up to 20: slots must be 1..8, and no packing that keeps the places that stand' \
+  "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8
+"$program" "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8 2>/dev/null | grep -q 'given are free' &&
+  fail "slots are free though they do not suffice"
+
 # Signals without a place are named, and the others are packed.
 expect 1 'signals.csv:17: signal tyre_pressure has no place: its 32 bits must fit a frame of 16 bits$' \
   schedule synthesize --signals "$signals" --payload 16bit -o "$work/narrow.csv"
@@ -68,6 +75,11 @@ mistake '--fibex = .*bus.xml: goes without --slot-multiplexing' --signals "$sign
 mistake '--fibex = .*: goes with --channels one or same' --signals "$signals" --fibex "$work/bus.xml" --payload 8byte \
   --channels independent
 mistake 'slots = [0-9]*: must fit the cycle of 80 macroticks' --signals "$work/fast.csv" --cycle 0.08ms --fibex "$work/bus.xml"
+mistake '--fibex = .*: must be another file than that of --out' --signals "$signals" --payload 8byte \
+  -o "$work/twice.xml" --fibex "$work/./twice.xml"
+sed 's/^rain,\(.*\),[0-9]*,\([0-9]*\),\([0-9]*\),A$/rain,\1,0,\2,\3,A/' "$work/packing.csv" >"$work/zero.csv"
+mistake 'zero.csv: slot = 0: must be 1 or more with --fibex' --signals "$signals" --payload 8byte \
+  --fixed "$work/zero.csv" --fibex "$work/bus.xml"
 mistake '--channels' --signals "$signals" --channels two
 mistake '--fixed' --fixed "$work/packing.csv"
 mistake '--out' --signals "$signals" -o "$signals"

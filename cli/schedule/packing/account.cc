@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/decimal.h"
 
@@ -45,8 +46,8 @@ std::string verdict_text(const Account& account) {
   if (slots == least)
     return fmt::format("{} {}: proven to be the fewest, {}\n", slots, where,
                        account.standing > 0 ? "beside the places that stand" : "the bound is as many");
-  return fmt::format("{} {}: at most {} more than needed, as no packing has fewer than {}\n", slots, where,
-                     slots - least, least);
+  return fmt::format("{} {}: at most {} more than needed, as {} has fewer than {}\n", slots, where, slots - least,
+                     no_packing(account), least);
 }
 
 std::string room_text(const Account& account) {
@@ -84,6 +85,24 @@ nlohmann::ordered_json parts_json(const Account& account) {
 
 }  // namespace
 
+int Account::last_slot() const {
+  const int given = slots.value_or(table::kLastStaticSlot + 1);
+  return std::min(first_slot + given - 1, table::kLastStaticSlot);
+}
+
+int Account::highest_slot() const {
+  int highest = 0;
+  for (const table::SlotNumber& number : numbers) highest = std::max(highest, number.slot);
+  return highest;
+}
+
+int Account::free_slots() const {
+  std::set<int> used;
+  for (const table::SlotNumber& number : numbers)
+    if (number.slot >= first_slot && number.slot <= last_slot()) used.insert(number.slot);
+  return last_slot() - first_slot + 1 - static_cast<int>(used.size());
+}
+
 int Account::slots_needed() const { return std::max(slots_on(numbers, Channel::kA), slots_on(numbers, Channel::kB)); }
 
 int Account::least_slots() const {
@@ -93,6 +112,10 @@ int Account::least_slots() const {
   std::vector<table::SlotNumber> fewest = numbers;
   fewest.resize(static_cast<std::size_t>(std::min<int>(bins, static_cast<int>(numbers.size()))));
   return std::max(slots_on(fewest, Channel::kA), slots_on(fewest, Channel::kB));
+}
+
+std::string no_packing(const Account& account) {
+  return account.standing > 0 ? "no packing that keeps the places that stand" : "no packing";
 }
 
 std::string account_text(const Account& account) {
@@ -108,9 +131,8 @@ std::string account_text(const Account& account) {
                                       [](const auto& place) { return place.has_value(); }) -
                             account.standing);
   text += parts_text(account) + verdict_text(account);
-  if (account.slots && *account.slots >= account.slots_needed())
-    text += fmt::format("{} of the {} static slots given are free\n", *account.slots - account.slots_needed(),
-                        *account.slots);
+  if (account.slots && account.suffices())
+    text += fmt::format("{} of the {} static slots given are free\n", account.free_slots(), *account.slots);
   return text + room_text(account);
 }
 
@@ -130,7 +152,7 @@ std::string account_json(const Account& account) {
                             {"free_bits", room.free_bits},
                             {"bits", account.room_bits},
                             {"signals_by_repetition", room.signals}});
-  if (account.slots) json["slots_free"] = std::max(0, *account.slots - account.slots_needed());
+  if (account.slots) json["slots_free"] = account.suffices() ? account.free_slots() : 0;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <filesystem>
 
 #include "cli/argument_checks.h"
 #include "cli/output.h"
@@ -56,6 +57,9 @@ void check_outputs(const PackingOptions& options, const std::string& out) {
     for (const std::string& input : {options.signals, options.fixed})
       if (!path.empty() && !input.empty()) refuse_overwriting(input, path, option);
   if (options.fibex.empty()) return;
+  const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
+  if (normal(out) == normal(options.fibex))
+    refuse_option("--fibex", options.fibex, "must be another file than that of --out");
   if (options.slot_multiplexing)
     refuse_option("--fibex", options.fibex, "goes without --slot-multiplexing: the file is for FlexRay 2.1");
   if (options.channels == "independent")
@@ -72,14 +76,17 @@ int print_impossible(const SignalFile& file) {
 }
 
 // Returns the reason why the slots do not suffice, or an empty text.
-std::string shortage(const Account& account, int first_slot) {
-  const int last = first_slot + account.slots.value_or(table::kLastStaticSlot + 1) - 1;
-  int highest = 0;
-  for (const table::SlotNumber& number : account.numbers) highest = std::max(highest, number.slot);
-  if (highest <= std::min(last, table::kLastStaticSlot)) return {};
-  return fmt::format(
-      "need {} static slots with numbers up to {}: slots must be {}..{}, and no packing has fewer than {}",
-      account.slots_needed(), highest, first_slot, std::min(last, table::kLastStaticSlot), account.least_slots());
+std::string shortage(const Account& account) {
+  if (account.suffices()) return {};
+  return fmt::format("need {} static slots with numbers up to {}: slots must be {}..{}, and {} has fewer than {}",
+                     account.slots_needed(), account.highest_slot(), account.first_slot, account.last_slot(),
+                     no_packing(account), account.least_slots());
+}
+
+// A cluster numbers its slots from 1. A packing that stands may have slot 0.
+void check_bus_slots(const std::string& fixed, const std::vector<table::SlotNumber>& numbers) {
+  for (const table::SlotNumber& number : numbers)
+    if (number.slot == 0) throw InputError({fixed, 0, "slot", "0", "must be 1 or more with --fibex"});
 }
 
 }  // namespace
@@ -128,16 +135,25 @@ int pack_signals(const PackingOptions& options, const std::string& out, bool jso
   StandingPlaces standing;
   if (!options.fixed.empty()) standing = read_standing(options.fixed, file, use);
   print_warnings(standing.notes);
+  if (!options.fibex.empty()) check_bus_slots(options.fixed, standing.numbers);
   const table::Solution solution = pack(file.instance, standing.places, {options.steps, options.seed});
   const auto numbers = slot_numbers(standing.numbers, solution.bins, options.first_slot, use);
   const table::Assignment assignment = assigned(solution.places, numbers);
   const auto rooms = room_left(file.instance, solution.places, options.room_bits);
   const auto kept = std::count_if(standing.places.begin(), standing.places.end(),
                                   [](const auto& place) { return place.has_value(); });
-  const Account account{file, solution, numbers, rooms, use, static_cast<int>(kept), options.room_bits, options.slots};
+  const Account account{.file = file,
+                        .solution = solution,
+                        .numbers = numbers,
+                        .rooms = rooms,
+                        .use = use,
+                        .standing = static_cast<int>(kept),
+                        .room_bits = options.room_bits,
+                        .first_slot = options.first_slot,
+                        .slots = options.slots};
   fmt::print("{}", json ? account_json(account) : account_text(account));
   int code = print_impossible(file);
-  if (const std::string why = shortage(account, options.first_slot); !why.empty()) {
+  if (const std::string why = shortage(account); !why.empty()) {
     fmt::print(stderr, "error: {}: the signals {}\n", options.signals, why);
     return 1;
   }
