@@ -34,6 +34,7 @@ constexpr Range<Duration> kPeriods{Duration::microseconds(1), kLongestTime};
 constexpr Range<Duration> kDelays{Duration{}, kLongestTime};
 constexpr Range<Duration> kWork{Duration{1}, kLongestTime};
 constexpr Range<std::int64_t> kBitRates{10'000, 1'000'000};
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 class SetReader {
  public:
@@ -178,7 +179,7 @@ class SetReader {
     const bool is_short = can.policy == Policy::kCan;
     const auto identifier = is_short ? response::CanIdentifier::k11Bits : response::CanIdentifier::k29Bits;
     const std::int64_t unstuffed = (is_short ? 47 : 67) + 8 * bytes;
-    one.best = Duration{response::can_time_ns(unstuffed, can.bit_rate)};
+    one.best = Duration{unstuffed * kNsPerSecond / can.bit_rate};  // rounded down: no frame is shorter
     one.worst = Duration{response::can_time_ns(response::can_frame_bits(identifier, bytes), can.bit_rate)};
   }
 

@@ -115,7 +115,7 @@ class Analysis {
   void respond(std::size_t r) {
     const std::vector<std::size_t>& order = found_.resources[r].by_priority;
     const std::vector<Response> responses = responses_on(r);
-    const bool apart = set_.resources[r].is_can() && has_offsets(order);  // can.h knows no offsets
+    const bool apart = set_.resources[r].is_can() && have_offsets(order);  // can.h knows no offsets
     bool bounded = true, activated = false;
     for (std::size_t p = 0; p < order.size(); ++p) {
       TaskTiming& timing = found_.tasks[order[p]];
@@ -128,8 +128,9 @@ class Analysis {
     }
   }
 
-  bool has_offsets(const std::vector<std::size_t>& tasks) const {
-    return std::ranges::any_of(tasks, [&](std::size_t t) { return set_.tasks[t].offset.has_value(); });
+  // Returns whether two tasks have one: a single offset says nothing of the others.
+  bool have_offsets(const std::vector<std::size_t>& tasks) const {
+    return std::ranges::count_if(tasks, [&](std::size_t t) { return set_.tasks[t].offset.has_value(); }) >= 2;
   }
 
   // Returns whether the longest of the lower priorities, which blocks the task at place `p`, is an activated one: it

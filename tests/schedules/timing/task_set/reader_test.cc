@@ -59,6 +59,13 @@ struct Mistake {
   std::string from, to, sentence;
 };
 
+// 47 to 55 bits of 1/300 ms: the shortest frame is rounded down, and the longest one up.
+TEST(TaskSetFile, FramesOfBrokenNanoseconds) {
+  const TaskSet set = parse_task_set("bus,can,can,300000\nmessage,m,can,10 ms,,,,0\n", "set.csv");
+  EXPECT_EQ(set.tasks[0].best, Duration{156'666});
+  EXPECT_EQ(set.tasks[0].worst, Duration{183'334});
+}
+
 TEST(TaskSetFile, OneSentenceForEachMistake) {
   const std::string times = "must be a time with its unit (ns, us, ms or s), ";
   const std::vector<Mistake> mistakes{

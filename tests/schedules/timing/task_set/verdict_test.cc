@@ -91,6 +91,7 @@ TEST(TaskSetVerdict, OffsetsOnACanMakeBounds) {
   };
   EXPECT_EQ(response("0 ms", "5 ms"), (response::Response{response::Quality::kBound, 540'000}));
   EXPECT_EQ(response("", ""), (response::Response{response::Quality::kExact, 540'000}));
+  EXPECT_EQ(response("", "5 ms"), (response::Response{response::Quality::kExact, 540'000}));
 }
 
 // Task b begins as a ends and has ended before a comes again, so it never blocks a. Task d may.
