@@ -26,7 +26,7 @@ struct Account {
   int last_slot() const;
   int highest_slot() const;
   bool suffices() const { return highest_slot() <= last_slot(); }
-  int free_slots() const;  // of these numbers, on both channels
+  int free_slots() const;  // the numbers that no channel has in use
   // The slots that the cluster needs: those of the fuller channel.
   int slots_needed() const;
   // A number that no packing can do without, for slots_needed().
