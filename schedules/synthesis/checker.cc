@@ -69,11 +69,28 @@ std::string chain_mistake(const Problem& problem, const Chain& chain) {
     if (at >= count) return fmt::format("{}: activity {} of {}", name, at, count);
   if (!chain.gaps.empty() && chain.gaps.size() + 1 != length)
     return fmt::format("{}: {} gaps for {} activities", name, chain.gaps.size(), length);
-  for (const Ticks gap : chain.gaps)
-    if (gap < 0 || gap > kLongestHyperperiod) return fmt::format("{}: gap {}", name, gap);
+  for (std::size_t at = 0; at < chain.gaps.size(); ++at) {
+    const Ticks gap = chain.gaps[at], least = -problem.activities[chain.activities[at]].duration;
+    if (gap < least || gap > kLongestHyperperiod)
+      return fmt::format("{}: gap {} is not {}..{}", name, gap, least, kLongestHyperperiod);
+  }
   const Ticks common = hyperperiod(problem, chain.activities);
   if (common == 0 || common / problem.activities[chain.activities.back()].period > kMostOutputs)
     return name + ": its periods have no common multiple within reach";
+  return "";
+}
+
+std::string order_mistake(const Problem& problem, const Order& order) {
+  const auto fits = [&](std::size_t chain, std::size_t at) {
+    return chain < problem.chains.size() && at < problem.chains[chain].activities.size();
+  };
+  if (!fits(order.first, order.first_at) || !fits(order.second, order.second_at)) return "order: no such activity";
+  const Ticks period = problem.activities[problem.chains[order.first].activities.front()].period;
+  for (const auto& [chain, last] : {std::pair{order.first, order.first_at}, {order.second, order.second_at}})
+    for (std::size_t at = 0; at <= last; ++at)
+      if (problem.activities[problem.chains[chain].activities[at]].period != period)
+        return fmt::format("order: chain {} has several periods", problem.chains[chain].name);
+  if (std::abs(order.apart) > kLongestHyperperiod) return fmt::format("order: {} apart", order.apart);
   return "";
 }
 
@@ -91,6 +108,19 @@ bool on_grid(const Grid& grid, Ticks offset) {
   Ticks rest = offset % grid.period;
   if (rest < 0) rest += grid.period;
   return rest >= grid.first && rest <= grid.last && (rest - grid.first) % grid.step == 0;
+}
+
+// Returns the beginning of a chain's first activity on which a beginning of its activity `from` rests.
+Ticks source(const Problem& problem, const Chain& chain, std::size_t from, Ticks begin, const Solution& solution) {
+  for (std::size_t at = from; at-- > 0;) {
+    const Activity& activity = problem.activities[chain.activities[at]];
+    const Ticks ready =
+        solution.offsets[chain.activities[at]] + activity.duration + (chain.gaps.empty() ? 0 : chain.gaps[at]);
+    Ticks rest = (begin - ready) % activity.period;  // since the newest was ready
+    if (rest < 0) rest += activity.period;
+    begin -= rest + ready - solution.offsets[chain.activities[at]];
+  }
+  return begin;
 }
 
 void check_place(const Activity& activity, Ticks offset, std::vector<std::string>& found) {
@@ -117,6 +147,8 @@ std::vector<std::string> mistakes(const Problem& problem) {
   if (!found.empty()) return found;
   for (const Precedence& precedence : problem.precedences) note(precedence_mistake(problem, precedence));
   for (const Chain& chain : problem.chains) note(chain_mistake(problem, chain));
+  if (!found.empty()) return found;
+  for (const Order& order : problem.orders) note(order_mistake(problem, order));
   return found;
 }
 
@@ -151,7 +183,22 @@ std::vector<std::string> violations(const Problem& problem, const Solution& solu
     if (chain.largest_age && age(problem, chain, solution) > *chain.largest_age)
       found.push_back(fmt::format("chain {} is {} old, above {}{}", chain.name, age(problem, chain, solution),
                                   *chain.largest_age, place(chain.line)));
+  for (const Order& order : problem.orders)
+    if (const Ticks late = out_of_order(problem, order, solution); late > 0)
+      found.push_back(fmt::format("{} begins {} too late for the order of its data with that of {}",
+                                  all[problem.chains[order.first].activities.front()].name, late,
+                                  all[problem.chains[order.second].activities.front()].name));
   return found;
+}
+
+Ticks out_of_order(const Problem& problem, const Order& order, const Solution& solution) {
+  const Chain &first = problem.chains[order.first], &second = problem.chains[order.second];
+  const std::size_t reader = second.activities[order.second_at];
+  const Ticks period = problem.activities[reader].period, begin = solution.offsets[first.activities[order.first_at]];
+  Ticks behind = (solution.offsets[reader] - begin) % period;
+  if (behind <= 0) behind += period;
+  return source(problem, first, order.first_at, begin, solution) + order.apart -
+         source(problem, second, order.second_at, begin + behind, solution);
 }
 
 Ticks age(const Problem& problem, const Chain& chain, const Solution& solution) {
@@ -160,15 +207,7 @@ Ticks age(const Problem& problem, const Chain& chain, const Solution& solution) 
   Ticks oldest = 0;
   for (Ticks output = 0; output < outputs; ++output) {
     const Ticks end = solution.offsets[chain.activities.back()] + output * last.period;
-    Ticks begin = end;
-    for (std::size_t at = chain.activities.size() - 1; at-- > 0;) {
-      const Activity& activity = problem.activities[chain.activities[at]];
-      const Ticks ready =
-          solution.offsets[chain.activities[at]] + activity.duration + (chain.gaps.empty() ? 0 : chain.gaps[at]);
-      Ticks rest = (begin - ready) % activity.period;  // since the newest was ready
-      if (rest < 0) rest += activity.period;
-      begin -= rest + ready - solution.offsets[chain.activities[at]];
-    }
+    const Ticks begin = source(problem, chain, chain.activities.size() - 1, end, solution);
     oldest = std::max(oldest, end + last.duration + (chain.reduced ? 0 : last.period) - begin);
   }
   return oldest;

@@ -53,7 +53,8 @@ struct Precedence {
 };
 
 // Data passes along the activities, whose periods may differ. Each reads at its beginning the newest that its predecessor has
-// finished, `gaps` ticks earlier or more (a gap for every pair of neighbours, or none at all: 0). The age of an output is its end
+// finished, `gaps` ticks earlier or more (a gap for every pair of neighbours, or none at all: 0). A negative gap, of at most the
+// duration, has data that is there before the end. The age of an output is its end
 // less the beginning of the first activity that it rests on. If it is not `reduced`, it counts until the end of the next output, while
 // the output is in force. The chain's age is the largest over the hyperperiod (MRDA if reduced, else MDA: Guenzel et al., ECRTS
 // 2023).
@@ -66,11 +67,21 @@ struct Chain {
   int line = 0;
 };
 
+// Data is taken in the order of its beginnings: two chains meet at one place, where `first` is read by its activity `first_at` and
+// `second` by its activity `second_at`. After each beginning of the one, the next beginning of the other rests on a beginning
+// of its chain at least `apart` later. All activities up to there have one period.
+struct Order {
+  std::size_t first = 0, first_at = 0;  // chain, and where along it
+  std::size_t second = 0, second_at = 0;
+  Ticks apart = 0;
+};
+
 struct Problem {
   std::vector<Activity> activities;
   std::vector<Resource> resources;
   std::vector<Precedence> precedences;
   std::vector<Chain> chains;
+  std::vector<Order> orders;
 };
 
 struct Solution {

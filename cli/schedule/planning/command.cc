@@ -15,6 +15,7 @@
 #include "schedules/synthesis/explanation/explain.h"
 #include "schedules/synthesis/instants/synthesize.h"
 #include "schedules/synthesis/plan/loader.h"
+#include "schedules/synthesis/smt/z3_prover.h"
 
 namespace ttf::cli::schedule::planning {
 namespace {
@@ -33,7 +34,7 @@ std::string value_text(Goal goal, double value) {
 }
 
 std::string proof_text(const instants::Reached& one) {
-  if (one.proven) return "proven best";
+  if (one.proven) return fmt::format("proven best: {}", one.way);
   const double off = one.goal == Goal::kRoom ? one.bound - one.value : one.value - one.bound;
   return fmt::format("at most {} off", value_text(one.goal, off));
 }
@@ -62,9 +63,11 @@ nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
                               {"found", true},
                               {"cycle_ms", in_ms(made.cluster.cycle())},
                               {"candidates", made.candidates}};
-  for (const instants::Reached& one : made.reached)
+  for (const instants::Reached& one : made.reached) {
     json["objective"].push_back(
         {{"name", instants::name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
+    if (one.proven) json["objective"].back()["way"] = one.way;
+  }
   for (std::size_t c = 0; c < plan.chains.size(); ++c)
     json["chains"].push_back({{"name", plan.chains[c].name},
                               {"age_ms", {in_ms(made.ages[c].best), in_ms(made.ages[c].worst)}},
@@ -110,7 +113,8 @@ int synthesize_plan(const std::string& typed, const std::string& out, bool json)
   const std::string file = file_named(typed, {kPlans});
   if (!out.empty()) refuse_overwriting(file, out, "--out");
   const Plan plan = plans::load_plan(file);
-  const Synthesis made = instants::synthesize(plan);
+  schedules::synthesis::smt::Z3Prover z3;
+  const Synthesis made = instants::synthesize(plan, z3.there() ? &z3 : nullptr);
   if (!made.found) return explain(file, plan, made, json);
   try {
     drives::check_steps(made.cluster);

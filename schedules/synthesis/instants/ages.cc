@@ -15,6 +15,14 @@ Ticks Placed::worst_age(const std::vector<Ticks>& beyond) const {
 }
 Ticks Placed::sum_of_ages() const { return std::accumulate(ages.begin(), ages.end(), Ticks{0}); }
 
+Ticks limit_of(const Problem& problem, const Limits& limits, std::size_t chain) {
+  constexpr Ticks kNone = std::numeric_limits<Ticks>::max();
+  const Ticks beyond = limits.beyond.empty() ? 0 : limits.beyond[chain];
+  return std::min({problem.chains[chain].largest_age.value_or(kNone),
+                   limits.largest_ages.empty() ? kNone : limits.largest_ages[chain],
+                   limits.worst_age ? *limits.worst_age - beyond : kNone});
+}
+
 std::vector<Ticks> least_ages(const Problem& problem) {
   std::vector<Ticks> least;
   for (const Chain& chain : problem.chains) {

@@ -1,11 +1,25 @@
-// Ages of a problem's chains, and their bound from below. An age ends where the last activity of its chain begins.
+// Ages of a problem's chains, their limits, and their bound from below. An age ends where the last activity of its chain begins.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "schedules/synthesis/problem.h"
 
 namespace ttf::schedules::synthesis::instants {
+
+// Limits beside the problem's own: for objectives that are already met.
+struct Limits {
+  std::vector<Ticks> largest_ages;  // by chain (none: no limit)
+  std::vector<Ticks> beyond;        // by chain: so much longer counts an age (none: nothing)
+  std::optional<Ticks> worst_age;   // every chain's, so counted
+  std::optional<Ticks> sum_of_ages;
+  std::optional<Ticks> last_slot;  // end of the last slot in use within the cycle [ticks]
+};
+
+// Returns the largest age that a chain may have: the problem's or the limits', whichever is less. The largest number: any.
+Ticks limit_of(const Problem& problem, const Limits& limits, std::size_t chain);
 
 struct Placed {
   Solution solution;

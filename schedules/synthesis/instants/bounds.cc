@@ -1,7 +1,6 @@
 #include "schedules/synthesis/instants/bounds.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 
@@ -50,7 +49,7 @@ std::map<std::size_t, Ticks> heads_of(const Problem& problem, std::size_t end, c
 
 Ticks jackson(std::vector<Piece> pieces) {
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.tail < b.tail; });
-  Ticks now = 0, worst = 0;
+  Ticks now = pieces.empty() ? 0 : pieces.front().tail, worst = 0;
   std::size_t next = 0;
   std::vector<Piece> open;
   while (next < pieces.size() || !open.empty()) {
@@ -58,8 +57,7 @@ Ticks jackson(std::vector<Piece> pieces) {
     while (next < pieces.size() && pieces[next].tail <= now) open.push_back(pieces[next++]);
     const auto oldest =
         std::max_element(open.begin(), open.end(), [](const Piece& a, const Piece& b) { return a.head < b.head; });
-    const Ticks until = next < pieces.size() ? pieces[next].tail : std::numeric_limits<Ticks>::max();
-    const Ticks spent = std::min(oldest->duration, until - now);
+    const Ticks spent = next < pieces.size() ? std::min(oldest->duration, pieces[next].tail - now) : oldest->duration;
     now += spent;
     oldest->duration -= spent;
     if (oldest->duration > 0) continue;

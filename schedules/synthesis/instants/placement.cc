@@ -90,12 +90,7 @@ class Engine {
     return !limits_.worst_age || least_worst_ <= *limits_.worst_age;
   }
 
-  Ticks limit_of(std::size_t chain) const {
-    constexpr Ticks kNone = std::numeric_limits<Ticks>::max();
-    const Ticks largest = limits_.largest_ages.empty() ? kNone : limits_.largest_ages[chain];
-    return std::min({problem_.chains[chain].largest_age.value_or(kNone), largest,
-                     limits_.worst_age ? *limits_.worst_age - beyond(chain) : kNone});
-  }
+  Ticks limit_of(std::size_t chain) const { return instants::limit_of(problem_, limits_, chain); }
   Ticks beyond(std::size_t chain) const { return limits_.beyond.empty() ? 0 : limits_.beyond[chain]; }
 
   Ticks cycle() const {

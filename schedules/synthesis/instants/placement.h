@@ -13,22 +13,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "schedules/synthesis/instants/ages.h"
 #include "schedules/synthesis/instants/reading.h"
 #include "schedules/synthesis/problem.h"
 
 namespace ttf::schedules::synthesis::instants {
-
-// Limits beside the problem's own: for objectives that are already met.
-struct Limits {
-  std::vector<Ticks> largest_ages;  // by chain (none: no limit)
-  std::vector<Ticks> beyond;        // by chain: so much longer counts an age (none: nothing)
-  std::optional<Ticks> worst_age;   // every chain's, so counted
-  std::optional<Ticks> sum_of_ages;
-  std::optional<Ticks> last_slot;  // end of the last slot in use within the cycle [ticks]
-};
 
 struct Search {
   std::optional<Placed> best;  // least worst age, then least sum of ages

@@ -316,4 +316,43 @@ Ticks ticks(const model::GlobalParameters& flexray, std::int64_t ns) {
 
 Reading reading(const Plan& plan, const Timed& timed) { return Reader(plan, timed).read(); }
 
+std::optional<Read> read_of(const Plan& plan, const Candidate& candidate) {
+  auto made = timed(plan, candidate);
+  if (!made) return std::nullopt;
+  Reading read = reading(plan, *made);
+  return Read{std::move(*made), std::move(read)};
+}
+
+Ticks last_slot_of(const Read& read, const Solution& solution) {
+  const model::GlobalParameters& g = read.timed.cluster.flexray;
+  const Problem& problem = read.reading.problem;
+  Ticks end = 0;
+  for (std::size_t a = 0; a < problem.activities.size(); ++a)
+    if (problem.activities[a].resource == kStaticSegment)
+      end = std::max(end, solution.offsets[a] % g.gMacroPerCycle + problem.activities[a].duration);
+  return (end + g.gdStaticSlot - 1) / g.gdStaticSlot;
+}
+
+Ticks least_slots(const Read& read) {
+  const model::GlobalParameters& g = read.timed.cluster.flexray;
+  Ticks least = 0;
+  double load = 0;
+  for (const Activity& one : read.reading.problem.activities) {
+    if (one.resource != kStaticSegment) continue;
+    least = std::max(least, (one.fixed.value_or(0) % g.gMacroPerCycle + one.duration) / g.gdStaticSlot);
+    load += static_cast<double>(one.duration / g.gdStaticSlot) * g.gMacroPerCycle / static_cast<double>(one.period);
+  }
+  return std::max(least, static_cast<Ticks>(load - 1e-9) + 1);
+}
+
+double free_share(const Read& read) {
+  const model::GlobalParameters& g = read.timed.cluster.flexray;
+  double used = 0;
+  for (const Activity& activity : read.reading.problem.activities)
+    if (activity.resource == kStaticSegment)
+      used += static_cast<double>(activity.duration) / g.gdStaticSlot * g.gMacroPerCycle /
+              static_cast<double>(activity.period);
+  return 1.0 - used / g.gNumberOfStaticSlots;
+}
+
 }  // namespace ttf::schedules::synthesis::instants

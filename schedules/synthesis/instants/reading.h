@@ -19,6 +19,9 @@
 
 namespace ttf::schedules::synthesis::instants {
 
+// The number of the resource that is the static segment; behind it are the processors.
+inline constexpr std::size_t kStaticSegment = 0;
+
 // A sensor whose lists a task fuses that time activates.
 struct Fused {
   std::size_t measuring = 0, fusing = 0;  // activities
@@ -35,6 +38,23 @@ struct Reading {
 };
 
 Reading reading(const plan::Plan& plan, const Timed& timed);
+
+// A candidate with its problem.
+struct Read {
+  Timed timed;
+  Reading reading;
+};
+// Returns none where the candidate's parameters leave their range (candidates.h).
+std::optional<Read> read_of(const plan::Plan& plan, const Candidate& candidate);
+
+// Returns the last slot in use, counted from 1.
+Ticks last_slot_of(const Read& read, const Solution& solution);
+
+// Returns a number of slots that no offsets fall below: what stands, and all frames one after another.
+Ticks least_slots(const Read& read);
+
+// Returns the share of a round's static frames that are free.
+double free_share(const Read& read);
 
 // Returns a duration in ticks, rounded up.
 Ticks ticks(const model::GlobalParameters& flexray, std::int64_t ns);

@@ -12,6 +12,7 @@
 #include "schedules/synthesis/instants/bounds.h"
 #include "schedules/synthesis/instants/measured.h"
 #include "schedules/synthesis/instants/placement.h"
+#include "schedules/synthesis/instants/proof.h"
 #include "schedules/synthesis/instants/reading.h"
 #include "schedules/synthesis/plan/loader.h"
 
@@ -34,18 +35,6 @@ struct Trial {
   bool out = false;
 };
 
-struct Read {
-  Timed timed;
-  Reading reading;
-};
-
-std::optional<Read> read_of(const Plan& plan, const Candidate& candidate) {
-  auto made = timed(plan, candidate);
-  if (!made) return std::nullopt;
-  Reading read = reading(plan, *made);
-  return Read{std::move(*made), std::move(read)};
-}
-
 // Returns by chain how much longer its output is in force: until its end's next one.
 std::vector<Ticks> in_force(const Problem& problem) {
   std::vector<Ticks> periods;
@@ -53,36 +42,26 @@ std::vector<Ticks> in_force(const Problem& problem) {
   return periods;
 }
 
-Ticks slots_end(const Read& read, const Solution& solution) {
-  Ticks end = 0;
-  const Problem& problem = read.reading.problem;
-  for (std::size_t a = 0; a < problem.activities.size(); ++a)
-    if (problem.activities[a].resource == std::size_t{0})
-      end = std::max(end,
-                     solution.offsets[a] % read.timed.cluster.flexray.gMacroPerCycle + problem.activities[a].duration);
-  return end;
-}
-
-// Returns the share of a round's static frames that are free.
-double free_share(const Read& read) {
-  double used = 0;
-  const model::GlobalParameters& g = read.timed.cluster.flexray;
-  for (const Activity& activity : read.reading.problem.activities)
-    if (activity.resource == std::size_t{0})
-      used += static_cast<double>(activity.duration) / g.gdStaticSlot * g.gMacroPerCycle /
-              static_cast<double>(activity.period);
-  return 1.0 - used / g.gNumberOfStaticSlots;
-}
+// A candidate whose search was cut: no worst age below `least` is possible there.
+struct Open {
+  std::size_t trial = 0;
+  Ticks least = 0;
+  bool nothing = false;  // the search found no placement
+};
 
 class Optimiser {
  public:
-  Optimiser(const Plan& plan, const std::vector<Candidate>& all, const std::set<std::size_t>& refused) : plan_(plan) {
+  Optimiser(const Plan& plan, const std::vector<Candidate>& all, const std::set<std::size_t>& refused,
+            solver::Prover* prover)
+      : plan_(plan), prover_(prover) {
     for (std::size_t i = 0; i < all.size(); ++i) trials_.push_back({all[i], {}, std::nullopt, refused.contains(i)});
   }
 
   // Returns the index of the best candidate; none if no candidate has a placement.
   std::optional<std::size_t> run() {
     for (const Goal goal : plan_.objective) {
+      asks_left_ = kMostAsks;
+      way_ = "bound";
       if (goal == Goal::kWorstAge || goal == Goal::kDataAge) worst_age(goal);
       if (goal == Goal::kSlots) slots();
       if (goal == Goal::kJitter) jitter();
@@ -100,8 +79,10 @@ class Optimiser {
 
  private:
   void worst_age(Goal goal) {
-    Ticks best = kNone, bound = kNone;
-    for (Trial& trial : trials_) {
+    Ticks best = kNone, least_of_all = kNone;
+    std::vector<Open> open;
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      Trial& trial = trials_[i];
       if (trial.out) continue;
       const auto read = read_of(plan_, trial.candidate);
       std::vector<Ticks> beyond;
@@ -112,19 +93,54 @@ class Optimiser {
       trial.limits.beyond = std::move(beyond);
       if (best != kNone) trial.limits.worst_age = best;
       const Search found = place(read->reading, trial.limits);
-      exact_ = exact_ && (found.exact || found.best);
-      if (!found.exact) bound = std::min(bound, least);
-      trial.placed = found.best;
-      trial.out = !found.best;
-      if (found.best) best = std::min(best, found.best->worst_age(trial.limits.beyond));
+      if (found.steps > 0) least_of_all = std::min(least_of_all, least);
+      if (found.best || found.exact)
+        trial.placed = found.best;  // else an earlier objective's placement keeps the limits
+      if (!found.exact) open.push_back({i, least, !trial.placed});
+      trial.out = !trial.placed;
+      if (trial.placed) best = std::min(best, trial.placed->worst_age(trial.limits.beyond));
     }
+    if (best > least_of_all) way_ = "all orders tried";
+    const Ticks settled = settle_open(std::move(open), best);
+    const Ticks bound = std::min(best, settled);
     for (Trial& trial : trials_) {
       if (trial.out) continue;
       trial.out = trial.placed->worst_age(trial.limits.beyond) > best;
       hold(trial.limits, best, trial.placed->ages.size());
     }
-    bound = std::min(bound, best);
     note(goal, static_cast<double>(best), static_cast<double>(bound));
+  }
+
+  // Asks the solver about candidates whose search was cut, those with the least bounds first, until one stays open. Returns a bound
+  // for all of them.
+  Ticks settle_open(std::vector<Open> open, Ticks& best) {
+    std::stable_sort(open.begin(), open.end(), [](const Open& a, const Open& b) { return a.least < b.least; });
+    Ticks bound = kNone;
+    for (const Open& one : open) {
+      const Ticks most = one.nothing || best == kNone ? best : best - 1;
+      if (one.least > most) continue;
+      Trial& trial = trials_[one.trial];
+      Limits limits = trial.limits;
+      if (most != kNone) limits.worst_age = most;
+      const Settled settled = ask(read_of(plan_, trial.candidate)->reading, limits, false);
+      if (settled.best) {
+        trial.placed = settled.best;
+        trial.out = false;
+        best = std::min(best, settled.best->worst_age(trial.limits.beyond));
+      }
+      exact_ = exact_ && (!one.nothing || settled.none || settled.best);
+      if (!settled.none) bound = std::min(bound, std::max(one.least, settled.bound));
+    }
+    return bound;
+  }
+
+  // Asks nothing more behind a question that stayed open: the answers would prove nothing.
+  Settled ask(const Reading& reading, const Limits& limits, bool any) {
+    if (asks_left_ <= 0) return {};
+    Settled settled = settle(reading, limits, prover_, any);
+    asks_left_ = settled.open ? 0 : asks_left_ - 1;
+    if (settled.way == "integers" || (settled.way == "exhausted" && way_ != "integers")) way_ = settled.way;
+    return settled;
   }
 
   // Makes the best worst age a limit of each chain.
@@ -137,7 +153,7 @@ class Optimiser {
   }
 
   void slots() {
-    Ticks best = kNone, bound = kNone;
+    Ticks best = kNone, bound = kNone, least = kNone;
     std::map<std::size_t, Ticks> by_trial;
     for (std::size_t i = 0; i < trials_.size(); ++i) {
       Trial& trial = trials_[i];
@@ -145,56 +161,56 @@ class Optimiser {
       const auto read = read_of(plan_, trial.candidate);
       trial.out = !read;
       if (trial.out) continue;
-      const Ticks slot = read->timed.cluster.flexray.gdStaticSlot;
-      const auto [few, proven_few] = fewest(*read, trial, slot);
-      if (!proven_few) bound = std::min(bound, least_slots(*read, slot));
+      least = std::min(least, least_slots(*read));
+      const auto [few, proven_few] = fewest(*read, trial);
+      if (!proven_few) bound = std::min(bound, least_slots(*read));
       trial.out = !few;
       if (!few) continue;
       by_trial[i] = *few;
       best = std::min(best, *few);
     }
     for (const auto& [i, few] : by_trial) trials_[i].out = few > best;
+    if (best > least && way_ == "bound") way_ = "all orders tried";
     bound = std::min(bound, best);
     note(Goal::kSlots, static_cast<double>(best), static_cast<double>(bound));
   }
 
   // Returns the least last slot within the trial's limits, and whether it is proven to be the least. Keeps its placement.
-  std::pair<std::optional<Ticks>, bool> fewest(const Read& read, Trial& trial, Ticks slot) {
+  std::pair<std::optional<Ticks>, bool> fewest(const Read& read, Trial& trial) {
     bool proven = true;
     if (!trial.placed) {
-      const Search found = place(read.reading, trial.limits, true);
+      const Search found = any_within(read.reading, trial.limits);
       exact_ = exact_ && (found.exact || found.best);
       if (!found.best) return {std::nullopt, found.exact};
       trial.placed = found.best;
     }
-    Ticks low = least_slots(read, slot), high = (slots_end(read, trial.placed->solution) + slot - 1) / slot;
+    const Ticks slot = read.timed.cluster.flexray.gdStaticSlot;
+    Ticks low = least_slots(read), high = last_slot_of(read, trial.placed->solution);
     while (low < high) {
       Limits limits = trial.limits;
       const Ticks middle = low + (high - low) / 2;
       limits.last_slot = middle * slot;
-      const Search found = place(read.reading, limits, true);
+      const Search found = any_within(read.reading, limits);
       if (!found.best) {
         proven = proven && found.exact;
         low = middle + 1;
         continue;
       }
       trial.placed = found.best;
-      high = std::min(middle, (slots_end(read, found.best->solution) + slot - 1) / slot);
+      high = std::min(middle, last_slot_of(read, found.best->solution));
     }
     trial.limits.last_slot = high * slot;
     return {high, proven};
   }
 
-  static Ticks least_slots(const Read& read, Ticks slot) {
-    Ticks least = 0;
-    double load = 0;
-    const Ticks cycle = read.timed.cluster.flexray.gMacroPerCycle;
-    for (const Activity& one : read.reading.problem.activities) {
-      if (one.resource != std::size_t{0}) continue;
-      least = std::max(least, (one.fixed.value_or(0) % cycle + one.duration) / slot);
-      load += static_cast<double>(one.duration / slot) * static_cast<double>(cycle) / static_cast<double>(one.period);
-    }
-    return std::max(least, static_cast<Ticks>(load - 1e-9) + 1);
+  // Returns a placement within the limits, by the search or the solver; or whether there is none.
+  Search any_within(const Reading& reading, const Limits& limits) {
+    Search found = place(reading, limits, true);
+    if (found.best || found.exact) return found;
+    Settled settled = ask(reading, limits, true);
+    found.best = std::move(settled.best);
+    found.exact = settled.none;
+    return found;
   }
 
   // Sees to it that every trial has a placement, and drops those without one.
@@ -236,6 +252,7 @@ class Optimiser {
       best = std::max(best, shares[i]);
     }
     for (std::size_t i = 0; i < trials_.size(); ++i) trials_[i].out = trials_[i].out || shares[i] < best - 1e-12;
+    way_ = "all choices tried";
     note(Goal::kRoom, best, exact_ ? best : 1.0);
   }
 
@@ -257,9 +274,14 @@ class Optimiser {
     return chosen;
   }
 
-  void note(Goal goal, double value, double bound) { reached_.push_back({goal, value, bound, value == bound}); }
+  void note(Goal goal, double value, double bound) { reached_.push_back({goal, value, bound, value == bound, way_}); }
+
+  static constexpr int kMostAsks = 16;  // by objective
 
   const Plan& plan_;
+  solver::Prover* prover_;
+  int asks_left_ = 0;
+  std::string way_;  // to the proof of this objective
   std::vector<Trial> trials_;
   std::vector<Reached> reached_;
   bool exact_ = true;
@@ -317,14 +339,14 @@ const char* name_of(Goal goal) {
   return "";
 }
 
-Synthesis synthesize(const Plan& plan) {
+Synthesis synthesize(const Plan& plan, solver::Prover* prover) {
   constexpr std::size_t kMostRefusals = 16;
   const std::vector<Candidate> all = checked_candidates(plan);
   Synthesis made;
   made.candidates = all.size();
   std::set<std::size_t> refused;
   while (refused.size() < kMostRefusals) {
-    Optimiser optimiser(plan, all, refused);
+    Optimiser optimiser(plan, all, refused, prover);
     const auto chosen = optimiser.run();
     made.exact = optimiser.exact();
     if (!chosen) return made;

@@ -15,6 +15,7 @@
 #include "schedules/synthesis/instants/candidates.h"
 #include "schedules/synthesis/instants/written.h"
 #include "schedules/synthesis/plan/plan.h"
+#include "schedules/synthesis/solver/prover.h"
 
 namespace ttf::schedules::synthesis::instants {
 
@@ -24,6 +25,9 @@ struct Reached {
   plan::Goal goal{};
   double value = 0, bound = 0;
   bool proven = false;  // the bound is the value
+  // The way to the proof: "bound" (no instants are needed to see it), "all orders tried" by the search, "exhausted" and "integers" by
+  // the solver (proof.h), "all choices tried" of cycle and rates.
+  std::string way;
 };
 
 struct Synthesis {
@@ -39,7 +43,9 @@ struct Synthesis {
 
 // Throws InputError for a plan whose parts contradict each other at any instants: messages that fit no CAN, lists without a
 // sender, parameters of FlexRay.
-Synthesis synthesize(const plan::Plan& plan);
+//
+// Where the search does not end with a proof, the solver is asked, with `prover` if there is one (schedules/synthesis/smt).
+Synthesis synthesize(const plan::Plan& plan, solver::Prover* prover = nullptr);
 
 // Returns whether the plan has any solution: found, or not found and exact.
 struct Feasible {

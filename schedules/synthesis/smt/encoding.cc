@@ -29,13 +29,17 @@ Encoding::Encoding(const solver::Question& question, Logic logic)
     const std::size_t number = ages_.size();
     const bool summed = std::ranges::any_of(
         question.sums, [&](const solver::SumLimit& sum) { return std::ranges::count(sum.chains, number) > 0; });
-    if (!summed && !chain.largest_age) {
+    const bool ordered = std::ranges::any_of(
+        question.problem.orders, [&](const Order& order) { return order.first == number || order.second == number; });
+    paths_.emplace_back();
+    if (!summed && !chain.largest_age && !ordered) {
       ages_.push_back({value(0), 0, 0});
       continue;
     }
-    ages_.push_back(terms.harmonic ? add_path(chain) : add_outputs(chain, summed));
+    ages_.push_back(terms.harmonic ? add_path(chain, paths_.back()) : add_outputs(chain, summed));
     if (terms.harmonic && chain.largest_age) solver_.add(ages_.back().term <= value(*chain.largest_age));
   }
+  add_orders();
   add_sums();
   add_spans();
 }
@@ -108,7 +112,7 @@ Encoding::Number Encoding::read_by(const Number& reader, std::size_t activity, T
 }
 
 // Every instance may be the first that reads news: the output at the end is anywhere within the largest period.
-Encoding::Number Encoding::add_path(const Chain& chain) {
+Encoding::Number Encoding::add_path(const Chain& chain, std::vector<Number>& path) {
   const solver::ChainTerms terms = solver::terms_of(question_.problem, chain);
   const std::size_t last = chain.activities.size() - 1;
   const auto period = [&](std::size_t at) { return question_.problem.activities[chain.activities[at]].period; };
@@ -119,11 +123,14 @@ Encoding::Number Encoding::add_path(const Chain& chain) {
     end = anywhere;
   }
   Number begin = end;
+  path.push_back(begin);
   Ticks ready = 0;
   for (std::size_t at = last; at-- > 0;) {
     ready += terms.ready[at];
     begin = read_by(begin, chain.activities[at], terms.ready[at], std::min(terms.stride[at + 1], period(at)));
+    path.push_back(begin);
   }
+  std::ranges::reverse(path);
   return {end.term - begin.term + value(terms.base - ready), terms.base, end.last - begin.first + terms.base - ready};
 }
 
@@ -150,6 +157,24 @@ Encoding::Number Encoding::add_outputs(const Chain& chain, bool summed) {
     if (summed) solver_.add(age_then <= age.term);
   }
   return age;
+}
+
+// The second reader's next instance is k periods later than the one in its path.
+void Encoding::add_orders() {
+  for (const Order& order : question_.problem.orders) {
+    const std::vector<Number>&first = paths_[order.first], &second = paths_[order.second];
+    if (first.empty() || second.empty()) {
+      whole_ = false;
+      return;
+    }
+    const Ticks period = question_.problem.activities[question_.problem.chains[order.first].activities[0]].period;
+    const Number &one = first[order.first_at], &other = second[order.second_at];
+    const Number later =
+        fresh(floor_divided(one.first - other.last, period) + 1, floor_divided(one.last - other.first, period) + 1);
+    const z3::expr behind = other.term + value(period) * later.term - one.term;
+    solver_.add(behind >= value(1) && behind <= value(period));
+    solver_.add(first[0].term + value(order.apart) <= second[0].term + value(period) * later.term);
+  }
 }
 
 void Encoding::add_sums() {

@@ -38,11 +38,13 @@ class Encoding {
   void add_precedences();
   void add_chains();
   // Returns the age of a chain whose periods divide each other: one path of instances says it.
-  Number add_path(const Chain& chain);
+  // Fills `path` with these instances.
+  Number add_path(const Chain& chain, std::vector<Number>& path);
   // Bounds the age of every output, and returns a number that is, if the chain is `summed`, at least as large.
   Number add_outputs(const Chain& chain, bool summed);
   // Returns the instance whose data `reader` reads, `ready` ticks after its beginning and less than `unit` later.
   Number read_by(const Number& reader, std::size_t activity, Ticks ready, Ticks unit);
+  void add_orders();
   void add_sums();
   void add_spans();
   z3::expr value(Ticks ticks) { return context_.int_val(ticks); }
@@ -55,7 +57,8 @@ class Encoding {
   z3::solver solver_;
   std::vector<z3::expr> offsets_;
   std::vector<Window> windows_;
-  std::vector<Number> ages_;  // by chain
+  std::vector<Number> ages_;                // by chain
+  std::vector<std::vector<Number>> paths_;  // by chain and activity: the instances that one output rests on; or none
   std::set<std::pair<std::size_t, std::size_t>> apart_;
 };
 

@@ -48,6 +48,22 @@ bool keeps(const Question& question, const Solution& solution) {
   return true;
 }
 
+// Lets the chains' first activities begin earlier until all orders hold, if that keeps the question.
+std::optional<Solution> in_order(const Question& question, Solution solution) {
+  const Problem& problem = question.problem;
+  for (std::size_t round = 0; round <= problem.orders.size(); ++round)
+    for (const Order& order : problem.orders) {
+      const Ticks late = out_of_order(problem, order, solution);
+      if (late <= 0) continue;
+      const std::size_t source = problem.chains[order.first].activities.front();
+      const Window& window = problem.activities[source].window;
+      Ticks& offset = solution.offsets[source];
+      offset = window.first + modulo(offset - late - window.first, problem.activities[source].period);
+    }
+  if (!keeps(question, solution)) return std::nullopt;
+  return solution;
+}
+
 Verdict Decider::search(const Question& question) {
   std::int64_t steps = effort_.steps;
   const std::int64_t exhaustion = effort_.exhaustion;
@@ -62,25 +78,30 @@ Verdict Decider::search(const Question& question) {
     return end;
   };
   const auto count = static_cast<std::int64_t>(weights.size());
+  // Trees know no orders: their offsets may break these, and nothing else.
   const auto found = [&](const Tree& tree) {
-    TTF_CHECK(keeps(question, tree.solution()), "the search's offsets break the problem");
-    return Verdict{Verdict::Kind::kFeasible, tree.solution(), 0};
+    const std::optional<Solution> kept = in_order(question, tree.solution());
+    TTF_CHECK(kept || !question.problem.orders.empty(), "the search's offsets break the problem");
+    return kept ? Verdict{Verdict::Kind::kFeasible, *kept, 0} : Verdict{};
   };
   std::int64_t most = 4 * count + 100;
   for (int probe = 0; steps > 0; ++probe, steps -= most, most += most / 8) {
     Tree coarse(model, placing_order(model, weights, probe % 4 != 3), false,
                 probe < 2 ? 0 : static_cast<std::uint64_t>(probe));
-    if (run(coarse, std::min(most, steps), "placement") == Tree::End::kFound) return found(coarse);
+    if (run(coarse, std::min(most, steps), "placement") == Tree::End::kFound)
+      if (Verdict verdict = found(coarse); verdict.kind == Verdict::Kind::kFeasible) return verdict;
     if (probe != 1 && probe != 3) continue;
     // Many questions are small: a short exhaustion answers them before long probing would.
     Tree all(model, placing_order(model, weights, true), true);
     const Tree::End end = run(all, std::min(exhaustion, 4 * most), "exhausted");
-    if (end == Tree::End::kFound) return found(all);
+    if (end == Tree::End::kFound)
+      if (Verdict verdict = found(all); verdict.kind == Verdict::Kind::kFeasible) return verdict;
     if (end == Tree::End::kExhausted) return infeasible();
   }
   Tree all(model, placing_order(model, weights, true), true);
   const Tree::End end = run(all, exhaustion, "exhausted");
-  if (end == Tree::End::kFound) return found(all);
+  if (end == Tree::End::kFound)
+    if (Verdict verdict = found(all); verdict.kind == Verdict::Kind::kFeasible) return verdict;
   if (end == Tree::End::kExhausted) return infeasible();
   way_.clear();
   return {};

@@ -33,7 +33,7 @@ struct Explanation {
   std::optional<Change> change;
 };
 
-// Needs a problem without mistakes that has no solution. Returns an empty core if that cannot be shown within the effort.
+// Needs a problem without mistakes and orders that has no solution. Returns an empty core if that cannot be shown within the effort.
 Explanation explain(const Problem& problem, const Effort& effort = {}, Prover* prover = nullptr);
 
 }  // namespace ttf::schedules::synthesis::solver

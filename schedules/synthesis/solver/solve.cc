@@ -79,6 +79,7 @@ Outcome solve(const Problem& problem, std::span<const Objective> objectives, con
   const Verdict any = decider.decide(tightened.question());
   Outcome outcome;
   outcome.proven_infeasible = any.kind == Verdict::Kind::kInfeasible;
+  if (outcome.proven_infeasible) outcome.way = decider.way();
   if (any.kind != Verdict::Kind::kFeasible) return outcome;
   Solution best = any.solution;
   for (const Objective& objective : objectives) {

@@ -55,6 +55,7 @@ struct Reached {
 struct Outcome {
   std::optional<Solution> solution;
   bool proven_infeasible = false;  // if there is no solution: whether there is none, or the search gave up
+  std::string way;                 // if it is proven: "windows and precedences", "exhausted", "integers"
   std::vector<Reached> reached;    // by objective; empty without a solution
 };
 

@@ -83,6 +83,25 @@ TEST(SynthesisChecker, NamesEachBrokenStatement) {
   EXPECT_THAT(sentences(changed, {{0, 4, 6}}), ElementsAre("frame (line 4) is fixed at 6, not 4"));
 }
 
+// Two sensors' lists, read by tasks at 5 and 8 of a period of 20: that at 8 must rest on the later scan.
+TEST(SynthesisChecker, CountsTheOrderOfData) {
+  Problem problem;
+  problem.resources = {{"reader"}};
+  for (const char* name : {"laser", "radar"}) problem.activities.push_back({name, 0, {}, 20, 0, {0, 19}, {}, {}});
+  for (const char* name : {"fuse laser", "fuse radar"})
+    problem.activities.push_back({name, 0, 0, 20, 2, {0, 19}, {}, {}});
+  problem.chains = {{"laser", {0, 2}, {}, {}, true, 0}, {"radar", {1, 3}, {}, {}, true, 0}};
+  problem.orders = {{0, 1, 1, 1, 1}, {1, 1, 0, 1, 1}};
+  EXPECT_THAT(mistakes(problem), IsEmpty());
+  EXPECT_THAT(violations(problem, {{1, 2, 5, 8}}), IsEmpty());
+  EXPECT_THAT(violations(problem, {{4, 3, 5, 8}}),
+              ElementsAre("laser begins 2 too late for the order of its data with that of radar"));
+  EXPECT_EQ(out_of_order(problem, problem.orders[1], {{1, 2, 5, 8}}), 2 + 1 - 21);
+  problem.activities[1].period = 40;
+  EXPECT_THAT(mistakes(problem),
+              ElementsAre(HasSubstr("chain radar has several periods"), HasSubstr("chain radar has several periods")));
+}
+
 TEST(SynthesisChecker, NamesProblemsThatMakeNoSense) {
   EXPECT_THAT(mistakes(pipeline()), IsEmpty());
   const auto mistake = [](const std::function<void(Problem&)>& change) {
@@ -102,6 +121,7 @@ TEST(SynthesisChecker, NamesProblemsThatMakeNoSense) {
   EXPECT_THAT(mistake([](Problem& p) { p.precedences[0].before = 9; }), HasSubstr("activity 9 of 3"));
   EXPECT_THAT(mistake([](Problem& p) { p.chains[0].activities = {}; }), HasSubstr("no activity"));
   EXPECT_THAT(mistake([](Problem& p) { p.chains[0].gaps = {1}; }), HasSubstr("1 gaps for 3 activities"));
+  EXPECT_THAT(mistake([](Problem& p) { p.chains[0].gaps = {-4, 0}; }), HasSubstr("gap -4 is not -3.."));
   EXPECT_THAT(mistake([](Problem& p) {
                 p.activities[2].period = 1048583, p.activities[0].period = p.activities[1].period = 1048573;
               }),
@@ -111,7 +131,7 @@ TEST(SynthesisChecker, NamesProblemsThatMakeNoSense) {
 TEST(SynthesisChecker, AgreesWithTimeLinesAndSamplesFollowedForwards) {
   int kept = 0;
   for (std::uint64_t seed = 0; seed < 1500; ++seed) {
-    const Problem problem = by_hand::drawn(seed, seed % 2 == 0);
+    const Problem problem = seed % 5 == 0 ? by_hand::drawn_in_order(seed) : by_hand::drawn(seed, seed % 2 == 0);
     ASSERT_THAT(mistakes(problem), IsEmpty()) << seed;
     RandomStream draws({.seed = seed, .purpose = Purpose::kTest, .index = 1});
     Solution solution;

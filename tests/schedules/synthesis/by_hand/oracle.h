@@ -39,18 +39,24 @@ inline bool overlaps(const Problem& problem, const std::vector<Ticks>& offsets) 
 }
 
 // Follows the data of every instance forwards: each instance reads the newest that is ready.
-inline Ticks age(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets) {
-  struct Instance {
-    Ticks begin, sample;
-  };
+struct Instance {
+  Ticks begin, sample;
+};
+// Returns the instances of the chain's activity `last` over two hyperperiods and more; those from `settled` on have all their data.
+struct Followed {
+  std::vector<Instance> instances;
+  Ticks settled = 0;
+};
+inline Followed followed(const Problem& problem, const Chain& chain, std::size_t last,
+                         const std::vector<Ticks>& offsets) {
   const Ticks common = hyperperiod(problem);
-  Ticks reach = 2 * common;
-  for (std::size_t at = 0; at < chain.activities.size(); ++at)
-    reach += 2 * problem.activities[chain.activities[at]].period + (at < chain.gaps.size() ? chain.gaps[at] : 0) +
-             std::abs(offsets[chain.activities[at]]);
+  Ticks reach = 2 * common;  // the same for all chains, so that their instances can be held against each other
+  for (std::size_t at = 0; at < offsets.size(); ++at)
+    reach += 2 * problem.activities[at].period + std::abs(offsets[at]);
+  for (const Chain& each : problem.chains)
+    for (const Ticks gap : each.gaps) reach += std::abs(gap);
   std::vector<Instance> before;
-  Ticks oldest = 0;
-  for (std::size_t at = 0; at < chain.activities.size(); ++at) {
+  for (std::size_t at = 0; at <= last; ++at) {
     const Activity& activity = problem.activities[chain.activities[at]];
     std::vector<Instance> now;
     Ticks begin = offsets[chain.activities[at]];
@@ -66,13 +72,33 @@ inline Ticks age(const Problem& problem, const Chain& chain, const std::vector<T
     }
     before = std::move(now);
   }
+  return {before, common + reach / 2};
+}
+
+inline Ticks age(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets) {
+  const auto [before, settled] = followed(problem, chain, chain.activities.size() - 1, offsets);
+  Ticks oldest = 0;
   const Activity& last = problem.activities[chain.activities.back()];
   for (std::size_t at = 0; at + 1 < before.size(); ++at) {
-    if (before[at].begin < common + reach / 2) continue;
+    if (before[at].begin < settled) continue;
     const Ticks until = chain.reduced ? before[at].begin : before[at + 1].begin;
     oldest = std::max(oldest, until + last.duration - before[at].sample);
   }
   return oldest;
+}
+
+inline bool in_order(const Problem& problem, const Order& order, const std::vector<Ticks>& offsets) {
+  const Followed first = followed(problem, problem.chains[order.first], order.first_at, offsets);
+  const Followed second = followed(problem, problem.chains[order.second], order.second_at, offsets);
+  for (const Instance& one : first.instances) {
+    if (one.begin < std::max(first.settled, second.settled)) continue;
+    for (const Instance& other : second.instances) {
+      if (other.begin <= one.begin) continue;
+      if (other.sample < one.sample + order.apart) return false;
+      break;
+    }
+  }
+  return true;
 }
 
 // Whether the precedences among the first `count` activities are kept.
@@ -90,6 +116,8 @@ inline bool keeps(const Problem& problem, const std::vector<Ticks>& offsets) {
   if (!keeps_precedences(problem, offsets, offsets.size()) || overlaps(problem, offsets)) return false;
   for (const Chain& chain : problem.chains)
     if (chain.largest_age && age(problem, chain, offsets) > *chain.largest_age) return false;
+  for (const Order& order : problem.orders)
+    if (!in_order(problem, order, offsets)) return false;
   return true;
 }
 
@@ -172,6 +200,25 @@ inline Problem drawn(std::uint64_t seed, bool harmonic) {
     if (draws.uniform() < 0.7) made.largest_age = draws.integer(3, 24);
     problem.chains.push_back(made);
   }
+  return problem;
+}
+
+// One period throughout, and each chain's data in the order of the other's. Some data is there before its activity's end.
+inline Problem drawn_in_order(std::uint64_t seed) {
+  Problem problem = drawn(seed, true);
+  RandomStream draws({.seed = seed, .purpose = Purpose::kTest, .index = 2});
+  for (Activity& activity : problem.activities) {
+    activity.period = 6;
+    activity.window.last = std::min(activity.window.last, activity.window.first + 6);
+  }
+  for (Chain& chain : problem.chains) {
+    chain.gaps.clear();
+    for (std::size_t link = 0; link + 1 < chain.activities.size(); ++link)
+      chain.gaps.push_back(draws.integer(-problem.activities[chain.activities[link]].duration, 1));
+  }
+  if (problem.chains.size() < 2) return problem;
+  const auto last = [&](std::size_t chain) { return problem.chains[chain].activities.size() - 1; };
+  problem.orders = {{0, last(0), 1, last(1), draws.integer(-2, 2)}, {1, last(1), 0, last(0), draws.integer(-2, 2)}};
   return problem;
 }
 

@@ -145,6 +145,8 @@ TEST(Bounds, JacksonsScheduleByHand) {
   EXPECT_EQ(jackson({{0, 5, 10}, {0, 5, 4}}), 15);
   // The second may only end 2 before the use, and is the oldest: it interrupts the first.
   EXPECT_EQ(jackson({{0, 5, 0}, {2, 4, 20}}), 26);
+  // The use itself ends behind its beginning, where ages end: that makes no age larger.
+  EXPECT_EQ(jackson({{-7, 7, 30}}), 30);
 }
 
 TEST(Grid, PositionsAndConflictsByHand) {

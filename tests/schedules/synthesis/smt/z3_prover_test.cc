@@ -32,6 +32,27 @@ TEST(SynthesisZ3, AgreesWithAllOffsetsTried) {
   EXPECT_GT(infeasible, 10);
 }
 
+// Orders and data that is there early: the search and the prover together, held against all offsets tried.
+TEST(SynthesisZ3, KeepsOrders) {
+  if (!Z3Prover::there()) GTEST_SKIP() << "built without Z3";
+  int feasible = 0, infeasible = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const Problem problem = by_hand::drawn_in_order(seed);
+    if (problem.orders.empty()) continue;
+    const bool expected = by_hand::feasible(problem);
+    Z3Prover prover;
+    solver::Decider decider({}, &prover);
+    for (const solver::Verdict& verdict :
+         {prover.decide({problem, {}, {}}, 1.0, unrepaired), decider.decide({problem, {}, {}})}) {
+      ASSERT_EQ(verdict.kind, expected ? Kind::kFeasible : Kind::kInfeasible) << seed;
+      EXPECT_TRUE(!expected || by_hand::keeps(problem, verdict.solution.offsets)) << seed;
+    }
+    (expected ? feasible : infeasible) += 1;
+  }
+  EXPECT_GT(feasible, 10);
+  EXPECT_GT(infeasible, 10);
+}
+
 TEST(SynthesisZ3, KeepsSumsAndSpans) {
   if (!Z3Prover::there()) GTEST_SKIP() << "built without Z3";
   int asked = 0;
