@@ -40,8 +40,7 @@ inline std::string line_of(const std::string& text, int number) {
   return line;
 }
 
-inline void expect_named(const std::vector<Mutation>& mutations, const std::string& shipped = "paper_unsynchronised") {
-  const std::string original = shipped_text(shipped);
+inline void expect_named_in(const std::string& original, const std::vector<Mutation>& mutations) {
   ASSERT_TRUE(findings_of(original).empty()) << sentences(findings_of(original));
   for (const Mutation& mutation : mutations) {
     SCOPED_TRACE(mutation.name);
@@ -58,6 +57,10 @@ inline void expect_named(const std::vector<Mutation>& mutations, const std::stri
     EXPECT_TRUE(named) << "wanted " << wanted.key << " = " << wanted.value << ": " << wanted.words << " at "
                        << wanted.line << sentences(findings);
   }
+}
+
+inline void expect_named(const std::vector<Mutation>& mutations, const std::string& shipped = "paper_unsynchronised") {
+  expect_named_in(shipped_text(shipped), mutations);
 }
 
 }  // namespace ttf::schedules::check
