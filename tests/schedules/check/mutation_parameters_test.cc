@@ -96,7 +96,7 @@ TEST(Mutations, OfParameters) {
        "pKeySlotOnlyEnabled: false",
        "pKeySlotOnlyEnabled: true",
        {"pKeySlotOnlyEnabled: true", "nodes.gateway.flexray.pKeySlotOnlyEnabled", "true",
-        "must be false: gateway also has slot 6 (line 304)"}},
+        "must be false: gateway also has slot 6 (line 283)"}},
       {"drift",
        inside("gateway", "max_drift_ppm") + "1500",
        "$01100\n    drift_ppm: -200",
