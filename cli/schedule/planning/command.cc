@@ -83,6 +83,11 @@ int explain(const std::string& file, const Plan& plan, const Synthesis& made, bo
   if (!made.refused.empty()) {
     std::vector<std::string> reasons;
     for (const Finding& finding : in_the_files(plan, made.refused)) reasons.push_back(finding.sentence());
+    if (json)
+      fmt::print("{}\n",
+                 nlohmann::ordered_json{
+                     {"cluster", plan.cluster.name}, {"found", false}, {"proven", false}, {"refused", reasons}}
+                     .dump(2));
     return print_reasons(file, "no instants were found that pass the check", reasons);
   }
   const explanation::Explanation why = explanation::explain(plan);

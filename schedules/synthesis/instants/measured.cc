@@ -54,6 +54,15 @@ std::vector<Finding> too_old(const Plan& plan, const Synthesis& made) {
   return findings;
 }
 
+std::vector<Reached> bounded_by(std::vector<Reached> reached, const std::vector<Reached>& of_all) {
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    Reached& one = reached[i];
+    one.bound = one.goal == Goal::kRoom ? std::max(one.bound, of_all[i].bound) : std::min(one.bound, of_all[i].bound);
+    one.proven = one.value == one.bound;
+  }
+  return reached;
+}
+
 std::vector<Reached> in_units(std::vector<Reached> reached, const Measured& measured, const model::Cluster& cluster) {
   const double tick_ms = static_cast<double>(cluster.flexray.gdMacrotick_ps) / 1e9;
   for (Reached& one : reached) {

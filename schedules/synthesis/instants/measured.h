@@ -22,6 +22,10 @@ Measured measure(const plan::Plan& plan, const Placed& placed, Synthesis& made);
 // Returns findings about ages above the plan's largest.
 std::vector<Finding> too_old(const plan::Plan& plan, const Synthesis& made);
 
+// Returns what was reached without candidates that the check refused, held against the bounds of all candidates: others of their
+// instants might pass. Both have the same objectives.
+std::vector<Reached> bounded_by(std::vector<Reached> reached, const std::vector<Reached>& of_all);
+
 // Returns values and bounds in milliseconds where they are in ticks.
 std::vector<Reached> in_units(std::vector<Reached> reached, const Measured& measured, const model::Cluster& cluster);
 

@@ -345,10 +345,12 @@ Synthesis synthesize(const Plan& plan, solver::Prover* prover) {
   Synthesis made;
   made.candidates = all.size();
   std::set<std::size_t> refused;
+  std::vector<Reached> of_all;  // with every candidate
   while (refused.size() < kMostRefusals) {
     Optimiser optimiser(plan, all, refused, prover);
     const auto chosen = optimiser.run();
     made.exact = optimiser.exact();
+    if (refused.empty()) of_all = optimiser.reached();
     if (!chosen) return made;
     const Trial& trial = optimiser.trial(*chosen);
     const auto read = read_of(plan, trial.candidate);
@@ -360,7 +362,7 @@ Synthesis synthesize(const Plan& plan, solver::Prover* prover) {
       findings = too_old(plan, made);
       made.found = findings.empty();
       made.candidate = trial.candidate;
-      made.reached = in_units(optimiser.reached(), measured, made.cluster);
+      made.reached = in_units(bounded_by(optimiser.reached(), of_all), measured, made.cluster);
       if (made.found) return made;
     }
     if (made.refused.empty()) made.refused = std::move(findings);

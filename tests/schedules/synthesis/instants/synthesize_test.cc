@@ -1,4 +1,5 @@
 #include "schedules/synthesis/instants/synthesize.h"
+#include "schedules/synthesis/instants/measured.h"
 
 #include <algorithm>
 
@@ -183,6 +184,19 @@ TEST(SynthesizeFinds, ContradictionsOfTheBusAtOnce) {
     EXPECT_NE(error.findings()[0].sentence().find("must fit the payload of 40 bytes"), std::string::npos);
     EXPECT_GT(error.findings()[0].line, 0);
   }
+}
+
+// The best of the others is not the best of all, if other instants of a refused candidate might pass.
+TEST(Synthesize, ARefusedCandidateKeepsItsBound) {
+  using plan::Goal;
+  const std::vector<Reached> of_all{{Goal::kDataAge, 90, 90, true, "bound"}, {Goal::kRoom, 0.3, 0.3, true, "bound"}};
+  const std::vector<Reached> others{{Goal::kDataAge, 95, 95, true, "bound"}, {Goal::kRoom, 0.2, 0.2, true, "bound"}};
+  const std::vector<Reached> held = bounded_by(others, of_all);
+  EXPECT_EQ(held[0].bound, 90);
+  EXPECT_FALSE(held[0].proven);
+  EXPECT_EQ(held[1].bound, 0.3);
+  EXPECT_FALSE(held[1].proven);
+  for (const Reached& one : bounded_by(of_all, of_all)) EXPECT_TRUE(one.proven);
 }
 
 }  // namespace
