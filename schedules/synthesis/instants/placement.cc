@@ -1,6 +1,7 @@
 #include "schedules/synthesis/instants/placement.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -14,6 +15,8 @@
 namespace ttf::schedules::synthesis::instants {
 
 namespace {
+
+enum class Side { kBefore, kBehind };
 
 class Engine {
  public:
@@ -142,24 +145,26 @@ class Engine {
     trail_.clear();
   }
 
-  // Places the activity at or before `latest`. Returns false where there is no room within a period.
-  bool put(std::size_t a, Ticks latest) {
+  // Places the activity at the nearest instant that its grid and its resource allow: at or before `asked`, or at or behind it.
+  // Returns false if there is none within the periods that are searched.
+  bool put(std::size_t a, Ticks asked, Side side = Side::kBefore) {
     ++found_.steps;
+    const bool before = side == Side::kBefore;
     const Activity& activity = problem_.activities[a];
-    Ticks at =
-        activity.fixed ? latest - modulo(latest - *activity.fixed, activity.period) : latest_on_grid(grids_[a], latest);
-    if (a == anchor_ && at != latest) return ok_ = false;
+    Ticks at = on_grid(a, asked, before);
+    if (a == anchor_ && at != asked) return ok_ = false;
     if (!activity.fixed && activity.resource) {
+      const Ticks furthest = before ? activity.period : 2 * activity.period;
       const auto& standing = standing_[*activity.resource];
       for (std::size_t i = 0; i < standing.size();) {
-        const Ticks back = in_the_way(activity, at, problem_.activities[standing[i].first], standing[i].second, true);
-        if (back == 0) {
+        const Ticks way = in_the_way(activity, at, problem_.activities[standing[i].first], standing[i].second, before);
+        if (way == 0) {
           ++i;
           continue;
         }
         if (a == anchor_) return ok_ = false;
-        at = latest_on_grid(grids_[a], at - back);
-        if (latest - at > activity.period) return false;
+        at = on_grid(a, before ? at - way : at + way, before);
+        if (std::abs(at - asked) > furthest) return false;
         i = 0;
       }
       standing_[*activity.resource].push_back({a, at});
@@ -168,6 +173,14 @@ class Engine {
     placed_[a] = true;
     trail_.push_back(a);
     return true;
+  }
+
+  Ticks on_grid(std::size_t a, Ticks at, bool before) const {
+    const Activity& activity = problem_.activities[a];
+    if (activity.fixed)
+      return before ? at - modulo(at - *activity.fixed, activity.period)
+                    : at + modulo(*activity.fixed - at, activity.period);
+    return before ? latest_on_grid(grids_[a], at) : next_on_grid(grids_[a], at);
   }
 
   void undo(std::size_t count) {
@@ -281,35 +294,10 @@ class Engine {
         Ticks earliest = std::numeric_limits<Ticks>::min();
         for (const Edge& edge : before) earliest = std::max(earliest, at_[edge.other] + edge.gap);
         if (before.empty()) earliest = at_[anchor_];
-        if (!put_early(a, earliest)) return false;
+        if (!put(a, earliest, Side::kBehind)) return false;
         more = true;
       }
     }
-    return true;
-  }
-
-  bool put_early(std::size_t a, Ticks earliest) {
-    ++found_.steps;
-    const Activity& activity = problem_.activities[a];
-    Ticks at = activity.fixed ? earliest + modulo(*activity.fixed - earliest, activity.period)
-                              : next_on_grid(grids_[a], earliest);
-    if (!activity.fixed && activity.resource) {
-      const auto& standing = standing_[*activity.resource];
-      for (std::size_t i = 0; i < standing.size();) {
-        const Ticks on = in_the_way(activity, at, problem_.activities[standing[i].first], standing[i].second, false);
-        if (on == 0) {
-          ++i;
-          continue;
-        }
-        at = next_on_grid(grids_[a], at + on);
-        if (at - earliest > 2 * activity.period) return false;
-        i = 0;
-      }
-      standing_[*activity.resource].push_back({a, at});
-    }
-    at_[a] = at;
-    placed_[a] = true;
-    trail_.push_back(a);
     return true;
   }
 

@@ -33,7 +33,7 @@ class Filler {
   }
 
  private:
-  // Notes the placeholder if the key is left out.
+  // Puts the placeholder down for a key that is left out. Returns whether it is.
   bool leave(const YamlMap& map, const Path& path, const char* key, const std::string& value) {
     if (map.has(key)) return false;
     Path whole = path;
