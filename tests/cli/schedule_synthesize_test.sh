@@ -18,6 +18,16 @@ proof='proven best: integers'
 says "^data_age .* $proof\$"
 says "^worst_age .* $proof\$"
 expect 0 '^paper_two_lasers_radar: consistent$' schedule check "$work/four.yaml"
+# What is shipped, and driven by experiments/planned_schedule.yaml, is what the plans give.
+diff "$work/paper.yaml" "$source/schedules/paper_planned.yaml" || fail "schedules/paper_planned.yaml is another one"
+expect 0 '^worst_age +40.874 ms .* proven best' schedule synthesize "$plans/paper_short_scans.yaml" -o "$work/short.yaml"
+for sensor in laser camera; do
+  for key in base_cycle offset; do
+    value=$(sed -n "s/.*kind: $sensor,.*$key: \([0-9]*\).*/\1/p" "$work/short.yaml")
+    grep -q "planned/cluster.sensors.$sensor.$key: $value\$" "$source/experiments/planned_schedule.yaml" ||
+      fail "with short scans, the experiment has another $key of $sensor than $value"
+  done
+done
 for cluster in paper four; do
   sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
     >"$work/drive.yaml"
