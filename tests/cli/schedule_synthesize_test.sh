@@ -18,7 +18,7 @@ proof='proven best: integers'
 says "^data_age .* $proof\$"
 says "^worst_age .* $proof\$"
 expect 0 '^paper_two_lasers_radar: consistent$' schedule check "$work/four.yaml"
-# What is shipped, and driven by experiments/planned_schedule.yaml, is what the plans give.
+# The plans give the shipped cluster, which experiments/planned_schedule.yaml drives.
 diff "$work/paper.yaml" "$source/schedules/paper_planned.yaml" || fail "schedules/paper_planned.yaml is another one"
 expect 0 '^worst_age +40.874 ms .* proven best' schedule synthesize "$plans/paper_short_scans.yaml" -o "$work/short.yaml"
 for sensor in laser camera; do
