@@ -116,7 +116,7 @@ chmod +x "$run/init.sh"
 : >"$run/stderr"
 
 # In a session of its own: what it starts on this machine is one process group.
-setsid "$kernel" root=none rootfstype=hostfs rootflags=/ rw mem=512M "init=$run/init.sh" con=null con0=null,fd:1 \
+setsid "$kernel" root=none rootfstype=hostfs rootflags=/ rw mem=1400M "init=$run/init.sh" con=null con0=null,fd:1 \
   "uml_dir=$run" umid=bed time-travel=inf-cpu time-travel-start=1000000000000000000 \
   >"$run/console" 2>&1 </dev/null &
 leader=$!

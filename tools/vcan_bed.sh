@@ -59,15 +59,16 @@ drive() { bed "${@:3}" LOGS="$out/$1.$2.mcap" "tests/test_bed/$1.sh" "$ttfusion"
 export fewer_looks=GLIBC_TUNABLES=glibc.cpu.hwcap_mask=0:glibc.cpu.hwcaps=-POPCNT
 more_looks="LD_LIBRARY_PATH=/run/nowhere LARGE=$(printf %05000d 0)"
 export more_looks
-drives=('drive node_set_restart 1' 'drive node_set_restart 2 $more_looks' 'drive node_set 1' 'drive node_set 2 $fewer_looks')
+drives=('drive node_set_restart 1' 'drive node_set_restart 2 $more_looks' 'drive node_set 1' 'drive node_set 2 $fewer_looks'
+  'drive node_set_closed_loop 1' 'drive node_set_closed_loop 2 $more_looks')
 
 export -f at_its_place bed script the_bed_itself ends_with sockets_tests drive
 
 golden=tests/golden/vcan_hashes
-made_with='bash g++-12 libc6 libddsc0debian libfmt9 libopenmpi3 libprotobuf32 librsvg2-2 libsqlite3-0 libstdc++6 libyaml-cpp0.7 libzstd1 linux-source-6.1'
+made_with='bash g++-12 libc6 libddsc0debian libfmt9 libopenmpi3 libprotobuf32 librsvg2-2 libsqlite3-0 libstdc++6 libyaml-cpp0.7 libz3-4 libzstd1 linux-source-6.1'
 compare_drives() {
   local drive
-  for drive in node_set node_set_restart; do
+  for drive in node_set node_set_restart node_set_closed_loop; do
     cmp "$out/$drive.1.mcap" "$out/$drive.2.mcap" >&2 || exit 1
     echo "$drive $(sed -n 's/.*"content_hash": "\(.*\)"/\1/p' "$out/$drive.1")"
   done >"$out/golden"
