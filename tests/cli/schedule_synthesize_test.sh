@@ -18,16 +18,31 @@ proof='proven best: integers'
 says "^data_age .* $proof\$"
 says "^worst_age .* $proof\$"
 expect 0 '^paper_two_lasers_radar: consistent$' schedule check "$work/four.yaml"
-# The plans give the shipped cluster, which experiments/planned_schedule.yaml drives.
+# The plans give the shipped clusters, which experiments drive.
 diff "$work/paper.yaml" "$source/schedules/paper_planned.yaml" || fail "schedules/paper_planned.yaml is another one"
-expect 0 '^worst_age +40.874 ms .* proven best' schedule synthesize "$plans/paper_short_scans.yaml" -o "$work/short.yaml"
-for sensor in laser camera; do
-  for key in base_cycle offset; do
-    value=$(sed -n "s/.*kind: $sensor,.*$key: \([0-9]*\).*/\1/p" "$work/short.yaml")
-    grep -q "planned/cluster.sensors.$sensor.$key: $value\$" "$source/experiments/planned_schedule.yaml" ||
-      fail "with short scans, the experiment has another $key of $sensor than $value"
+expect 0 '^laser +55.184 +55.532 ' schedule synthesize "$plans/closed_loop.yaml" -o "$work/loop.yaml"
+diff "$work/loop.yaml" "$source/schedules/closed_loop_planned.yaml" ||
+  fail "schedules/closed_loop_planned.yaml is another one"
+# A task that reads the image and odometry uses the image; it does not fuse odometry.
+says '^seen_by_laser +55.094 +55.442 '
+expect 0 ' used first +55.094 +55.442$' schedule check "$work/loop.yaml"
+# short_scans PLAN EXPERIMENT...: the plan's sensors measure at the instants that the experiments have.
+short_scans() {
+  local experiment sensor key value
+  expect 0 'wrote' schedule synthesize "$plans/$1.yaml" -o "$work/short.yaml"
+  for experiment in "${@:2}"; do
+    for sensor in laser camera; do
+      for key in base_cycle offset; do
+        value=$(sed -n "s/.*kind: $sensor,.*$key: \([0-9]*\).*/\1/p" "$work/short.yaml")
+        grep -q "planned/cluster.sensors.$sensor.$key: $value\$" "$source/experiments/$experiment.yaml" ||
+          fail "with short scans, $experiment has another $key of $sensor than $value"
+      done
+    done
   done
-done
+}
+short_scans paper_short_scans planned_schedule
+says '^worst_age +40.874 ms .* proven best'
+short_scans closed_loop_short_scans closed_loop_planned closed_loop_planned_following
 for cluster in paper four; do
   sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
     >"$work/drive.yaml"

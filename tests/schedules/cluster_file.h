@@ -37,6 +37,8 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "driven_surround_unsynchronised",
                                                "driven_surround_synchronised",
                                                "closed_loop_free_running",
+                                               "closed_loop_free_flexray",
+                                               "closed_loop_planned",
                                                "adaptive_unsynchronised",
                                                "adaptive_synchronised",
                                                "adaptive_loop_unsynchronised",

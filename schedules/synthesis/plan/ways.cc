@@ -79,7 +79,10 @@ bool by_time(const model::Task& task) { return task.activation.kind == model::Ac
 
 bool fuses(const model::Cluster& cluster, TaskId id) {
   const model::Task& task = task_at(cluster, id);
-  return !task.reads.empty() && task.writes.empty() && analysis::publisher_of(cluster, id.node).task != nullptr;
+  const bool of_sensors = std::all_of(task.reads.begin(), task.reads.end(),
+                                      [&](const auto& in) { return cluster.pdu(in.pdu).sensor != kNoSensor; });
+  return of_sensors && !task.reads.empty() && task.writes.empty() &&
+         analysis::publisher_of(cluster, id.node).task != nullptr;
 }
 
 std::vector<Hop> way_to(const model::Cluster& cluster, SensorId sensor, TaskId to) {

@@ -30,7 +30,7 @@ std::vector<Hop> way_to(const model::Cluster& cluster, SensorId sensor, TaskId t
 // fuses; none if neither begins by time.
 std::vector<Hop> way_to_use(const model::Cluster& cluster, SensorId sensor);
 
-// Returns whether the task fuses: it reads lists and writes none, and another task of its node writes the image.
+// Returns whether the task fuses: it reads sensors' lists alone and writes none, and another task of its node writes the image.
 bool fuses(const model::Cluster& cluster, TaskId id);
 
 const model::Task& task_at(const model::Cluster& cluster, TaskId id);
