@@ -2,12 +2,36 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "schedules/synthesis/checker.h"
 #include "schedules/synthesis/solver/decide.h"
 #include "schedules/synthesis/solver/model.h"
+#include "schedules/synthesis/solver/turns.h"
 
 namespace ttf::schedules::synthesis::solver {
+namespace {
+
+constexpr std::int64_t kSplitsOfAPair = 100, kSplitsToWriteDown = 10;
+
+bool chains_contradict(const Problem& problem, const Chain& a, const Chain& b, std::int64_t& splits) {
+  std::vector<std::size_t> activities = a.activities;
+  activities.insert(activities.end(), b.activities.begin(), b.activities.end());
+  Part part = part_of(problem, activities);
+  part.add(a);
+  part.add(b);
+  const Problem pair = folded(std::move(part.problem));
+  const Model model({pair, {}, {}});
+  if (model.contradictory) return true;
+  const Rules rules(model);
+  if (rules.windows.size() > Turns::kMostNumbers) return false;
+  Turns turns(rules);
+  const bool none = turns.run(kSplitsOfAPair) == Turns::End::kExhausted;
+  splits -= turns.splits() + kSplitsToWriteDown;
+  return none;
+}
+
+}  // namespace
 
 Part part_of(const Problem& problem, std::span<const std::size_t> activities) {
   Part part;
@@ -65,6 +89,38 @@ Ticks least_age_alone(const Problem& problem, const Chain& chain) {
       least = middle + 1;
   }
   return least;
+}
+
+bool two_chains_contradict(const Problem& problem, std::int64_t& splits) {
+  for (std::size_t a = 0; a < problem.chains.size(); ++a)
+    for (std::size_t b = a + 1; b < problem.chains.size() && splits > 0; ++b)
+      if (problem.chains[a].largest_age && problem.chains[b].largest_age &&
+          chains_contradict(problem, problem.chains[a], problem.chains[b], splits))
+        return true;
+  return false;
+}
+
+Problem folded(Problem problem) {
+  bool turns = !problem.activities.empty();
+  Ticks together = 1;
+  std::vector<char> held(problem.activities.size(), 0);
+  std::erase_if(problem.precedences, [&](const Precedence& precedence) {
+    const Ticks period = problem.activities[precedence.before].period;
+    return precedence.most.value_or(precedence.gap + period - 1) - precedence.gap >= period - 1;
+  });
+  for (const Precedence& precedence : problem.precedences) held[precedence.before] = held[precedence.after] = 1;
+  for (std::size_t at = 0; at < problem.activities.size(); ++at) {
+    Activity& activity = problem.activities[at];
+    const bool whole = held[at] == 0 && activity.period % activity.grid.period == 0 &&
+                       activity.window.last - activity.window.first >= activity.period - 1;
+    if (whole) activity.window = {0, activity.period - 1};
+    turns = turns && whole && !activity.fixed;
+    together = std::lcm(together, activity.grid.period);
+  }
+  if (!turns) return problem;
+  Activity& longest = *std::ranges::max_element(problem.activities, {}, &Activity::period);
+  if (longest.period % together == 0) longest.window.last = together - 1;
+  return problem;
 }
 
 }  // namespace ttf::schedules::synthesis::solver

@@ -6,6 +6,7 @@
 #include "schedules/synthesis/checker.h"
 #include "schedules/synthesis/solver/bounds.h"
 #include "schedules/synthesis/solver/tree.h"
+#include "schedules/synthesis/solver/turns.h"
 
 namespace ttf::schedules::synthesis::solver {
 namespace {
@@ -25,9 +26,23 @@ bool too_low(const Model& model) {
   return false;
 }
 
+// A split of turns counts as so many nodes of a tree, where there are no more than so many pairs of numbers.
+constexpr std::int64_t kNodesOfASplit = 10, kUsualPairs = 64 * 64;
+// All questions of an objective may take so many times what one may.
+constexpr std::int64_t kQuestions = 3;
+
+std::int64_t splits_of(const Effort& effort) { return std::max<std::int64_t>(1, effort.exhaustion / kNodesOfASplit); }
+
 Verdict infeasible() { return {Verdict::Kind::kInfeasible, {}, 0}; }
 
 }  // namespace
+
+Decider::Decider(const Effort& effort, Prover* prover) : effort_(effort), prover_(prover) { renew(); }
+
+void Decider::renew() {
+  left_ = effort_.proofs;
+  splits_ = kQuestions * splits_of(effort_);
+}
 
 bool keeps(const Question& question, const Solution& solution) {
   if (!violations(question.problem, solution).empty()) return false;
@@ -64,6 +79,27 @@ std::optional<Solution> in_order(const Question& question, Solution solution) {
   return solution;
 }
 
+// Turns know neither orders nor sums, so theirs may break these. A split costs as many steps as there are pairs of numbers.
+Verdict Decider::turned(const Question& question, const Model& model) {
+  if (!question.sums.empty() || splits_ <= 0) return {};
+  way_ = "exhausted";
+  if (two_chains_contradict(question.problem, splits_)) return infeasible();
+  const Rules rules(model);
+  const auto numbers = static_cast<std::int64_t>(rules.windows.size());
+  if (numbers > static_cast<std::int64_t>(Turns::kMostNumbers)) return {};
+  const std::int64_t dearer = std::max<std::int64_t>(1, numbers * numbers / kUsualPairs);
+  Turns turns(rules);
+  const Turns::End end = turns.run(std::min(splits_, splits_of(effort_)) / dearer);
+  splits_ -= turns.splits() * dearer;
+  if (end == Turns::End::kExhausted) return infeasible();
+  if (end == Turns::End::kGaveUp) return {};
+  way_ = "placement";
+  const std::optional<Solution> kept = in_order(question, {turns.found()});
+  TTF_CHECK(kept || !question.problem.orders.empty() || !std::ranges::all_of(model.chains, &ChainTerms::harmonic),
+            "the turns' offsets break the problem");
+  return kept ? Verdict{Verdict::Kind::kFeasible, *kept, 0} : Verdict{};
+}
+
 Verdict Decider::search(const Question& question) {
   std::int64_t steps = effort_.steps;
   const std::int64_t exhaustion = effort_.exhaustion;
@@ -97,6 +133,8 @@ Verdict Decider::search(const Question& question) {
     if (end == Tree::End::kFound)
       if (Verdict verdict = found(all); verdict.kind == Verdict::Kind::kFeasible) return verdict;
     if (end == Tree::End::kExhausted) return infeasible();
+    if (probe == 1)
+      if (Verdict verdict = turned(question, model); verdict.kind != Verdict::Kind::kUnknown) return verdict;
   }
   Tree all(model, placing_order(model, weights, true), true);
   const Tree::End end = run(all, exhaustion, "exhausted");

@@ -1,6 +1,7 @@
-// Whether offsets exist: coarse searches first, then an exhaustive one, then the prover.
+// Whether offsets exist: coarse searches first, then a search over whole turns, then over all ticks, then the prover.
 #pragma once
 
+#include "schedules/synthesis/solver/model.h"
 #include "schedules/synthesis/solver/prover.h"
 #include "schedules/synthesis/solver/solve.h"
 
@@ -8,10 +9,10 @@ namespace ttf::schedules::synthesis::solver {
 
 class Decider {
  public:
-  Decider(const Effort& effort, Prover* prover) : effort_(effort), prover_(prover), left_(effort.proofs) {}
+  Decider(const Effort& effort, Prover* prover);
 
-  // Lets the prover spend its steps anew, for another objective.
-  void renew() { left_ = effort_.proofs; }
+  // Lets the prover and the search over turns spend their steps anew, for another objective.
+  void renew();
 
   // Every solution that they return has passed the checker.
   Verdict decide(const Question& question);  // search, then prove
@@ -24,12 +25,14 @@ class Decider {
   const std::string& way() const { return way_; }
 
  private:
+  Verdict turned(const Question& question, const Model& model);
   Verdict asked(const Question& question, double share, const Repair& repair);
   std::optional<Solution> repaired(const Question& question, const Solution& almost);
 
   Effort effort_;
   Prover* prover_;
-  double left_;  // the prover's steps that may still be spent
+  double left_ = 0;          // the prover's steps that may still be spent
+  std::int64_t splits_ = 0;  // of turns, likewise
   std::string way_;
 };
 
