@@ -1,21 +1,15 @@
 #include "schedules/timing/chain/segment.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <utility>
 
-#include "core/int128.h"
+#include "schedules/timing/common_multiple.h"
 
 namespace ttf::schedules::timing::chain {
 namespace {
 
-// Returns none above 100 times kLongest.
-std::optional<Duration> common_multiple(Duration a, Duration b) {
-  const Int128 product = Int128{a.ns} / std::gcd(a.ns, b.ns) * b.ns;
-  if (product > Int128{kLongest.ns} * 100) return std::nullopt;
-  return Duration{static_cast<std::int64_t>(product)};
-}
+constexpr std::int64_t kLongestHyperperiod = kLongest.ns * 100;
 
 std::vector<Link> links_of(std::span<const Stage> chain, std::size_t first) {
   std::vector<Link> links;
@@ -36,11 +30,13 @@ Segment::Segment(Link first) : hyperperiod_(first.jobs.cycle()) { links_.push_ba
 bool Segment::extend(std::span<const Stage> chain, const Link& link) {
   const std::optional<std::size_t> origin = chain[links_.back().first].origin;
   if (!origin || chain[link.first].origin != origin) return false;
-  const std::optional<Duration> hyperperiod = common_multiple(hyperperiod_, link.jobs.cycle());
-  if (!hyperperiod || link.jobs.jobs_in(*hyperperiod) > kMostJobs) return false;
+  const auto common = common_multiple(hyperperiod_.ns, link.jobs.cycle().ns, kLongestHyperperiod);
+  if (!common) return false;
+  const Duration hyperperiod{*common};
+  if (link.jobs.jobs_in(hyperperiod) > kMostJobs) return false;
   for (const Link& other : links_)
-    if (other.jobs.jobs_in(*hyperperiod) > kMostJobs) return false;
-  hyperperiod_ = *hyperperiod;
+    if (other.jobs.jobs_in(hyperperiod) > kMostJobs) return false;
+  hyperperiod_ = hyperperiod;
   links_.push_back(link);
   return true;
 }

@@ -1,9 +1,10 @@
 #include "schedules/timing/response/recurrence.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstddef>
 
 #include "core/check.h"
+#include "schedules/timing/common_multiple.h"
 
 namespace ttf::schedules::timing::response {
 namespace {
@@ -98,12 +99,10 @@ std::optional<std::int64_t> from_closed_form(const Level& level, std::span<const
 }  // namespace
 
 std::optional<std::int64_t> hyperperiod(std::span<const Source> sources) {
-  Int128 all = 1;
-  for (const Source& one : sources) {
-    all *= one.period / std::gcd(static_cast<std::int64_t>(all), one.period);
-    if (all > kLongestResponse) return std::nullopt;
-  }
-  return static_cast<std::int64_t>(all);
+  std::optional<std::int64_t> all = 1;
+  for (std::size_t i = 0; all && i < sources.size(); ++i)
+    all = common_multiple(*all, sources[i].period, kLongestResponse);
+  return all;
 }
 
 Load load_of(std::span<const Source> sources) {

@@ -1,10 +1,5 @@
-// Starts and ends of all jobs of a processor with preemptive fixed priorities, where all offsets are known.
-//
-// The backlog of such a processor repeats from the end of the first hyperperiod on, if the load is at most one and
-// offsets are reduced below their periods (J. Leung, M. Merrill, Information Processing Letters 11(3), 1980). No job of
-// a preemptive processor starts or ends later if jobs take less time (R. Ha, J. Liu: "Validating timing constraints in
-// multiprocessor and distributed real-time systems", ICDCS 1994). So the jobs of the second hyperperiod, simulated with
-// best and with worst cases, have the earliest starts and the latest ends.
+// The earliest start and the latest end of all jobs of a processor with preemptive fixed priorities, where all offsets
+// are known: the jobs of a hyperperiod, simulated with best and with worst cases (schedules/timing/response/simulation.h).
 #pragma once
 
 #include <cstdint>
