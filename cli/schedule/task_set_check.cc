@@ -25,18 +25,20 @@ nlohmann::ordered_json task_json(const sets::TaskSet& set, const sets::Verdict& 
   const sets::Task& task = set.tasks[t];
   const sets::TaskTiming& timing = verdict.responses.tasks[t];
   const bool bounded = timing.bounded();
-  return {{"name", task.name},
-          {"kind", task.is_message ? "message" : "task"},
-          {"communication", sets::word(task.communication)},
-          {"period_ms", in_ms(set.period_of(t))},
-          {"jitter_ms", in_ms(timing.jitter)},
-          {"best_ms", in_ms(task.best)},
-          {"worst_ms", in_ms(task.worst)},
-          {"response_ms", bounded ? nlohmann::ordered_json(in_ms(Duration{timing.response.longest}))
-                                  : nlohmann::ordered_json(nullptr)},
-          {"quality", schedules::timing::response::word(timing.response.quality)},
-          {"deadline_ms", optional_ms(task.deadline)},
-          {"met", sets::meets_deadline(set, verdict.responses, t)}};
+  nlohmann::ordered_json json{{"name", task.name},
+                              {"kind", task.is_message ? "message" : "task"},
+                              {"communication", sets::word(task.communication)},
+                              {"period_ms", in_ms(set.period_of(t))},
+                              {"jitter_ms", in_ms(timing.jitter)},
+                              {"best_ms", in_ms(task.best)},
+                              {"worst_ms", in_ms(task.worst)},
+                              {"response_ms", bounded ? nlohmann::ordered_json(in_ms(Duration{timing.response.longest}))
+                                                      : nlohmann::ordered_json(nullptr)},
+                              {"quality", schedules::timing::response::word(timing.response.quality)},
+                              {"deadline_ms", optional_ms(task.deadline)},
+                              {"met", sets::meets_deadline(set, verdict.responses, t)}};
+  if (timing.miss_probability) json["late_probability"] = *timing.miss_probability;
+  return json;
 }
 
 nlohmann::ordered_json figure_json(const sets::TaskSet& set, const sets::Chain& chain, const ends::Figure& figure) {
@@ -64,6 +66,7 @@ nlohmann::ordered_json set_chain_json(const sets::TaskSet& set, const sets::Chai
   const ends::EndToEnd& times = *timing.times;
   const auto figure = [&](const ends::Figure& of) { return figure_json(set, chain, of); };
   json["exact"] = times.exact;
+  json["without_errors"] = sets::ignores_errors(set, chain);
   json["reaction_time"] = figure(times.reaction);
   json["reduced_reaction_time"] = figure(times.reduced_reaction);
   json["data_age"] = times.age ? figure(*times.age) : nlohmann::ordered_json(nullptr);
@@ -80,7 +83,9 @@ nlohmann::ordered_json verdict_json(const sets::TaskSet& set, const sets::Verdic
                                {"policy", sets::word(set.resources[r].policy)},
                                {"load", here.load},
                                {"tasks", nlohmann::ordered_json::array()}};
-    if (set.resources[r].policy != sets::Policy::kTable) one["priorities"] = sets::words(here.assignment);
+    if (set.resources[r].has_priorities()) one["priorities"] = sets::words(here.assignment);
+    if (set.resources[r].errors_apart) one["errors_apart_ms"] = in_ms(*set.resources[r].errors_apart);
+    if (set.resources[r].errors_per_s > 0) one["errors_per_s"] = set.resources[r].errors_per_s;
     for (const std::size_t t : here.by_priority) one["tasks"].push_back(task_json(set, verdict, t));
     json["resources"].push_back(std::move(one));
   }

@@ -36,6 +36,25 @@ for c in check["chains"]:
         assert c[figure]["ms"] <= c["reaction_time"]["ms"], c
 PY
 
+# A dynamic segment, slots of TDMA, and CANs with errors.
+buses=$source/schedules/task_sets/buses.csv
+expect 0 '^buses: all deadlines and ages are kept$' schedule check --task-set "$buses"
+says '^processor brake_ecu \(tdma\), load 17.0 %$' '^  brake +10.000 +0.000 +6.000 +10.000  exact$' '^bus dynamic \(dynamic\), load 17.8 %$' \
+  '^bus body_can \(can\), load 2.4 %, errors 10 ms apart or more, priorities as given$' \
+  '^  damper .*  exact without errors, late at most 2.4e-12$'
+"$program" schedule check --task-set "$buses" --json >"$work/buses.json" || fail "buses as JSON fail"
+python3 - "$work/buses.json" <<'PY' || fail "buses are wrong as JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+resources = {r["name"]: r for r in check["resources"]}
+assert resources["body_can"]["errors_apart_ms"] == 10 and resources["chassis_can"]["errors_per_s"] == 30, resources
+late = [t["late_probability"] for t in resources["chassis_can"]["tasks"]]
+assert len(late) == 2 and all(0 < p < 1e-9 for p in late), late
+assert [c["without_errors"] for c in check["chains"]] == [False, False], check["chains"]
+PY
+sed 's/, 10 ms$/, 20\/s/; s/pedal, body_can, 10 ms, , , , 4/pedal, body_can, 10 ms, , , , 9/' "$buses" >"$work/nine.csv"
+expect 2 '^error: .*/nine.csv:[0-9]+: pedal.worst = 9: must be a whole number 0..8 bytes$' schedule check --task-set "$work/nine.csv"
+
 # A limit that is not kept, an overload, and a mistake.
 sed 's/brake, 70 ms/brake, 42 ms/' "$shipped" >"$work/late.csv"
 expect 1 '^  command alone: data may be 42500 us old, more than 42 ms$' schedule check --task-set "$work/late.csv"

@@ -489,12 +489,13 @@ void result_seeds(const fs::path& folder) {
 }
 
 void task_set_seeds(const fs::path& folder) {
-  for (const std::string name : {"braking", "let"})
+  for (const std::string name : {"braking", "let", "buses"})
     write(folder / "task_set" / name, fuzz::shipped("schedules/task_sets/" + name + ".csv"));
   write_dictionary(folder / "task_set.dict",
                    {"processor", "bus",          "task",  "message",    "chain",  "preemptive", "non_preemptive",
                     "can",       "can_extended", "table", "implicit",   "let",    "event",      " > ",
-                    "1000 s",    "1 us",         "1 ns",  "999.983 ms", "500000", "10000"});
+                    "1000 s",    "1 us",         "1 ns",  "999.983 ms", "500000", "10000",      "dynamic",
+                    "tdma",      "turn",         "start", "1/4",        "30/s"});
 }
 
 }  // namespace

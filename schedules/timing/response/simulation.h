@@ -24,7 +24,7 @@ inline constexpr std::int64_t kMostSimulatedJobs = 2'000'000;
 struct PeriodicWork {
   std::int64_t period = 1;
   std::int64_t offset = 0;
-  std::int64_t work = 0;  // of each job; may be 0
+  std::int64_t work = 0;  // each job's; may be 0
 };
 
 // A job that is released in the second hyperperiod. Times count from the beginning of that hyperperiod.

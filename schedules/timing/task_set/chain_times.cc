@@ -81,7 +81,7 @@ class Stages {
     if (!simulated || activates) {  // a task that it activates counts from its longest response
       const Duration response{responses_.tasks[t].response.longest};
       chain::Stage stage = chain::sampled_stage(task.name, period, task.offset, response);
-      stage.exact = is_alone(t) && task.jitter == Duration{} && response <= period;
+      stage.exact = is_alone(t) && task.jitter == Duration{} && response == task.worst;
       return stage;
     }
     chain::Stage stage;
@@ -139,6 +139,11 @@ std::vector<ChainTiming> chain_times(const TaskSet& set, const Responses& respon
     if (timing.why_none.empty()) timing.times = chain::end_to_end(stages);
   }
   return found;
+}
+
+bool ignores_errors(const TaskSet& set, const Chain& chain) {
+  return std::ranges::any_of(chain.stages,
+                             [&](std::size_t t) { return set.resources[set.tasks[t].resource].errors_per_s > 0; });
 }
 
 bool meets_age(const Chain& chain, const ChainTiming& timing) {

@@ -9,7 +9,7 @@
 //   message         takes its value at its release, as it is queued
 //   activated       ends its response behind its earliest release, which its activator's shortest time precedes
 //
-// A resource with a single task is exact, too. A periodic task without an offset has any phase against the others. A
+// A resource with a single task that ends at once is exact, too. A periodic task without an offset has any phase against the others. A
 // chain whose responses sum up to more than half of chain::kLongest has no times.
 #pragma once
 
@@ -30,6 +30,9 @@ struct ChainTiming {
 
 // Returns the times of the chains in the set's order.
 std::vector<ChainTiming> chain_times(const TaskSet& set, const Responses& responses);
+
+// Returns whether the chain goes over a CAN with errors at random: its times then are those without errors.
+bool ignores_errors(const TaskSet& set, const Chain& chain);
 
 // Returns whether the data age is within the chain's limit, if it has one.
 bool meets_age(const Chain& chain, const ChainTiming& timing);

@@ -16,6 +16,10 @@
 
 namespace ttf::schedules::timing::task_set {
 
+inline constexpr Duration kLongestTime = Duration::milliseconds(1'000'000);
+inline constexpr Range<Duration> kPeriods{Duration::microseconds(1), kLongestTime};
+inline constexpr Range<Duration> kDelays{Duration{}, kLongestTime};
+
 class Fields {
  public:
   // Columns and findings outlive this. Missing columns at the line's end are blank.

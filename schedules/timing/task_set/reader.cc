@@ -15,26 +15,18 @@
 #include "core/errors.h"
 #include "core/file_bytes.h"
 #include "core/nearest.h"
-#include "schedules/timing/response/can.h"
 #include "schedules/timing/task_set/chain_lines.h"
 #include "schedules/timing/task_set/fields.h"
+#include "schedules/timing/task_set/policy_columns.h"
 
 namespace ttf::schedules::timing::task_set {
 namespace {
 
-constexpr std::string_view kProcessorColumns[] = {"kind", "name", "policy", "clock"};
-constexpr std::string_view kBusColumns[] = {"kind", "name", "policy", "bit rate", "clock"};
-constexpr std::string_view kTaskColumns[] = {"kind", "name",  "resource", "period",   "offset",       "jitter",
-                                             "best", "worst", "deadline", "priority", "communication"};
+constexpr std::string_view kTaskColumns[] = {"kind",          "name", "resource", "period",   "offset",
+                                             "jitter",        "best", "worst",    "deadline", "priority",
+                                             "communication", "slot", "cycles",   "latest tx"};
 constexpr std::string_view kChainColumns[] = {"kind", "name", "stages", "largest age"};
 const std::vector<std::string_view> kKinds{"processor", "bus", "task", "message", "chain"};
-
-constexpr Duration kLongestTime = Duration::milliseconds(1'000'000);
-constexpr Range<Duration> kPeriods{Duration::microseconds(1), kLongestTime};
-constexpr Range<Duration> kDelays{Duration{}, kLongestTime};
-constexpr Range<Duration> kWork{Duration{1}, kLongestTime};
-constexpr Range<std::int64_t> kBitRates{10'000, 1'000'000};
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 class SetReader {
  public:
@@ -84,24 +76,9 @@ class SetReader {
   }
 
   void resource(Fields& fields) {
-    Resource one;
-    one.name = fields.name();
-    one.is_bus = fields.text("kind") == "bus";
+    Resource one = read_resource(fields);
     if (!resource_places_.emplace(one.name, set_.resources.size()).second)
       fields.fail("name", "must be the only resource of this name");
-    using enum Policy;
-    const std::vector<Policy> policies = one.is_bus ? std::vector{kCan, kCanExtended, kNonPreemptive, kTable}
-                                                    : std::vector{kPreemptive, kNonPreemptive, kTable};
-    std::vector<std::string_view> words;
-    for (const Policy policy : policies) words.emplace_back(word(policy));
-    one.policy = policies[fields.choice("policy", words)];
-    one.clock = fields.text("clock");
-    if (one.is_bus && one.is_can()) {
-      if (fields.is_blank("bit rate")) fields.fail("bit rate", "is missing: must be 10000..1000000 bit/s");
-      one.bit_rate = fields.integer("bit rate", kBitRates, "bit/s").value_or(kBitRates.low);
-    } else if (one.is_bus) {
-      fields.must_be_blank("bit rate", "only a CAN has one");
-    }
     set_.resources.push_back(std::move(one));
   }
 
@@ -138,17 +115,12 @@ class SetReader {
     if (on.policy == Policy::kTable && one.is_event())
       return fields.fail("communication", "must be implicit or let: time activates what is in a table");
     activation(fields, one);
-    if (on.is_can())
-      frame(fields, on, one);
-    else
-      work(fields, one);
+    read_work(fields, on, one);
     one.deadline = fields.duration("deadline", kPeriods);
     if (!one.deadline) one.deadline = one.period;
     if (one.communication == Communication::kLet && one.period && one.deadline > one.period)
       fields.fail("deadline",
                   fmt::format("must be at most the period of {}, where LET writes", duration_words(*one.period)));
-    one.priority = fields.integer("priority", {0, on.policy == Policy::kCan ? 2047 : 536'870'911});
-    if (on.policy == Policy::kTable) in_table(fields);
     set_.tasks.push_back(std::move(one));
   }
 
@@ -164,46 +136,49 @@ class SetReader {
     one.offset = fields.duration("offset", kDelays);
   }
 
-  void work(Fields& fields, Task& one) {
-    one.worst = fields.needed_duration("worst", kWork);
-    one.best = fields.duration("best", kDelays).value_or(Duration{});
-    if (one.best > one.worst && !fields.is_blank("worst"))
-      fields.fail("best", fmt::format("must be at most the worst case of {}", duration_words(one.worst)));
-  }
-
-  // Stuff bits are at most one in four of the bits from the start of frame to the CRC: the rest of can_frame_bits().
-  void frame(Fields& fields, const Resource& can, Task& one) {
-    fields.must_be_blank("best", "the payload of a frame is its worst case");
-    if (fields.is_blank("worst")) fields.fail("worst", "is missing: must be a payload of 0..8 bytes");
-    const auto bytes = static_cast<int>(fields.integer("worst", {0, 8}, "bytes").value_or(0));
-    const bool is_short = can.policy == Policy::kCan;
-    const auto identifier = is_short ? response::CanIdentifier::k11Bits : response::CanIdentifier::k29Bits;
-    const std::int64_t unstuffed = (is_short ? 47 : 67) + 8 * bytes;
-    one.best = Duration{unstuffed * kNsPerSecond / can.bit_rate};  // rounded down: no frame is shorter
-    one.worst = Duration{response::can_time_ns(response::can_frame_bits(identifier, bytes), can.bit_rate)};
-  }
-
-  void in_table(Fields& fields) {
-    if (fields.is_blank("offset")) fields.fail("offset", "is missing: a table says when each job begins");
-    fields.must_be_blank("jitter", "a job begins at its offset");
-    fields.must_be_blank("priority", "a table has none");
-  }
-
   void priorities_on(std::size_t resource) {
+    const Resource& on = set_.resources[resource];
     std::map<std::int64_t, std::size_t> seen;
     const std::vector<std::size_t> here = set_.tasks_on(resource);
+    if (on.policy == Policy::kDynamic) return dynamic_slots(here);
     const bool given = std::ranges::any_of(here, [&](std::size_t t) { return set_.tasks[t].priority.has_value(); });
     for (const std::size_t t : here) {
       const std::optional<std::int64_t> priority = set_.tasks[t].priority;
       if (!priority) {
-        if (given)
-          tasks_[t].fail("priority",
-                         fmt::format("must be given for all on {}, or for none", set_.resources[resource].name));
+        if (given) tasks_[t].fail("priority", fmt::format("must be given for all on {}, or for none", on.name));
         continue;
       }
       const auto [other, fresh] = seen.emplace(*priority, t);
       if (!fresh)
         tasks_[t].fail("priority", fmt::format("must be another one than that of {}", set_.tasks[other->second].name));
+    }
+    if (on.policy == Policy::kTdma) slots_fit(on, here);
+  }
+
+  // Messages of one slot must differ in their cycles: modulo the smaller repetition.
+  void dynamic_slots(const std::vector<std::size_t>& here) {
+    std::map<std::int64_t, std::vector<std::size_t>> by_slot;
+    for (const std::size_t t : here) {
+      const Task& task = set_.tasks[t];
+      std::vector<std::size_t>& slot = by_slot[*task.priority];
+      for (const std::size_t other : slot) {
+        const Task& before = set_.tasks[other];
+        if ((task.base_cycle - before.base_cycle) % std::min(task.repetition, before.repetition) != 0) continue;
+        tasks_[t].fail("priority",
+                       fmt::format("must be another one than that of {}, or have other cycles", before.name));
+        break;
+      }
+      slot.push_back(t);
+    }
+  }
+
+  void slots_fit(const Resource& on, const std::vector<std::size_t>& here) {
+    Duration sum{};
+    for (const std::size_t t : here) {
+      sum += set_.tasks[t].slot;
+      if (sum <= on.cycle) continue;
+      return tasks_[t].fail("slot", fmt::format("must fit the cycle of {}, which is {}, with the slots before it",
+                                                on.name, duration_words(on.cycle)));
     }
   }
 

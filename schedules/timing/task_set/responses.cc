@@ -5,9 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "schedules/timing/response/can.h"
-#include "schedules/timing/response/fixed_priority.h"
-#include "schedules/timing/response/priorities.h"
+#include "schedules/timing/task_set/growth.h"
+#include "schedules/timing/task_set/resource_responses.h"
 #include "schedules/timing/task_set/table.h"
 
 namespace ttf::schedules::timing::task_set {
@@ -19,31 +18,6 @@ using response::Response;
 constexpr int kMostRounds = 1000;
 constexpr Duration kLongestJitter{response::kLongestArgument / 2};
 
-response::Task as_response_task(const TaskSet& set, std::size_t t, Duration jitter) {
-  const Task& task = set.tasks[t];
-  const Duration deadline = task.deadline.value_or(Duration{response::kLongestArgument});
-  return {.period = set.period_of(t).ns,
-          .work = task.worst.ns,
-          .deadline = deadline.ns,
-          .jitter = jitter.ns,
-          .blocking = 0,
-          .offset = task.offset ? std::optional(task.offset->ns) : std::nullopt};
-}
-
-response::CanMessage as_message(const response::Task& task) {
-  return {.period = task.period, .transmission = task.work, .deadline = task.deadline, .jitter = task.jitter};
-}
-
-response::CanBus as_bus(const Resource& can) {
-  return {.bit = response::can_time_ns(1, can.bit_rate), .errors = std::nullopt};
-}
-
-std::vector<response::CanMessage> as_messages(const std::vector<response::Task>& tasks) {
-  std::vector<response::CanMessage> messages;
-  for (const response::Task& task : tasks) messages.push_back(as_message(task));
-  return messages;
-}
-
 class Analysis {
  public:
   explicit Analysis(const TaskSet& set) : set_(set), unknown_(set.tasks.size()) {
@@ -52,13 +26,21 @@ class Analysis {
   }
 
   Responses run() {
+    settle_priorities();
+    for (std::size_t r = 0; r < set_.resources.size(); ++r) add_misses(r);
+    return std::move(found_);
+  }
+
+ private:
+  // Tries Audsley's algorithm where the first order misses a deadline.
+  void settle_priorities() {
     iterate();
     for (std::size_t r = 0; r < set_.resources.size(); ++r) {
       ResourceTiming& here = found_.resources[r];
       if (here.assignment != Assignment::kDeadlineMonotonic || all_in_time(r)) continue;
       const std::vector<std::size_t> before = here.by_priority;
       here.assignment = Assignment::kNone;
-      const std::optional<std::vector<std::size_t>> order = audsleys_order(r);
+      const std::optional<std::vector<std::size_t>> order = other_order(r);
       if (!order) continue;
       here.by_priority = *order;
       iterate();
@@ -69,10 +51,8 @@ class Analysis {
       here.by_priority = before;
       iterate();
     }
-    return std::move(found_);
   }
 
- private:
   ResourceTiming in_first_order(std::size_t r) const {
     ResourceTiming here;
     here.by_priority = set_.tasks_on(r);
@@ -84,11 +64,14 @@ class Analysis {
       given = given || task.priority.has_value();
       table.push_back({.period = set_.period_of(t), .offset = task.offset.value_or(Duration{}), .worst = task.worst});
     }
-    if (set_.resources[r].policy == Policy::kTable) {
+    const Resource& resource = set_.resources[r];
+    if (resource.policy == Policy::kDynamic)
+      here.load *= resource.cycle.seconds() / (resource.minislot * resource.minislots).seconds();
+    if (resource.policy == Policy::kTable) {
       if (const auto overlap = overlap_in(table))
         here.overlap = {here.by_priority[overlap->first], here.by_priority[overlap->second]};
-      return here;
     }
+    if (!resource.has_priorities()) return here;
     const auto key = [&](std::size_t t) {
       const Task& task = set_.tasks[t];
       if (given) return task.priority.value_or(0);
@@ -106,64 +89,42 @@ class Analysis {
       found_.tasks[t] = TaskTiming{};
       found_.tasks[t].jitter = set_.tasks[t].jitter;
     }
-    for (int round = 0;; ++round) {
+    std::vector<std::vector<std::size_t>> orders;
+    for (const ResourceTiming& here : found_.resources) orders.push_back(here.by_priority);
+    for (const std::size_t t : endless_jitters(set_, orders)) unknown_[t] = true;
+    found_.rounds = 0;
+    do {
       for (std::size_t r = 0; r < set_.resources.size(); ++r) respond(r);
-      if (!activations_change(round >= kMostRounds)) return;
-    }
+    } while (activations_change(++found_.rounds > kMostRounds));
   }
 
+  // Behind a task without a bound, those of lower priority have none.
   void respond(std::size_t r) {
     const std::vector<std::size_t>& order = found_.resources[r].by_priority;
     const std::vector<Response> responses = responses_on(r);
-    const bool apart = set_.resources[r].is_can() && have_offsets(order);  // can.h knows no offsets
-    bool bounded = true, activated = false;
+    bool bounded = true;
     for (std::size_t p = 0; p < order.size(); ++p) {
-      TaskTiming& timing = found_.tasks[order[p]];
+      if (!set_.resources[r].has_priorities()) bounded = true;
       bounded = bounded && !unknown_[order[p]];
-      activated = activated || set_.tasks[order[p]].activator;
-      timing.response = bounded ? responses[p] : Response{};
-      // The activators' worst cases may never come together, nor messages with known offsets.
-      const bool may_be_less = activated || apart || blocked_by_activated(r, p);
-      if (may_be_less && timing.bounded()) timing.response.quality = Quality::kBound;
+      found_.tasks[order[p]].response = bounded ? responses[p] : Response{};
     }
-  }
-
-  // Returns whether two tasks have one: a single offset says nothing of the others.
-  bool have_offsets(const std::vector<std::size_t>& tasks) const {
-    return std::ranges::count_if(tasks, [&](std::size_t t) { return set_.tasks[t].offset.has_value(); }) >= 2;
-  }
-
-  // Returns whether the longest of the lower priorities, which blocks the task at place `p`, is an activated one: it
-  // may never begin just before the task's release.
-  bool blocked_by_activated(std::size_t r, std::size_t p) const {
-    if (set_.resources[r].policy == Policy::kPreemptive) return false;
-    const std::vector<std::size_t>& order = found_.resources[r].by_priority;
-    Duration activated{}, free{};
-    for (std::size_t lower = p + 1; lower < order.size(); ++lower) {
-      const Task& task = set_.tasks[order[lower]];
-      Duration& longest = task.activator ? activated : free;
-      longest = std::max(longest, task.worst);
-    }
-    return activated > free;
   }
 
   std::vector<Response> responses_on(std::size_t r) const {
-    const Resource& resource = set_.resources[r];
-    std::vector<response::Task> tasks;
-    for (const std::size_t t : found_.resources[r].by_priority)
-      tasks.push_back(as_response_task(set_, t, unknown_[t] ? Duration{} : found_.tasks[t].jitter));
-    switch (resource.policy) {
-      case Policy::kPreemptive: return response::preemptive(tasks);
-      case Policy::kNonPreemptive: return response::non_preemptive(tasks);
-      case Policy::kCan:
-      case Policy::kCanExtended: return response::can_responses(as_bus(resource), as_messages(tasks));
-      case Policy::kTable: break;
-    }
+    const ResourceTiming& here = found_.resources[r];
+    if (set_.resources[r].policy != Policy::kTable) return resource_responses(set_, {r, here.by_priority, jitters(r)});
     std::vector<Response> responses;
-    const bool overlaps = !found_.resources[r].overlap.empty();
-    for (const response::Task& task : tasks)
-      responses.push_back(overlaps ? Response{} : Response{.quality = Quality::kExact, .longest = task.work});
+    for (const std::size_t t : here.by_priority)
+      responses.push_back(here.overlap.empty() ? Response{Quality::kExact, set_.tasks[t].worst.ns} : Response{});
     return responses;
+  }
+
+  // Returns the jitters of a resource's tasks by priority; 0 where there is no bound.
+  std::vector<Duration> jitters(std::size_t r) const {
+    std::vector<Duration> found;
+    for (const std::size_t t : found_.resources[r].by_priority)
+      found.push_back(unknown_[t] ? Duration{} : found_.tasks[t].jitter);
+    return found;
   }
 
   // Takes responses into jitters; returns whether anything has changed. `stop` gives up the jitters that still grow.
@@ -204,23 +165,19 @@ class Analysis {
                                [&](std::size_t t) { return meets_deadline(set_, found_, t); });
   }
 
-  std::optional<std::vector<std::size_t>> audsleys_order(std::size_t r) const {
+  std::optional<std::vector<std::size_t>> other_order(std::size_t r) const {
     const std::vector<std::size_t>& places = found_.resources[r].by_priority;
-    std::vector<response::Task> tasks;
-    for (const std::size_t t : places) {
-      if (unknown_[t]) return std::nullopt;
-      tasks.push_back(as_response_task(set_, t, found_.tasks[t].jitter));
+    if (std::ranges::any_of(places, [&](std::size_t t) { return unknown_[t]; })) return std::nullopt;
+    return audsleys_order(set_, {r, places, jitters(r)});
+  }
+
+  void add_misses(std::size_t r) {
+    const std::vector<std::size_t>& order = found_.resources[r].by_priority;
+    const std::vector<double> misses = miss_probabilities(set_, {r, order, jitters(r)});
+    for (std::size_t p = 0; p < misses.size(); ++p) {
+      if (unknown_[order[p]]) return;  // nothing is known of lower priorities either
+      found_.tasks[order[p]].miss_probability = misses[p];
     }
-    const Resource& resource = set_.resources[r];
-    std::optional<response::PriorityOrder> order;
-    if (resource.is_can())
-      order = response::audsley_can(as_bus(resource), as_messages(tasks));
-    else if (resource.policy == Policy::kPreemptive)
-      order = response::audsley_preemptive(tasks);
-    else
-      order = response::audsley_non_preemptive(tasks);
-    if (!order) return std::nullopt;
-    return response::in_order(places, *order);
   }
 
   const TaskSet& set_;

@@ -23,6 +23,8 @@ const char* word(Policy policy) {
     case Policy::kNonPreemptive: return "non_preemptive";
     case Policy::kCan: return "can";
     case Policy::kCanExtended: return "can_extended";
+    case Policy::kDynamic: return "dynamic";
+    case Policy::kTdma: return "tdma";
     case Policy::kTable: break;
   }
   return "table";

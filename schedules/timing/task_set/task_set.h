@@ -16,6 +16,8 @@ enum class Policy : std::uint8_t {
   kNonPreemptive,  // fixed priorities; a job that has begun ends first
   kCan,            // a CAN with identifiers of 11 bits: the lowest one first
   kCanExtended,    // ... of 29 bits
+  kDynamic,        // FlexRay's dynamic segment: the slot of the lowest number first, in each cycle anew
+  kTdma,           // each task has a slot of its own in every cycle, which interrupts it at its end
   kTable,          // time-triggered: each job begins at its offset, and has the resource alone
 };
 
@@ -25,10 +27,20 @@ struct Resource {
   bool is_bus = false;
   Policy policy{};
   std::int64_t bit_rate = 0;  // of a CAN
+  // Errors on a CAN: at least so long apart, or at random at this rate; 0: none of these.
+  std::optional<Duration> errors_apart;
+  double errors_per_s = 0;
+  Duration cycle{};  // TDMA and dynamic segment
+  // Dynamic segment. Its controllers decide at the segment's start what they send, or else at each turn.
+  std::int64_t minislots = 0;
+  Duration minislot{};
+  bool decides_at_start = false;
   // Offsets on resources of one clock have the same zero. Those of different clocks have any phase.
   std::string clock;
 
   bool is_can() const { return policy == Policy::kCan || policy == Policy::kCanExtended; }
+  // Whether tasks are assigned priorities where the file gives none.
+  bool has_priorities() const { return policy != Policy::kTable && policy != Policy::kTdma; }
 };
 
 enum class Communication : std::uint8_t {
@@ -49,9 +61,13 @@ struct Task {
   // The resource is taken for so long. A frame has no stuff bits at best, and the most at worst.
   Duration best{}, worst{};
   std::optional<Duration> deadline;      // from the release before its jitter; none for activated ones that have none
-  std::optional<std::int64_t> priority;  // the smallest first
+  std::optional<std::int64_t> priority;  // the smallest first; the number of a dynamic slot
   Communication communication{};
   std::optional<std::size_t> activator;  // the task whose end releases this one
+  Duration slot{};                       // TDMA: the length of its slot
+  // Dynamic segment: the length of its frame, its cycles, and pLatestTx of its sender.
+  std::int64_t minislots = 0, latest_tx = 0;
+  int base_cycle = 0, repetition = 1;
 
   bool is_event() const { return communication == Communication::kEvent; }
 };
@@ -73,7 +89,7 @@ struct TaskSet {
   Duration period_of(std::size_t task) const;                     // an activated task has that of its first activator
 };
 
-// Returns "preemptive", "non_preemptive", "can", "can_extended" or "table": the word of the file.
+// Returns "preemptive", "non_preemptive", "can", "can_extended", "dynamic", "tdma" or "table": the word of the file.
 const char* word(Policy policy);
 const char* word(Communication communication);  // "implicit", "let" or "event"
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "schedules/timing/task_set/fields.h"
 #include "schedules/timing/task_set/verdict.h"
 
 namespace ttf::schedules::timing::task_set {
@@ -11,25 +12,44 @@ std::string milliseconds(std::optional<Duration> time, std::string_view otherwis
   return time ? fmt::format("{:.3f}", in_ms(*time)) : std::string(otherwise);
 }
 
+std::string errors_text(const Resource& can) {
+  if (can.errors_apart) return fmt::format(", errors {} apart or more", duration_words(*can.errors_apart));
+  if (can.errors_per_s > 0) return fmt::format(", errors at random, {:g} a second", can.errors_per_s);
+  return "";
+}
+
+std::string column_heading(const Resource& resource) {
+  switch (resource.policy) {
+    case Policy::kTable: return "time-triggered [ms]";
+    case Policy::kTdma: return "each in its slot [ms]";
+    case Policy::kDynamic: return "the lowest slot first [ms]";
+    default: return "the highest priority first [ms]";
+  }
+}
+
+std::string task_text(const TaskSet& set, const Verdict& verdict, std::size_t t) {
+  const Task& task = set.tasks[t];
+  const TaskTiming& timing = verdict.responses.tasks[t];
+  std::string longest = timing.bounded() ? milliseconds(Duration{timing.response.longest}) : "-";
+  std::string text = fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}  {}", task.name, milliseconds(set.period_of(t)),
+                                 milliseconds(timing.jitter), longest, milliseconds(task.deadline),
+                                 response::word(timing.response.quality));
+  if (set.resources[task.resource].errors_per_s > 0 && timing.bounded()) text += " without errors";
+  if (timing.miss_probability) text += fmt::format(", late at most {:.2g}", *timing.miss_probability);
+  return text + (meets_deadline(set, verdict.responses, t) ? "\n" : ", missed\n");
+}
+
 std::string resource_text(const TaskSet& set, const Verdict& verdict, std::size_t r) {
   const Resource& resource = set.resources[r];
   const ResourceTiming& here = verdict.responses.resources[r];
   std::string text = fmt::format("{} {} ({}), load {:.1f} %", resource.is_bus ? "bus" : "processor", resource.name,
                                  word(resource.policy), here.load * 100);
-  const bool table = resource.policy == Policy::kTable;
-  text += table ? "\n" : fmt::format(", priorities {}\n", words(here.assignment));
-  text += fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}\n",
-                      table ? "time-triggered [ms]" : "the highest priority first [ms]", "period", "jitter", "response",
+  text += errors_text(resource);
+  const bool ordered = resource.has_priorities() && resource.policy != Policy::kDynamic;
+  text += ordered ? fmt::format(", priorities {}\n", words(here.assignment)) : "\n";
+  text += fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}\n", column_heading(resource), "period", "jitter", "response",
                       "deadline");
-  for (const std::size_t t : here.by_priority) {
-    const Task& task = set.tasks[t];
-    const TaskTiming& timing = verdict.responses.tasks[t];
-    const std::string longest = timing.bounded() ? milliseconds(Duration{timing.response.longest}) : "-";
-    text += fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}  {}{}\n", task.name, milliseconds(set.period_of(t)),
-                        milliseconds(timing.jitter), longest, milliseconds(task.deadline),
-                        response::word(timing.response.quality),
-                        meets_deadline(set, verdict.responses, t) ? "" : ", missed");
-  }
+  for (const std::size_t t : here.by_priority) text += task_text(set, verdict, t);
   return text;
 }
 
@@ -54,8 +74,9 @@ std::string chain_text(const TaskSet& set, const Chain& chain, const ChainTiming
   std::string text = fmt::format("chain {}: {}", chain.name, path);
   if (!timing.times) return text + fmt::format("\n  no times: {}\n", timing.why_none);
   const chain::EndToEnd& times = *timing.times;
-  text += fmt::format(" ({})\n  {:<40}{:>14}{:>14}{:>14}{:>14}\n", times.exact ? "exact" : "bound", "[ms]", "reaction",
-                      "reduced", "data age", "reduced");
+  text += fmt::format(" ({}{})\n  {:<40}{:>14}{:>14}{:>14}{:>14}\n", times.exact ? "exact" : "bound",
+                      ignores_errors(set, chain) ? " without errors" : "", "[ms]", "reaction", "reduced", "data age",
+                      "reduced");
   for (std::size_t s = 0; s < chain.stages.size(); ++s) {
     const std::string& name = set.tasks[chain.stages[s]].name;
     text += chain_row((s == 0 ? "an event waits for " : "data wait for ") + name, times, s, &chain::Share::waits);

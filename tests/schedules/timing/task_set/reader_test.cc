@@ -15,6 +15,30 @@ namespace ttf::schedules::timing::task_set {
 namespace {
 
 const std::string kBraking = std::string(TTF_SOURCE_DIR) + "/schedules/task_sets/braking.csv";
+const std::string kBuses = std::string(TTF_SOURCE_DIR) + "/schedules/task_sets/buses.csv";
+
+struct Mistake {
+  std::string from, to, sentence;
+};
+
+void expect_one_sentence_each(const std::string& file, const std::vector<Mistake>& mistakes) {
+  const std::string text = read_file(file);
+  ASSERT_NO_THROW(parse_task_set(text, "set.csv"));
+  for (const Mistake& mistake : mistakes) {
+    std::string wrong = text;
+    const std::size_t at = wrong.find(mistake.from);
+    ASSERT_NE(at, std::string::npos) << mistake.from;
+    wrong.replace(at, mistake.from.size(), mistake.to);
+    try {
+      parse_task_set(wrong, "set.csv");
+      ADD_FAILURE() << "accepted: " << mistake.to;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.findings().size(), 1U) << error.what();
+      EXPECT_THAT(error.what(), testing::HasSubstr(mistake.sentence));
+      EXPECT_THAT(error.what(), testing::MatchesRegex("set.csv:[0-9]+: .*"));
+    }
+  }
+}
 
 TEST(TaskSetFile, Columns) {
   const TaskSet set = parse_task_set(
@@ -55,9 +79,32 @@ TEST(TaskSetFile, Columns) {
   EXPECT_EQ(set.resources[2].clock, set.resources[0].clock);
 }
 
-struct Mistake {
-  std::string from, to, sentence;
-};
+TEST(TaskSetFile, ColumnsOfBusesAndSlots) {
+  const TaskSet set = parse_task_set(
+      "processor,p,tdma,,4 ms\nbus,d,dynamic,,,5 ms,60,20 us,start\nbus,e,can,500000,,,,,,10 ms\n"
+      "bus,r,can,500000,,,,,,0.25/s\n"
+      "task,a,p,10 ms,,,,1 ms,,,,500 us\n"
+      "message,m,d,20 ms,,,2,24,,7,,,3/4,30\nmessage,n,d,20 ms,,,,24,,7,,,0/2\n",
+      "set.csv");
+  EXPECT_EQ(set.resources[0].cycle, Duration::milliseconds(4));
+  EXPECT_EQ(set.resources[1].cycle, Duration::milliseconds(5));
+  EXPECT_EQ(set.resources[1].minislots, 60);
+  EXPECT_EQ(set.resources[1].minislot, Duration::microseconds(20));
+  EXPECT_TRUE(set.resources[1].decides_at_start);
+  EXPECT_EQ(set.resources[2].errors_apart, Duration::milliseconds(10));
+  EXPECT_EQ(set.resources[3].errors_apart, std::nullopt);
+  EXPECT_DOUBLE_EQ(set.resources[3].errors_per_s, 0.25);
+  EXPECT_EQ(set.tasks[0].slot, Duration::microseconds(500));
+  const Task& m = set.tasks[1];
+  EXPECT_EQ(m.best, Duration::microseconds(40));
+  EXPECT_EQ(m.worst, Duration::microseconds(480));
+  EXPECT_EQ(m.minislots, 24);
+  EXPECT_EQ(m.base_cycle, 3);
+  EXPECT_EQ(m.repetition, 4);
+  EXPECT_EQ(m.latest_tx, 30);
+  EXPECT_EQ(set.tasks[2].latest_tx, 37);
+  EXPECT_EQ(set.tasks[2].repetition, 2);
+}
 
 // 47 to 55 bits of 1/300 ms: the shortest frame is rounded down, and the longest one up.
 TEST(TaskSetFile, FramesOfBrokenNanoseconds) {
@@ -73,14 +120,15 @@ TEST(TaskSetFile, OneSentenceForEachMistake) {
        "11: kind = tsk: must be one of processor, bus, task, message, chain; did you mean task?"},
       {"task, exposure", "task, \"exposure",
        "line = exposure, camera_ecu, 40 ms, 0 ms, , 1 ms, 1 ms, , 1: must end its quoted field on the same line"},
-      {"1 ms, 1 ms, , 1\n", "1 ms, 1 ms, , 1, implicit, more\n",
-       "columns = 12: must be at most 11: kind, name, resource, period, offset, jitter, best, worst, deadline, "
-       "priority, communication"},
+      {"1 ms, 1 ms, , 1\n", "1 ms, 1 ms, , 1, implicit, , , , more\n",
+       "columns = 15: must be at most 14: kind, name, resource, period, offset, jitter, best, worst, deadline, "
+       "priority, communication, slot, cycles, latest tx"},
       {"task, exposure", "task, ex>posure", "name = ex>posure: must be 1..60 printable ASCII characters without >"},
       {"task, control", "task, planner", "name = planner: must be the only task or message of this name"},
       {"drive_ecu, preemptive", "camera_ecu, preemptive", "name = camera_ecu: must be the only resource of this name"},
       {"drive_ecu, preemptive", "drive_ecu, premptive",
-       "drive_ecu.policy = premptive: must be one of preemptive, non_preemptive, table; did you mean preemptive?"},
+       "drive_ecu.policy = premptive: must be one of preemptive, non_preemptive, tdma, table; did you mean "
+       "preemptive?"},
       {"camera_can, can, 500000", "camera_can, can", "camera_can.bit rate: is missing: must be 10000..1000000 bit/s"},
       {"camera_can, can, 500000", "camera_can, can, 5",
        "camera_can.bit rate = 5: must be a whole number 10000..1000000 bit/s"},
@@ -130,22 +178,47 @@ TEST(TaskSetFile, OneSentenceForEachMistake) {
        "must have detection before objects, as another chain has it: one stage activates it"},
       {"chain, command alone", "chain, braking", "name = braking: must be the only chain of this name"},
       {"brake, 70 ms", "brake, 70", "command alone.largest age = 70: " + times + "1 us..1000 s"}};
-  const std::string text = read_file(kBraking);
-  ASSERT_NO_THROW(parse_task_set(text, "set.csv"));
-  for (const Mistake& mistake : mistakes) {
-    std::string wrong = text;
-    const std::size_t at = wrong.find(mistake.from);
-    ASSERT_NE(at, std::string::npos) << mistake.from;
-    wrong.replace(at, mistake.from.size(), mistake.to);
-    try {
-      parse_task_set(wrong, "set.csv");
-      ADD_FAILURE() << "accepted: " << mistake.to;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.findings().size(), 1U) << error.what();
-      EXPECT_THAT(error.what(), testing::HasSubstr(mistake.sentence));
-      EXPECT_THAT(error.what(), testing::MatchesRegex("set.csv:[0-9]+: .*"));
-    }
-  }
+  expect_one_sentence_each(kBraking, mistakes);
+}
+
+TEST(TaskSetFile, MistakesOfBusesAndSlots) {
+  const std::string errors =
+      "must be the least time between two errors, 1 us..1000 s, or their rate at random, 0.000001/s..10000/s";
+  const std::string cycles = "must be BASE/REPETITION, as in 1/4: a repetition of 1, 2, 4, ..., 64 and a base below it";
+  const std::vector<Mistake> mistakes{
+      {"tdma, brakes, 2 ms", "tdma, brakes", "brake_ecu.cycle: is missing: must be a time with its unit, 1 us..1000 s"},
+      {"preemptive, radar", "preemptive, radar, 2 ms", "radar_ecu.cycle = 2 ms: must be blank: only tdma has one"},
+      {"vehicle, 5 ms, 60", "vehicle, 50 ms, 60",
+       "dynamic.cycle = 50 ms: must be a time with its unit (ns, us, ms or s), 10 us..16 ms"},
+      {"5 ms, 60, 20 us", "5 ms, , 20 us", "dynamic.minislots: is missing: must be the number of minislots, 1..7988"},
+      {"5 ms, 60, 20 us", "5 ms, 600, 20 us",
+       "dynamic.minislots = 600: must fit the cycle: 600 of 20 us are longer than 5 ms"},
+      {"5 ms, 60, 20 us", "5 ms, 60, 20 us, end", "dynamic.decision = end: must be one of turn, start"},
+      {"5 ms, 60, 20 us", "5 ms, 60, 20 us, , 1 ms", "dynamic.errors = 1 ms: must be blank: only a CAN has them"},
+      {"body, , , , , 10 ms", "body, , , , , 10", "body_can.errors = 10: " + errors},
+      {"body, , , , , 10 ms", "body, , , , , -1/s", "body_can.errors = -1/s: " + errors},
+      {"body, , , , , 10 ms", "body, , 7, , , 10 ms",
+       "body_can.minislots = 7: must be blank: only a dynamic segment has it"},
+      {"body, , , , , 10 ms", "body, 1 ms, , , , 10 ms",
+       "body_can.cycle = 1 ms: must be blank: only tdma and dynamic have one"},
+      {", 500 us\n", "\n", "brake.slot: is missing: must be a time with its unit, 1 ns..2 ms"},
+      {", 500 us\n", ", 1900 us\n",
+       "watchdog.slot = 200 us: must fit the cycle of brake_ecu, which is 2 ms, with the slots before it"},
+      {"1500 us, , ,", "1500 us, , 1,", "brake.priority = 1: must be blank: each has a slot of its own"},
+      {"9 ms\n", "9 ms, , , , 1 ms\n", "tracking.slot = 1 ms: must be blank: only tdma has one"},
+      {"9 ms\n", "9 ms, , , , , 0/2\n", "tracking.cycles = 0/2: must be blank: only a dynamic segment has it"},
+      {", , 24, 25 ms", ", , 61, 25 ms", "objects.worst = 61: must be a whole number 1..60 minislots"},
+      {", , 24, 25 ms", ", , , 25 ms", "objects.worst: is missing: must be a length of 1..60 minislots"},
+      {", , 24, 25 ms", ", 25, 24, 25 ms", "objects.best = 25: must be a whole number 0..24 minislots"},
+      {"25 ms, 2, event", "25 ms, , event",
+       "objects.priority: is missing: must be the slot's number in the dynamic segment, 1..2047"},
+      {"1/2, 20", "1/2, 32", "calibration.latest tx = 32: must be a whole number 1..31"},
+      {"1/2, 20", "2/2, 20", "calibration.cycles = 2/2: " + cycles},
+      {"1/2, 20", "1/3, 20", "calibration.cycles = 1/3: " + cycles},
+      {"1/2, 20", "1, 20", "calibration.cycles = 1: " + cycles},
+      {"1/2, 20", "0/4, 20",
+       "calibration.priority = 1: must be another one than that of diagnosis, or have other cycles"}};
+  expect_one_sentence_each(kBuses, mistakes);
 }
 
 TEST(TaskSetFile, TasksThatActivateThemselves) {
@@ -166,10 +239,12 @@ TEST(TaskSetFile, TasksThatActivateThemselves) {
   EXPECT_THROW(parse_task_set("# nothing\n", "set.csv"), InputError);
 }
 
-TEST(TaskSetFile, ShippedSetHolds) {
-  const TaskSet set = load_task_set(kBraking);
-  const Verdict verdict = verdict_on(set);
-  EXPECT_TRUE(verdict.holds()) << verdict_text(set, verdict);
+TEST(TaskSetFile, ShippedSetsHold) {
+  for (const std::string& file : {kBraking, kBuses}) {
+    const TaskSet set = load_task_set(file);
+    const Verdict verdict = verdict_on(set);
+    EXPECT_TRUE(verdict.holds()) << verdict_text(set, verdict);
+  }
 }
 
 }  // namespace
