@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/paper_size.h"
+#include "cli/schedule/can_errors_check.h"
 #include "cli/schedule/capture_against.h"
 #include "cli/schedule/medium_check.h"
 #include "cli/schedule/schedule_input.h"
@@ -49,6 +51,7 @@ struct ScheduleOptions {
   PaperSizeOptions paper;
   CaptureArguments capture;
   MediumArguments medium;
+  std::optional<std::string> can_errors;
 };
 
 // Returns null without frames in the dynamic segment.
@@ -183,6 +186,7 @@ int check(const ScheduleOptions& options) {
   const schedules::model::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
+  if (options.can_errors) return check_can_errors(cluster, *options.can_errors, options.json);
   const Duration dead_time = dead_time_in(options.scenario);
   if (!options.json) {
     fmt::print("{}: consistent\n{}{}{}{}", cluster.name, schedules::analysis::dynamic_text(cluster),
@@ -303,6 +307,7 @@ void add_schedule(CLI::App& app, Action& action) {
       "          ttfusion schedule check schedules/paper_synchronised.yaml --against out/drive.pcapng\n"
       "          ttfusion schedule check closed_loop_synchronised --scenario acc_braking_lead\n"
       "          ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3\n"
+      "          ttfusion schedule check moving_synchronised --can-errors 10ms\n"
       "          ttfusion schedule check --task-set schedules/task_sets/braking.csv");
   checking
       ->add_option("file", options->file,
@@ -321,6 +326,12 @@ void add_schedule(CLI::App& app, Action& action) {
       ->add_flag("--task-set", options->task_set,
                  "The file has bare tasks, messages and chains: their responses, reaction times and data ages")
       ->excludes("--medium", "--against", "--scenario");
+  checking
+      ->add_option(
+          "--can-errors", options->can_errors,
+          "Least time between two errors on a CAN, as in 10ms: how long lists take on the CANs, and whether they "
+          "are sent in time")
+      ->excludes("--medium", "--against", "--scenario", "--task-set");
   checking->callback([options, &action] {
     action = [options] {
       options->file = file_named(options->file, {options->task_set ? kTaskSets : kSchedules});

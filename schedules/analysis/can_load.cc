@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/check.h"
 #include "core/int128.h"
+#include "schedules/timing/response/can.h"
 
 namespace ttf::schedules::analysis {
 namespace {
@@ -80,8 +82,49 @@ double can_worst_load(const model::Cluster& cluster, const model::CanBus& bus) {
   return load;
 }
 
+namespace {
+
+timing::response::CanMessage theory_message(const model::Cluster& cluster, const model::CanBus& bus,
+                                            const model::CanMessage& message) {
+  const model::PduLayout& layout = cluster.pdu(message.pdu);
+  return {.period = message.shortest_period.ns,
+          .transmission = can_list_worst_case(bus, layout).ns,
+          .deadline = message.shortest_period.ns,
+          .jitter = 0,
+          .frame = can_worst_case(bus, layout.fragment_bytes).ns};
+}
+
+// Other traffic of a share u with frames of C comes at most u t + C in a window t: within ceil((t + T) / T) C, T = C / u.
+timing::response::CanMessage other_traffic(const model::CanBus& bus) {
+  const std::int64_t frame = can_worst_case(bus, bus.flexible_data_rate ? 64 : 8).ns;
+  const auto period = static_cast<std::int64_t>(std::floor(static_cast<double>(frame) / bus.other_load));
+  return {.period = period, .transmission = frame, .deadline = period, .jitter = period, .frame = frame};
+}
+
+}  // namespace
+
+std::optional<Duration> can_response_by_theory(const model::Cluster& cluster, const model::CanBus& bus,
+                                               const model::CanMessage& message, std::optional<Duration> errors_apart) {
+  if (can_worst_load(cluster, bus) >= 1.0) return std::nullopt;
+  std::vector<timing::response::CanMessage> higher;
+  std::int64_t longest_lower = 0;
+  for (const model::CanMessage& other : bus.messages) {
+    const timing::response::CanMessage one = theory_message(cluster, bus, other);
+    if (other.identifier < message.identifier) higher.push_back(one);
+    if (other.identifier > message.identifier) longest_lower = std::max(longest_lower, one.frame);
+  }
+  if (bus.other_load > 0.0) higher.push_back(other_traffic(bus));
+  timing::response::CanBus line{.bit = can_duration(bus, {1, 0}).ns, .errors = std::nullopt};
+  if (errors_apart) line.errors = timing::response::CanErrors{.at_once = 1, .interarrival = errors_apart->ns};
+  const timing::response::Response found =
+      timing::response::can_response(line, higher, theory_message(cluster, bus, message), longest_lower);
+  if (!found.bounded()) return std::nullopt;
+  return Duration{found.longest} - can_after_acceptance(bus);
+}
+
 std::optional<Duration> can_worst_response(const model::Cluster& cluster, const model::CanBus& bus,
                                            const model::CanMessage& message) {
+  if (bus.other_load == 0.0) return can_response_by_theory(cluster, bus, message);
   if (can_worst_load(cluster, bus) >= 1.0) return std::nullopt;
   Duration fixed = can_list_worst_case(bus, cluster.pdu(message.pdu));
   Duration blocking{};

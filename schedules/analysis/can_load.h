@@ -61,8 +61,15 @@ double can_worst_load(const model::Cluster& cluster, const model::CanBus& bus);
 
 // Returns the time from the queueing of a full list of `message` to the acceptance of its last frame. It includes one
 // frame of lower priority that has just begun, and every list of higher priority (lower identifier) at its
-// shortest period. The bus' other load counts as having the highest priority, with one longest frame beyond its
-// share. Returns nullopt if the response has no bound.
+// shortest period. All instances of the busy period count (Davis et al.), so that a list may be queued before the last
+// one of its message is sent. With `errors_apart`, errors come at least so long apart
+// (schedules/timing/response/can.h). Returns nullopt if the response has no bound.
+std::optional<Duration> can_response_by_theory(const model::Cluster& cluster, const model::CanBus& bus,
+                                               const model::CanMessage& message,
+                                               std::optional<Duration> errors_apart = std::nullopt);
+
+// The same without errors. The bus' other load, if there is one, counts as having the highest priority, with one longest
+// frame beyond its share. The response then holds for lists that are sent before the next one is queued.
 std::optional<Duration> can_worst_response(const model::Cluster& cluster, const model::CanBus& bus,
                                            const model::CanMessage& message);
 

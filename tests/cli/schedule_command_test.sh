@@ -167,5 +167,25 @@ expect 2 '--against: must not be given with --medium' \
   schedule check "$schedule" --medium can-fd:1M/5M --against "$work/drive.pcapng"
 expect 0 'schedule check .* --medium can-fd:1M/5M --time-scale 3' schedule check --help
 
+# Lists on CANs with errors.
+expect 0 '^paper_fitted: all lists are sent in time with errors on a CAN 10 ms apart or more$' \
+  schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10ms
+says '^laser_scan +laser_can +34.000 +15.676 +16.075$' '^camera_frame +camera_can +34.000 +5.396 +5.562$'
+expect 1 '^laser_scan +laser_can +34.000 +15.676 +-  late$' schedule check "$source/schedules/paper_fitted.yaml" \
+  --can-errors 0.2ms
+says '^paper_fitted: not all lists are sent in time with errors on a CAN 0.2 ms apart or more$'
+"$program" schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10ms --json >"$work/errors.json" ||
+  fail "CANs with errors fail as JSON"
+python3 - "$work/errors.json" <<'PY' || fail "CANs with errors are wrong as JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["holds"] is True and check["errors_apart_ms"] == 10, check
+laser, camera = check["lists"]
+assert laser["list"] == "laser_scan" and laser["in_time"] and laser["without_errors_ms"] < laser["with_errors_ms"], laser
+PY
+expect 2 '--can-errors = 10: must be the least time between two errors with its unit, as in 10ms: 1us..1000s' \
+  schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10
+expect 2 'must not be given with' schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10ms --medium can-fd:1M/5M
+
 [[ $failures -eq 0 ]] && echo "schedule command: all as documented"
 exit $((failures > 0))

@@ -13,6 +13,8 @@ constexpr std::int64_t kNsInASecond = 1'000'000'000;
 Source message_source(const CanMessage& message) {
   for (const std::int64_t time : {message.period, message.transmission, message.deadline, message.jitter})
     TTF_CHECK(time >= 0 && time <= kLongestArgument, "a time of {}", time);
+  TTF_CHECK(message.frame >= 0 && message.frame <= message.transmission, "a frame of {} in {}", message.frame,
+            message.transmission);
   return {message.period, message.jitter, message.transmission};
 }
 
@@ -47,13 +49,13 @@ Response can_response(const CanBus& bus, std::span<const CanMessage> higher, con
   Level level{.blocking = longest_lower,
               .own = message_source(message),
               .others = {},
-              .tail = message.transmission,
+              .tail = message.one_frame(),
               .tick = bus.bit,
               .errors = {}};
-  std::int64_t longest = message.transmission;
+  std::int64_t longest = message.one_frame();
   for (const CanMessage& other : higher) {
     level.others.push_back(message_source(other));
-    longest = std::max(longest, other.transmission);
+    longest = std::max(longest, other.one_frame());
   }
   if (!bus.errors) return longest_response(level);
   level.errors = error_source(*bus.errors, kCanErrorBits * bus.bit + longest);
@@ -67,7 +69,7 @@ std::vector<Response> can_responses(const CanBus& bus, std::span<const CanMessag
   std::int64_t longest_lower = 0;
   for (std::size_t i = by_identifier.size(); i-- > 0;) {
     responses[i] = can_response(bus, by_identifier.first(i), by_identifier[i], longest_lower);
-    longest_lower = std::max(longest_lower, by_identifier[i].transmission);
+    longest_lower = std::max(longest_lower, by_identifier[i].one_frame());
   }
   return responses;
 }
@@ -79,7 +81,7 @@ std::optional<PriorityOrder> audsley_can(const CanBus& bus, std::span<const CanM
                    for (const std::size_t one : higher) above.push_back(messages[one]);
                    std::int64_t longest_lower = 0;
                    for (const std::size_t one : lower)
-                     longest_lower = std::max(longest_lower, messages[one].transmission);
+                     longest_lower = std::max(longest_lower, messages[one].one_frame());
                    return can_response(bus, above, messages[message], longest_lower).meets(messages[message].deadline);
                  });
 }

@@ -38,6 +38,11 @@ struct CanMessage {
   std::int64_t transmission = 0;  // C, at least 1: can_time_ns() of can_frame_bits()
   std::int64_t deadline = 0;      // D, after the arrival; may exceed T. Only audsley_can() reads it
   std::int64_t jitter = 0;        // J, from an arrival to the queue
+  // A list of equal frames that are queued at once has C for all of them, and the length of one here; 0: C is one frame.
+  // Higher priorities go before its last frame, too.
+  std::int64_t frame = 0;
+
+  std::int64_t one_frame() const { return frame > 0 ? frame : transmission; }
 };
 
 struct CanErrors {

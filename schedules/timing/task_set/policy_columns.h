@@ -1,4 +1,4 @@
-// The columns whose meaning depends on the policy: the line of a processor or a bus, and what its tasks take.
+// The columns whose meaning depends on the policy: the line of a processor or a bus, and the work of its tasks.
 #pragma once
 
 #include <string_view>

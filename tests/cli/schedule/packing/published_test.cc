@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <filesystem>
 #include <set>
 
@@ -53,6 +54,25 @@ TEST_F(PublishedSignals, TwoCannotMeetTheirOwnWindows) {
   EXPECT_EQ(file_.impossible[0].value, "1039");
   EXPECT_EQ(file_.impossible[0].line, 1041);
   EXPECT_EQ(file_.impossible[1].value, "3701");
+}
+
+// The two impossible signals are included.
+TEST_F(PublishedSignals, HaveTheirKnownCountsAndLoads) {
+  const table::Instance& instance = file_.instance;
+  std::vector<int> of_node(6), of_period(7), of_length(8);
+  std::vector<double> loads(6);
+  for (const table::Signal& signal : instance.signals) {
+    ++of_node[static_cast<std::size_t>(signal.node)];
+    ++of_period[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(signal.repetition)))];
+    ++of_length[static_cast<std::size_t>(signal.bits - 1)];
+    loads[static_cast<std::size_t>(signal.node)] += signal.bits / 32.0 / signal.repetition;
+  }
+  EXPECT_EQ(instance.signals.size(), 4096u);
+  EXPECT_THAT(of_node, ElementsAre(855, 956, 851, 464, 501, 469));
+  EXPECT_THAT(of_period, ElementsAre(583, 491, 297, 1619, 606, 250, 250));
+  EXPECT_THAT(of_length, ElementsAre(1409, 807, 501, 77, 78, 425, 160, 639));
+  const std::vector<double> known{25.378, 29.441, 26.923, 14.253, 15.979, 12.489};
+  for (std::size_t node = 0; node < known.size(); ++node) EXPECT_NEAR(loads[node], known[node], 5e-4) << node;
 }
 
 TEST_F(PublishedSignals, NeedTheirBoundOf127Slots) {

@@ -78,6 +78,9 @@ TEST(PublishedCan, FrameLengths) {
   EXPECT_EQ(can_frame_bits(CanIdentifier::k11Bits, 8), 135);
   EXPECT_EQ(can_frame_bits(CanIdentifier::k29Bits, 0), 80);
   EXPECT_EQ(can_frame_bits(CanIdentifier::k29Bits, 8), 160);
+  // Broster counts 52 + 10 s bits, and 3 of intermission apart from them.
+  for (int bytes = 0; bytes <= 8; ++bytes)
+    EXPECT_EQ(can_frame_bits(CanIdentifier::k11Bits, bytes), 52 + 10 * bytes + 3) << bytes;
   EXPECT_EQ(can_time_ns(125, 125'000), 1'000'000);
   EXPECT_EQ(can_time_ns(135, 500'000), 270'000);
   EXPECT_EQ(can_time_ns(1, 83'333), 12'001) << "rounded up";
