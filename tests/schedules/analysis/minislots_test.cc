@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "core/random.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/analysis/slot_groups.h"
 #include "schedules/exchange/text.h"
+#include "schedules/timing/response/flexray_dynamic.h"
 #include "tests/schedules/cluster_file.h"
 
 namespace ttf::schedules::analysis {
@@ -163,6 +168,79 @@ TEST(DynamicLoad, IsListedAndDrawn) {
   // 48 of the 80 minislots, then the rest, then two columns that include symbol window.
   EXPECT_NE(shown.find("sDDDDDDDDDDDDDDDDd"), std::string::npos) << shown;
   EXPECT_NE(shown.find("dwwn"), std::string::npos) << shown;
+}
+
+// The frames of a channel as theory has them: each is sent in all cycles of its own.
+struct TheoryOfChannel {
+  std::vector<model::FrameSlot> frames;
+  std::vector<timing::response::DynamicResponse> bounds;
+
+  TheoryOfChannel(const model::Cluster& cluster, model::Channel channel) {
+    const model::GlobalParameters& g = cluster.flexray;
+    const std::int64_t cycle = minislot_start(g, g.gNumberOfMinislots + 1).value + 1;  // macroticks
+    std::vector<timing::response::DynamicMessage> messages;
+    for (model::FrameSlot one : cluster.frames) {
+      if (!is_dynamic(g, one) || !includes(one.channels, channel)) continue;
+      one.channels = channel == model::Channel::kA ? model::Channels::kA : model::Channels::kB;
+      frames.push_back(one);
+      messages.push_back({.slot = one.slot - g.gNumberOfStaticSlots,
+                          .base_cycle = one.base_cycle,
+                          .repetition = one.repetition,
+                          .minislots = minislots_of(g, dynamic_words(cluster, one)),
+                          .latest_tx = cluster.node(one.sender).flexray->pLatestTx,
+                          .period = one.repetition * cycle,
+                          .jitter = 0});
+    }
+    const timing::response::DynamicSegment segment{.cycle = cycle,
+                                                   .minislot = g.gdMinislot,
+                                                   .minislots = g.gNumberOfMinislots,
+                                                   .decision = timing::response::DynamicSegment::Decision::kAtTurn};
+    bounds = timing::response::covering_bounds(segment, messages);
+  }
+};
+
+// With a frame in every slot, theory bounds those frames that are always in time, and has the same turns.
+TEST(DynamicLoad, TurnsOfShippedClustersAreThoseOfTheory) {
+  int judged = 0;
+  for (const std::string name : {"flexray_demo", "paper_dynamic", "paper_free_flexray"}) {
+    const model::Cluster cluster = check::load_checked_cluster(shipped_path(name));
+    for (const model::Channel channel : model::kBothChannels) {
+      const TheoryOfChannel theory(cluster, channel);
+      for (std::size_t i = 0; i < theory.frames.size(); ++i) {
+        ASSERT_TRUE(always_in_time(cluster, theory.frames[i]));
+        EXPECT_TRUE(theory.bounds[i].response.bounded());
+        EXPECT_EQ(theory.bounds[i].lost_cycles, 0);
+        EXPECT_EQ(theory.bounds[i].latest_turn, latest_turn(cluster, theory.frames[i])) << name << " " << i;
+        ++judged;
+      }
+    }
+  }
+  EXPECT_EQ(judged, 2 * (4 + 16 + 16));
+}
+
+TEST(DynamicLoad, TurnsOfDrawnClustersAreThoseOfTheory) {
+  int in_time = 0, waiting = 0;
+  for (std::uint32_t index = 0; index < 500; ++index) {
+    RandomStream stream({.seed = 41, .purpose = Purpose::kTest, .index = index});
+    model::Cluster cluster = dynamic();
+    cluster.frames.clear();
+    const int end = 11 + static_cast<int>(stream.integer(2, 6));
+    for (int slot = 11; slot < end; ++slot) {
+      cluster.frames.push_back(frame(slot, model::Channels::kA, NodeId{0}, static_cast<PduId>(stream.integer(0, 2))));
+      cluster.frames.back().repetition = static_cast<int>(1 << stream.integer(0, 2));
+      cluster.frames.back().base_cycle = static_cast<int>(stream.integer(0, cluster.frames.back().repetition - 1));
+    }
+    const TheoryOfChannel theory(cluster, model::Channel::kA);
+    for (std::size_t i = 0; i < theory.frames.size(); ++i) {
+      const bool always = always_in_time(cluster, theory.frames[i]);
+      ++(always ? in_time : waiting);
+      ASSERT_EQ(theory.bounds[i].response.bounded(), always) << "set " << index << ", frame " << i;
+      if (!always) break;  // behind a frame without a bound, theory has none
+      ASSERT_EQ(theory.bounds[i].latest_turn, latest_turn(cluster, theory.frames[i])) << "set " << index;
+    }
+  }
+  EXPECT_GT(in_time, 500);
+  EXPECT_GT(waiting, 50);
 }
 
 // A list without dependents may wait for another cycle.
