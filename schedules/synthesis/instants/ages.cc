@@ -34,18 +34,23 @@ std::vector<Ticks> least_ages(const Problem& problem) {
   return least;
 }
 
+Ticks read_at(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets, Ticks start) {
+  Ticks at = start;
+  for (std::size_t i = 1; i < chain.activities.size(); ++i) {
+    const std::size_t a = chain.activities[i];
+    at += problem.activities[chain.activities[i - 1]].duration + chain.gaps[i - 1];
+    at += modulo(offsets[a] - at, problem.activities[a].period);
+  }
+  return at;
+}
+
 Ways ways(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets) {
   Ticks round = 1;
   for (const std::size_t a : chain.activities) round = std::lcm(round, problem.activities[a].period);
   Ways found{std::numeric_limits<Ticks>::min(), std::numeric_limits<Ticks>::max()};
   const std::size_t first = chain.activities.front();
   for (Ticks start = offsets[first]; start < offsets[first] + round; start += problem.activities[first].period) {
-    Ticks at = start;
-    for (std::size_t i = 1; i < chain.activities.size(); ++i) {
-      const std::size_t a = chain.activities[i];
-      at += problem.activities[chain.activities[i - 1]].duration + chain.gaps[i - 1];
-      at += modulo(offsets[a] - at, problem.activities[a].period);
-    }
+    const Ticks at = read_at(problem, chain, offsets, start);
     found.longest = std::max(found.longest, at - start);
     found.shortest = std::min(found.shortest, at - start);
   }

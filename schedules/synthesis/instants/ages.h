@@ -32,6 +32,9 @@ struct Placed {
 // Returns for every chain the age that no offsets can fall below: its longest way without any wait for resources.
 std::vector<Ticks> least_ages(const Problem& problem);
 
+// Returns when the chain's last activity begins that rests on the beginning of the first one at `start`.
+Ticks read_at(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets, Ticks start);
+
 // Returns for a chain the longest and the shortest way of its measurements to the beginning of the last activity.
 struct Ways {
   Ticks longest = 0, shortest = 0;

@@ -58,7 +58,7 @@ std::vector<Reached> bounded_by(std::vector<Reached> reached, const std::vector<
   for (std::size_t i = 0; i < reached.size(); ++i) {
     Reached& one = reached[i];
     one.bound = one.goal == Goal::kRoom ? std::max(one.bound, of_all[i].bound) : std::min(one.bound, of_all[i].bound);
-    one.proven = one.value == one.bound;
+    one.proven = one.value == one.bound && one.supposes.empty();
   }
   return reached;
 }
@@ -69,7 +69,7 @@ std::vector<Reached> in_units(std::vector<Reached> reached, const Measured& meas
     const double off = one.value - one.bound;
     if (one.goal == Goal::kWorstAge) one.value = in_ms(measured.worst);
     if (one.goal == Goal::kDataAge) one.value = in_ms(measured.data);
-    if (one.goal == Goal::kSlots || one.goal == Goal::kRoom) continue;
+    if (one.goal != Goal::kWorstAge && one.goal != Goal::kDataAge && one.goal != Goal::kJitter) continue;
     if (one.goal == Goal::kJitter) {  // clocks make jitter, too: its bound stays 0
       one.value = in_ms(measured.jitter);
       one.proven = one.value == one.bound;

@@ -20,9 +20,9 @@ enum class Side { kBefore, kBehind };
 
 class Engine {
  public:
-  Engine(const Reading& reading, const Limits& limits, bool any)
-      : reading_(reading), problem_(reading.problem), limits_(limits), any_(any), graph_(problem_),
-        at_(problem_.activities.size()), placed_(problem_.activities.size()), grids_(),
+  Engine(const Reading& reading, const Limits& limits, bool any, std::int64_t most_steps)
+      : reading_(reading), problem_(reading.problem), limits_(limits), any_(any), most_steps_(most_steps),
+        graph_(problem_), at_(problem_.activities.size()), placed_(problem_.activities.size()), grids_(),
         standing_(problem_.resources.size()) {
     for (const Activity& activity : problem_.activities) {
       grids_.push_back(activity.grid);
@@ -46,7 +46,7 @@ class Engine {
     const std::vector<Ticks> all = positions();
     for (std::size_t p = 0; p < all.size() && !(any_ && found_.best); ++p) {
       // Each position has its share of the steps that are left.
-      until_ = found_.steps + (kMostSteps - found_.steps) / static_cast<std::int64_t>(all.size() - p);
+      until_ = found_.steps + (most_steps_ - found_.steps) / static_cast<std::int64_t>(all.size() - p);
       begin(all[p]);
       if (fits(place_waiting()) && !done()) descend();
       reset();
@@ -263,6 +263,15 @@ class Engine {
     return longest;
   }
 
+  // The longest head, as its chain counts: those come next to the use first.
+  Ticks urgency(std::size_t a) const {
+    Ticks longest = std::numeric_limits<Ticks>::min();
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c)
+      for (std::size_t i = 0; i < heads_[c].size(); ++i)
+        if (problem_.chains[c].activities[i] == a) longest = std::max(longest, heads_[c][i] + beyond(c));
+    return std::max<Ticks>(longest, 0);
+  }
+
   // Tries every order of those that may be placed next.
   void descend() {
     std::vector<std::pair<std::size_t, Ticks>> next;
@@ -274,7 +283,7 @@ class Engine {
     }
     if (all) return finish();
     std::stable_sort(next.begin(), next.end(),
-                     [&](const auto& a, const auto& b) { return longest_head(a.first) > longest_head(b.first); });
+                     [&](const auto& a, const auto& b) { return urgency(a.first) > urgency(b.first); });
     for (const auto& [a, before] : next) {
       if (done()) return;
       const std::size_t count = trail_.size();
@@ -360,6 +369,7 @@ class Engine {
   const Problem& problem_;
   Limits limits_;
   bool any_;
+  std::int64_t most_steps_;
   Graph graph_;
   std::vector<Ticks> at_;
   std::vector<bool> placed_, main_;
@@ -378,6 +388,8 @@ class Engine {
 
 }  // namespace
 
-Search place(const Reading& reading, const Limits& limits, bool any) { return Engine(reading, limits, any).run(); }
+Search place(const Reading& reading, const Limits& limits, bool any, std::int64_t most_steps) {
+  return Engine(reading, limits, any, most_steps).run();
+}
 
 }  // namespace ttf::schedules::synthesis::instants

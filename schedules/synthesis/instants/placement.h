@@ -29,6 +29,6 @@ struct Search {
 inline constexpr std::int64_t kMostSteps = 400'000;  // of one search
 
 // Returns the best placement within the limits. With `any` it returns the first one.
-Search place(const Reading& reading, const Limits& limits, bool any = false);
+Search place(const Reading& reading, const Limits& limits, bool any = false, std::int64_t most_steps = kMostSteps);
 
 }  // namespace ttf::schedules::synthesis::instants

@@ -13,6 +13,7 @@
 #include "core/time.h"
 #include "schedules/model/cluster.h"
 #include "schedules/synthesis/instants/candidates.h"
+#include "schedules/synthesis/instants/judging/judge.h"
 #include "schedules/synthesis/instants/written.h"
 #include "schedules/synthesis/plan/plan.h"
 #include "schedules/synthesis/solver/prover.h"
@@ -20,7 +21,7 @@
 namespace ttf::schedules::synthesis::instants {
 
 // An objective's value and the bound that it was held against: no instants within the plan have a better value than the bound.
-// Ages and jitter are in milliseconds, slots are slots, room is a share.
+// Ages and jitter are in milliseconds, slots are slots, room is a share. A judge has its own unit.
 struct Reached {
   plan::Goal goal{};
   double value = 0, bound = 0;
@@ -28,6 +29,8 @@ struct Reached {
   // The way to the proof: "bound" (no instants are needed to see it), "all orders tried" by the search, "exhausted" and "integers" by
   // the solver (proof.h), "all choices tried" of cycle and rates.
   std::string way;
+  std::vector<double> weights{};  // by part of a judge (judging/judge.h)
+  std::string supposes{};         // a condition of the bound without a proof (judging/judge.h); else empty
 };
 
 struct Synthesis {
@@ -45,7 +48,8 @@ struct Synthesis {
 // sender, parameters of FlexRay.
 //
 // Where the search does not end with a proof, the solver is asked, with `prover` if there is one (schedules/synthesis/smt).
-Synthesis synthesize(const plan::Plan& plan, solver::Prover* prover = nullptr);
+// Objectives above schedules need their judges, by goal.
+Synthesis synthesize(const plan::Plan& plan, solver::Prover* prover = nullptr, const judging::Judges& judges = {});
 
 // Returns whether the plan has any solution: found, or not found and exact.
 struct Feasible {

@@ -18,6 +18,7 @@
 #include "core/text_place.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
+#include "schedules/synthesis/plan/demands.h"
 
 namespace ttf::schedules::synthesis::plan {
 
@@ -71,6 +72,8 @@ enum class Goal : std::uint8_t {
   kSlots,     // least: the last static slot in use
   kJitter,    // least: the largest difference between the worst and the best age of a chain
   kRoom,      // most: the share of the static segment's frames that stay free
+  kError,     // least: the expected squared error of an estimator at its uses (plan.error)
+  kGapError,  // least: the expected squared error of the gap to a vehicle ahead (plan.gap_error)
 };
 
 // Possible lengths of the cycle: shortest, shortest + step, ..., at most longest.
@@ -106,6 +109,8 @@ struct Plan {
   std::vector<std::vector<bool>> shortest_periods;  // by CAN and message: left out
   std::vector<PlannedChain> chains;                 // in the plan's order
   std::vector<Goal> objective;                      // the most important first
+  std::optional<ErrorDemand> error;
+  GapErrorDemand gap_error;
   bool in_order = true;  // lists are fused in the order of their measurements, so that none waits for an older one
   TextOrigins origins;   // the files and lines of its text, if it extends another plan
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "schedules/synthesis/plan/demands.h"
 #include "schedules/synthesis/plan/likeness.h"
 #include "schedules/synthesis/plan/ways.h"
 
@@ -15,11 +16,10 @@ constexpr Range<Duration> kPeriods{Duration::milliseconds(1), Duration::millisec
 constexpr Duration kLongestAge = Duration::milliseconds(10'000);
 constexpr std::int64_t kMostLengths = 10'000;
 
-const std::vector<std::pair<std::string, Goal>> kGoals{{"worst_age", Goal::kWorstAge},
-                                                       {"data_age", Goal::kDataAge},
-                                                       {"slots", Goal::kSlots},
-                                                       {"jitter", Goal::kJitter},
-                                                       {"room", Goal::kRoom}};
+const std::vector<std::pair<std::string, Goal>> kGoals{{"worst_age", Goal::kWorstAge}, {"data_age", Goal::kDataAge},
+                                                       {"slots", Goal::kSlots},        {"jitter", Goal::kJitter},
+                                                       {"room", Goal::kRoom},          {"error", Goal::kError},
+                                                       {"gap_error", Goal::kGapError}};
 
 // A copy without a rate of its own has that of its original.
 void share_rates(Plan& plan) {
@@ -146,6 +146,7 @@ void read_section(YamlMap& section, Plan& plan) {
   check_rates(section, plan);
   read_chains(section, plan);
   read_objective(section, plan);
+  read_demands(section, plan);
   plan.in_order = section.boolean_or("in_order", true);
   section.finish();
 }

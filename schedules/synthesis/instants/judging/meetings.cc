@@ -1,0 +1,213 @@
+#include "schedules/synthesis/instants/judging/meetings.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/check.h"
+#include "schedules/synthesis/instants/ages.h"
+#include "schedules/synthesis/instants/bounds.h"
+#include "schedules/synthesis/instants/grid.h"
+
+namespace ttf::schedules::synthesis::instants::judging {
+namespace {
+
+// A task that ends chains, and the chains.
+struct End {
+  std::size_t activity = 0;
+  std::vector<std::size_t> chains;
+};
+
+std::vector<End> ends(const plan::Plan& plan, const Problem& problem) {
+  std::vector<End> found;
+  for (std::size_t c = 0; c < problem.chains.size(); ++c) {
+    const std::size_t last = problem.chains[c].activities.back();
+    auto end = std::find_if(found.begin(), found.end(), [&](const End& one) { return one.activity == last; });
+    if (end == found.end()) end = found.insert(end, {last, {}});
+    const bool known = std::any_of(end->chains.begin(), end->chains.end(),
+                                   [&](std::size_t other) { return plan.chains[other].from == plan.chains[c].from; });
+    if (!known) end->chains.push_back(c);
+  }
+  return found;
+}
+
+Duration duration_of(Ticks count, std::int64_t tick_ps) { return {count * tick_ps / 1'000}; }
+
+// A list waits for older ones: no measurement is used before an older one.
+void wait_for_older(Meeting& meeting) {
+  Duration latest = meeting.met.front().used;
+  for (const int round : {0, 1})
+    for (Met& one : meeting.met) {
+      latest = std::max(latest, one.used + meeting.round * round);
+      if (round == 1) one.used = latest - meeting.round;
+    }
+}
+
+Meeting meeting_of(const End& end, const Problem& problem, std::int64_t tick_ps, const std::vector<Ticks>& offsets) {
+  const Ticks every = problem.activities[end.activity].period;
+  Ticks round = every;
+  for (const std::size_t c : end.chains)
+    round = std::lcm(round, problem.activities[problem.chains[c].activities.front()].period);
+  Meeting meeting;
+  meeting.round = duration_of(round, tick_ps);
+  const Ticks first = modulo(offsets[end.activity], every);
+  for (Ticks use = first; use < round; use += every) meeting.uses.push_back(duration_of(use, tick_ps));
+  for (const std::size_t c : end.chains) {
+    const Chain& chain = problem.chains[c];
+    const std::size_t sensor = chain.activities.front();
+    const Ticks period = problem.activities[sensor].period;
+    for (Ticks at = modulo(offsets[sensor], period); at < round; at += period) {
+      // The use is counted in whole rounds, so that it is one of `uses` to the nanosecond.
+      const Ticks used = read_at(problem, chain, offsets, at);
+      const Ticks within = modulo(used, round);
+      const Duration of_round = meeting.uses[static_cast<std::size_t>((within - first) / every)];
+      meeting.met.push_back({c, duration_of(at, tick_ps), of_round + meeting.round * ((used - within) / round)});
+    }
+  }
+  std::stable_sort(meeting.met.begin(), meeting.met.end(),
+                   [](const Met& a, const Met& b) { return a.measured < b.measured; });
+  wait_for_older(meeting);
+  return meeting;
+}
+
+// Returns the least worst age of the end's chains, counted longer by `beyond`.
+Ticks least_worst_of(const Problem& problem, const End& end, const std::vector<Ticks>& beyond) {
+  constexpr Ticks kAny = Ticks{1} << 50;
+  std::vector<Ticks> of_all(problem.chains.size(), -kAny);
+  for (std::size_t i = 0; i < end.chains.size(); ++i) of_all[end.chains[i]] = beyond[i];
+  return least_worst_age(problem, of_all);
+}
+
+// The fusion on a chain's way.
+struct Fusion {
+  std::size_t activity = 0;
+  NodeId node{};
+  Ticks head = 0, tail = 0;  // least ages of the measurement at its beginning, and of its beginning at the use
+};
+
+std::optional<Fusion> fusion_of(const Reading& reading, const Chain& chain) {
+  const auto fused = std::find_if(reading.fused.begin(), reading.fused.end(),
+                                  [&](const Fused& one) { return one.measuring == chain.activities.front(); });
+  if (fused == reading.fused.end()) return std::nullopt;
+  Fusion found{fused->fusing, fused->node, 0, 0};
+  bool behind = false, known = false;
+  for (std::size_t i = 0; i < chain.activities.size(); ++i) {
+    behind = behind || chain.activities[i] == fused->fusing;
+    known = behind;
+    if (i + 1 == chain.activities.size()) break;
+    (behind ? found.tail : found.head) += reading.problem.activities[chain.activities[i]].duration + chain.gaps[i];
+  }
+  if (!known) return std::nullopt;
+  return found;
+}
+
+// Two lists are first used at one use. Then the older one is fused first (Plan::in_order). So its age is at least its
+// way to the fusion, that fusion, and the other one's way from its own fusion to the use.
+bool kept_in_order(const Reading& reading, const End& end, const std::vector<Ticks>& youngest,
+                   const std::vector<Ticks>& oldest) {
+  const std::vector<Activity>& activities = reading.problem.activities;
+  for (std::size_t i = 0; i < end.chains.size(); ++i)
+    for (std::size_t j = 0; j < end.chains.size(); ++j) {
+      if (youngest[i] <= oldest[j]) continue;
+      const Chain &older = reading.problem.chains[end.chains[i]], &newer = reading.problem.chains[end.chains[j]];
+      const auto first = fusion_of(reading, older), second = fusion_of(reading, newer);
+      if (!first || !second || first->node != second->node || first->activity == second->activity) continue;
+      if (!activities[first->activity].resource ||
+          activities[first->activity].resource != activities[second->activity].resource)
+        continue;
+      if (oldest[i] < first->head + activities[first->activity].duration + second->tail) return false;
+    }
+  return true;
+}
+
+bool of_one_period(const Problem& problem, const End& end) {
+  return std::all_of(end.chains.begin(), end.chains.end(), [&](std::size_t chain) {
+    const std::vector<std::size_t>& way = problem.chains[chain].activities;
+    return std::all_of(way.begin(), way.end(), [&](std::size_t activity) {
+      return problem.activities[activity].period == problem.activities[end.activity].period;
+    });
+  });
+}
+
+bool possible(const Reading& reading, const End& end, const std::vector<Ticks>& largest_ages, std::int64_t tick_ps,
+              const std::vector<Duration>& youngest, const std::vector<Duration>& oldest) {
+  std::vector<Ticks> from, to, beyond;
+  for (const Duration age : youngest) from.push_back(age.ns * 1'000 / tick_ps);
+  for (const Duration age : oldest) to.push_back((age.ns * 1'000 + tick_ps - 1) / tick_ps);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (from[i] > largest_ages[i]) return false;
+  const Ticks largest = *std::max_element(to.begin(), to.end());
+  for (const Ticks age : to) beyond.push_back(largest - age);
+  if (least_worst_of(reading.problem, end, beyond) > largest) return false;
+  return !of_one_period(reading.problem, end) || kept_in_order(reading, end, from, to);
+}
+
+}  // namespace
+
+std::vector<Meeting> meetings(const plan::Plan& plan, const Problem& problem, std::int64_t tick_ps,
+                              const std::vector<Ticks>& offsets) {
+  std::vector<Meeting> found;
+  for (const End& end : ends(plan, problem)) found.push_back(meeting_of(end, problem, tick_ps, offsets));
+  return found;
+}
+
+std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, const Limits& limits,
+                                std::int64_t tick_ps) {
+  const Problem& problem = reading.problem;
+  const std::vector<Ticks> least = least_ages(problem);
+  std::vector<Prospect> found;
+  for (const End& end : ends(plan, problem)) {
+    Prospect prospect;
+    prospect.every = duration_of(problem.activities[end.activity].period, tick_ps);
+    for (const std::size_t c : end.chains) {
+      const Ticks period = problem.activities[problem.chains[c].activities.front()].period;
+      prospect.coming.push_back({c, duration_of(period, tick_ps), duration_of(least[c], tick_ps)});
+    }
+    prospect.least_worst_age =
+        duration_of(least_worst_of(problem, end, std::vector<Ticks>(end.chains.size())), tick_ps);
+    std::vector<Ticks> largest;
+    for (const std::size_t c : end.chains) largest.push_back(limit_of(problem, limits, c));
+    prospect.attainable = [&reading, end, largest, tick_ps](const auto& youngest, const auto& oldest) {
+      return possible(reading, end, largest, tick_ps, youngest, oldest);
+    };
+    found.push_back(std::move(prospect));
+  }
+  return found;
+}
+
+std::vector<Ticks> offsets_of(const Read& read, const model::Cluster& cluster) {
+  const model::GlobalParameters& g = cluster.flexray;
+  std::vector<Ticks> offsets;
+  for (const Activity& activity : read.reading.problem.activities) offsets.push_back(activity.fixed.value_or(0));
+  const auto at = [&](const model::CycleInstant& instant) {
+    return instant.base_cycle * Ticks{g.gMacroPerCycle} + instant.offset.value;
+  };
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (read.reading.sensors[s]) offsets[*read.reading.sensors[s]] = at(cluster.sensors[s].at);
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    for (std::size_t t = 0; t < cluster.nodes[n].tasks.size(); ++t)
+      if (read.reading.tasks[n][t]) offsets[*read.reading.tasks[n][t]] = at(cluster.nodes[n].tasks[t].activation.at);
+  for (std::size_t l = 0; l < read.timed.lists.size(); ++l) {
+    const auto frame = std::find_if(cluster.frames.begin(), cluster.frames.end(), [&](const model::FrameSlot& one) {
+      return one.pdu == read.timed.lists[l].pdu && one.fragment == 0;
+    });
+    TTF_CHECK(frame != cluster.frames.end(), "a planned list without a slot");
+    offsets[read.reading.lists[l]] =
+        frame->base_cycle * Ticks{g.gMacroPerCycle} + (frame->slot - 1) * Ticks{g.gdStaticSlot};
+  }
+  return offsets;
+}
+
+std::vector<Meeting> meetings(const plan::Plan& plan, const model::Cluster& cluster) {
+  Candidate candidate{cluster.cycle(), {}};
+  for (const model::Sensor& sensor : cluster.sensors) candidate.repetitions.push_back(sensor.at.repetition);
+  const auto read = read_of(plan, candidate);
+  TTF_CHECK(read.has_value(), "a cluster of another plan");
+  return meetings(plan, read->reading.problem, cluster.flexray.gdMacrotick_ps, offsets_of(*read, cluster));
+}
+
+double judged(const Judge& judge, const std::vector<double>& weights, const plan::Plan& plan,
+              const model::Cluster& cluster) {
+  return judge.of(meetings(plan, cluster), weights);
+}
+
+}  // namespace ttf::schedules::synthesis::instants::judging

@@ -1,0 +1,93 @@
+#include "schedules/synthesis/instants/judging/moves.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "schedules/synthesis/instants/grid.h"
+#include "schedules/synthesis/instants/order.h"
+
+namespace ttf::schedules::synthesis::instants::judging {
+namespace {
+
+// Returns the part of a chain up to an activity; none if it is not on its way from `first`.
+std::optional<Chain> part_of(const Chain& chain, std::size_t first, std::size_t last) {
+  const auto end = std::find(chain.activities.begin(), chain.activities.end(), last);
+  if (chain.activities.front() != first || end == chain.activities.end()) return std::nullopt;
+  Chain part;
+  part.activities.assign(chain.activities.begin(), end + 1);
+  part.gaps.assign(chain.gaps.begin(), chain.gaps.begin() + (end - chain.activities.begin()));
+  return part;
+}
+
+// Counts the beginnings of measurements and fusions in one count of ticks over all rounds. Returns false if no chain
+// tells how.
+bool unwrap(const Reading& reading, std::vector<Ticks>& at) {
+  for (const Fused& one : reading.fused) {
+    bool known = false;
+    for (const Chain& chain : reading.problem.chains) {
+      const auto part = part_of(chain, one.measuring, one.fusing);
+      if (!part) continue;
+      const Ticks age = read_at(reading.problem, *part, at, at[one.measuring]) - at[one.measuring];
+      at[one.measuring] = at[one.fusing] - age;
+      known = true;
+      break;
+    }
+    if (!known) return false;
+  }
+  return true;
+}
+
+bool in_order(const Reading& reading, const std::vector<Ticks>& offsets) {
+  if (reading.fused.size() < 2) return true;
+  std::vector<Ticks> at = offsets;
+  if (!unwrap(reading, at)) return false;
+  const std::vector<Ticks> before = at;
+  return measure_in_order(reading, std::vector<bool>(at.size(), true), at) && at == before;
+}
+
+}  // namespace
+
+std::optional<Placed> placed_within(const Reading& reading, const Limits& limits, std::vector<Ticks> offsets) {
+  const Problem& problem = reading.problem;
+  Placed placed;
+  for (std::size_t c = 0; c < problem.chains.size(); ++c) {
+    const Ways found = ways(problem, problem.chains[c], offsets);
+    if (found.longest > limit_of(problem, limits, c)) return std::nullopt;
+    placed.ages.push_back(found.longest);
+    placed.least.push_back(found.shortest);
+  }
+  if (!in_order(reading, offsets)) return std::nullopt;
+  placed.solution.offsets = std::move(offsets);
+  return placed;
+}
+
+Placed moved_measurements(const Reading& reading, const Limits& limits, Placed start,
+                          const std::function<double(const std::vector<Ticks>& offsets)>& value, int most_moves,
+                          int& moves) {
+  const std::vector<Activity>& activities = reading.problem.activities;
+  std::vector<std::size_t> sensors;
+  for (const auto& sensor : reading.sensors)
+    if (sensor && !activities[*sensor].fixed) sensors.push_back(*sensor);
+  if (sensors.empty()) return start;
+  Ticks step = 0;
+  for (const std::size_t sensor : sensors) step = std::max(step, activities[sensor].period / 4);
+  double best = value(start.solution.offsets);
+  for (; step > 0; step /= 2)
+    for (std::size_t i = 0, still = 0; still < sensors.size(); i = (i + 1) % sensors.size(), ++still)
+      for (const Ticks by : {-step, step}) {
+        if (moves >= most_moves) return start;
+        std::vector<Ticks> offsets = start.solution.offsets;
+        offsets[sensors[i]] = modulo(offsets[sensors[i]] + by, activities[sensors[i]].period);
+        auto placed = placed_within(reading, limits, std::move(offsets));
+        ++moves;
+        if (!placed) continue;
+        const double reached = value(placed->solution.offsets);
+        if (reached >= best) continue;
+        best = reached;
+        start = std::move(*placed);
+        still = 0;
+      }
+  return start;
+}
+
+}  // namespace ttf::schedules::synthesis::instants::judging

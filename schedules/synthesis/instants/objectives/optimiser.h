@@ -1,0 +1,81 @@
+// The objectives of a plan, one after the other, over all candidates (synthesize.h).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schedules/synthesis/instants/judging/judge.h"
+#include "schedules/synthesis/instants/judging/trial.h"
+#include "schedules/synthesis/instants/placement.h"
+#include "schedules/synthesis/instants/proof.h"
+#include "schedules/synthesis/instants/synthesize.h"
+#include "schedules/synthesis/plan/plan.h"
+#include "schedules/synthesis/solver/prover.h"
+
+namespace ttf::schedules::synthesis::instants::objectives {
+
+using judging::Judges;
+using judging::Trial;
+
+class Optimiser {
+ public:
+  // Candidates in `refused` are left out. Every objective that is not this room's own must have its judge.
+  Optimiser(const plan::Plan& plan, const std::vector<Candidate>& all, const std::set<std::size_t>& refused,
+            solver::Prover* prover, const Judges& judges);
+
+  // Returns the index of the best candidate; none if no candidate has a placement.
+  std::optional<std::size_t> run();
+
+  const Trial& trial(std::size_t index) const { return trials_[index]; }
+  const std::vector<Reached>& reached() const { return reached_; }
+  // Whether every candidate without a placement has none.
+  bool exact() const { return exact_; }
+
+ private:
+  // A candidate whose search was cut: no worst age below `least` is possible there.
+  struct Open {
+    std::size_t trial = 0;
+    Ticks least = 0;
+    bool nothing = false;  // the search found no placement
+  };
+
+  void worst_age(plan::Goal goal);
+  // Asks the solver about candidates whose search was cut, those with the least bounds first, until one stays open.
+  // Returns a bound for all of them.
+  Ticks settle_open(std::vector<Open> open, Ticks& best);
+  // Asks nothing more behind a question that stayed open: the answers would prove nothing.
+  Settled ask(const Reading& reading, const Limits& limits, bool any);
+  void slots();
+  // Returns the least last slot within the trial's limits, and whether it is proven to be the least. Keeps its
+  // placement.
+  std::pair<std::optional<Ticks>, bool> fewest(const Read& read, Trial& trial);
+  // Returns a placement within the limits, by the search or the solver; or whether there is none.
+  Search any_within(const Reading& reading, const Limits& limits);
+  // Sees to it that every trial has a placement, and drops those without one.
+  void place_all();
+  void jitter();
+  void room();
+  void judge(plan::Goal goal);
+  std::optional<std::size_t> least_sum();
+  void note(plan::Goal goal, double value, double bound);
+  // Returns a bound of an objective behind a judge. Other instants may be as good for the judge as those that it left.
+  double without_pins(plan::Goal goal) const;
+
+  static constexpr int kMostAsks = 16;  // by objective
+
+  const plan::Plan& plan_;
+  solver::Prover* prover_;
+  const Judges& judges_;
+  int asks_left_ = 0;
+  std::string way_;  // to the proof of this objective
+  std::vector<Trial> trials_;
+  std::vector<std::size_t> possible_;  // from the first judge on: trials that it might have left
+  std::vector<Reached> reached_;
+  bool exact_ = true;
+};
+
+}  // namespace ttf::schedules::synthesis::instants::objectives
