@@ -1,0 +1,145 @@
+#include "experiments/judges/least_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+namespace ttf::experiments::judges {
+namespace {
+
+// A stream's ages at first use: the least one and `from`, up to `length` more, the end excluded. From one period on,
+// the phase is that of one period less. Its first use is then at least one use later than the least age allows.
+struct Side {
+  std::int64_t from = 0, length = 0;
+};
+struct Box {
+  std::vector<Side> sides;
+  double bound = 0.0;
+  int number = 0;  // boxes of one bound in the order that they were made
+};
+struct WorseBox {
+  bool operator()(const Box& a, const Box& b) const {
+    return std::pair{a.bound, a.number} > std::pair{b.bound, b.number};
+  }
+};
+
+class PhaseSearch {
+ public:
+  PhaseSearch(const Possible& possible, const std::function<double(const Round&)>& bounded)
+      : possible_(possible), bounded_(bounded), length_(possible.every.ns) {
+    for (const Stream& stream : possible.streams) length_ = std::lcm(length_, stream.period.ns);
+  }
+
+  double run(double enough, int most_boxes) {
+    Box whole;
+    for (const Stream& stream : possible_.streams) whole.sides.push_back({0, 2 * stream.period.ns});
+    open_.push(whole);
+    while (!open_.empty()) {
+      if (open_.top().bound > enough || made_ >= most_boxes) return open_.top().bound;
+      Box box = open_.top();
+      Side& longest = box.sides[longest_of(box)];
+      if (longest.length < 2 * kShortest) return box.bound;
+      open_.pop();
+      const std::int64_t half = longest.length / 2, end = longest.from + longest.length;
+      longest.length = half;
+      add(box);
+      longest = {longest.from + half, end - longest.from - half};
+      add(std::move(box));
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static constexpr std::int64_t kShortest = 1'000;  // [ns]
+  static constexpr Duration kAnyAge = Duration::milliseconds(1'000'000);
+
+  static bool is_late(const Stream& stream, const Side& side) { return side.from >= stream.period.ns; }
+
+  // The side that says the most, where sensors differ. Sides of more than a period say nothing yet.
+  std::size_t longest_of(const Box& box) const {
+    std::size_t longest = 0;
+    const auto extent = [&](std::size_t s) {
+      const Stream& stream = possible_.streams[s];
+      const bool wide = box.sides[s].length > std::min(stream.period.ns, 2 * stream.least_age.ns);
+      return std::pair{wide, static_cast<double>(box.sides[s].length) / std::sqrt(stream.variance)};
+    };
+    for (std::size_t s = 1; s < box.sides.size(); ++s)
+      if (extent(s) > extent(longest)) longest = s;
+    return longest;
+  }
+
+  void add(Box box) {
+    ++made_;
+    if (!attainable(box)) return;
+    const double parent = box.bound;
+    box.bound = std::max(parent, bound_of(box));
+    box.number = made_;
+    open_.push(std::move(box));
+  }
+
+  bool attainable(const Box& box) const {
+    if (!possible_.attainable) return true;
+    std::vector<Duration> youngest, oldest;
+    for (std::size_t s = 0; s < box.sides.size(); ++s) {
+      const Stream& stream = possible_.streams[s];
+      const Side& side = box.sides[s];
+      // A box over several uses says nothing, nor does a sensor that measures more often than it is used.
+      const std::int64_t every = possible_.every.ns, within = side.from % every;
+      const bool known = stream.period.ns >= every && within + side.length <= every;
+      const bool late = is_late(stream, side);
+      youngest.push_back(stream.least_age + Duration{known ? within + (late ? every : 0) : 0});
+      oldest.push_back(known && !late ? stream.least_age + Duration{within + side.length} : kAnyAge);
+    }
+    return possible_.attainable(youngest, oldest);
+  }
+
+  double bound_of(const Box& box) const {
+    Round round;
+    round.length = {length_};
+    for (std::int64_t use = 0; use < length_; use += possible_.every.ns) round.uses.push_back({use});
+    for (std::size_t s = 0; s < box.sides.size(); ++s) {
+      const Stream& stream = possible_.streams[s];
+      const Side& side = box.sides[s];
+      // Its middle must not lie behind the first use.
+      if (side.length > 2 * stream.least_age.ns) return 0.0;
+      for (std::int64_t start = 0; start < length_; start += stream.period.ns) {
+        const Duration measured{start - stream.least_age.ns - side.from - side.length};
+        const Duration soonest = stream.least_age + Duration{is_late(stream, side) ? possible_.every.ns : 0};
+        round.sightings.push_back({measured, stream.variance, measured + soonest + Duration{1}, Duration{side.length}});
+      }
+    }
+    return bounded_(round);
+  }
+
+  const Possible& possible_;
+  const std::function<double(const Round&)>& bounded_;
+  std::int64_t length_;
+  std::priority_queue<Box, std::vector<Box>, WorseBox> open_;
+  int made_ = 0;
+};
+
+}  // namespace
+
+double least_over_phases(const Possible& possible, const std::function<double(const Round&)>& bounded, double enough,
+                         int most_boxes) {
+  return PhaseSearch(possible, bounded).run(enough, most_boxes);
+}
+
+double bounded_mean_error(const Round& round, Motion motion, double density) {
+  Duration longest{};
+  double information = 0.0;  // per second
+  for (const Sighting& one : round.sightings) {
+    longest = std::max(longest, one.within);
+    information += 1.0 / (one.variance * round.length.seconds());
+  }
+  if (motion == Motion::kRandomWalk) return mean_error(round, motion, density);
+  // A settled filter looks back over this time (docs/results/rate_and_age.md). The box moves a measurement by a share
+  // of it.
+  const double back = std::pow(1.0 / (information * density), 0.25);
+  return mean_error(round, motion, density, std::max(1e-9, longest.seconds() / back));
+}
+
+}  // namespace ttf::experiments::judges
