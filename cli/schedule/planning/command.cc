@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/output.h"
+#include "cli/schedule/planning/judges.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
@@ -27,16 +28,19 @@ using instants::Synthesis;
 using plans::Goal;
 using plans::Plan;
 
-std::string value_text(Goal goal, double value) {
+std::string value_text(const instants::Reached& one, double value) {
+  const Goal goal = one.goal;
+  if (is_judged(goal)) return judged_text(one, value);
   if (goal == Goal::kSlots) return fmt::format("{:.0f}", value);
   if (goal == Goal::kRoom) return fmt::format("{:.1f} %", 100.0 * value);
   return fmt::format("{:.3f} ms", value);
 }
 
 std::string proof_text(const instants::Reached& one) {
+  if (is_judged(one.goal)) return judged_proof_text(one);
   if (one.proven) return fmt::format("proven best: {}", one.way);
   const double off = one.goal == Goal::kRoom ? one.bound - one.value : one.value - one.bound;
-  return fmt::format("at most {} off", value_text(one.goal, off));
+  return fmt::format("at most {} off", value_text(one, off));
 }
 
 std::string report(const Plan& plan, const Synthesis& made) {
@@ -45,8 +49,8 @@ std::string report(const Plan& plan, const Synthesis& made) {
                                  in_ms(cluster.cycle()), made.candidates);
   text += fmt::format("{:<22}{:>12}{:>12}\n", "objective", "value", "bound");
   for (const instants::Reached& one : made.reached)
-    text += fmt::format("{:<22}{:>12}{:>12}  {}\n", instants::name_of(one.goal), value_text(one.goal, one.value),
-                        value_text(one.goal, one.bound), proof_text(one));
+    text += fmt::format("{:<22}{:>12}{:>12}  {}\n{}", instants::name_of(one.goal), value_text(one, one.value),
+                        value_text(one, one.bound), proof_text(one), references_text(plan, one));
   text += fmt::format("{:<22}{:>12}{:>12}{:>12}{:>12}\n", "chain [ms]", "best age", "worst age", "largest", "every");
   for (std::size_t c = 0; c < plan.chains.size(); ++c) {
     const plans::PlannedChain& chain = plan.chains[c];
@@ -67,6 +71,10 @@ nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
     json["objective"].push_back(
         {{"name", instants::name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
     if (one.proven) json["objective"].back()["way"] = one.way;
+    if (!one.supposes.empty()) json["objective"].back()["supposes"] = one.supposes;
+    for (std::size_t i = 0; one.weights.size() > 1 && i < one.weights.size(); ++i)
+      json["objective"].back()["least"].push_back(
+          {{"process_noise", plan.error->process_noises[i]}, {"error", 1.0 / one.weights[i]}});
   }
   for (std::size_t c = 0; c < plan.chains.size(); ++c)
     json["chains"].push_back({{"name", plan.chains[c].name},
@@ -118,8 +126,9 @@ int synthesize_plan(const std::string& typed, const std::string& out, bool json)
   const std::string file = file_named(typed, {kPlans});
   if (!out.empty()) refuse_overwriting(file, out, "--out");
   const Plan plan = plans::load_plan(file);
+  const PlanJudges judges(plan);
   schedules::synthesis::smt::Z3Prover z3;
-  const Synthesis made = instants::synthesize(plan, z3.there() ? &z3 : nullptr);
+  const Synthesis made = instants::synthesize(plan, z3.there() ? &z3 : nullptr, judges.by_goal());
   if (!made.found) return explain(file, plan, made, json);
   try {
     drives::check_steps(made.cluster);
