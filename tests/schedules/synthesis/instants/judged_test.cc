@@ -14,8 +14,20 @@
 #include "schedules/synthesis/instants/synthesize.h"
 #include "tests/schedules/synthesis/plans.h"
 
-namespace ttf::schedules::synthesis::instants::judging {
+namespace ttf::schedules::synthesis::instants {
 namespace {
+
+using judging::Judge;
+using judging::judged;
+using judging::kMostMoves;
+using judging::Meeting;
+using judging::meetings;
+using judging::Met;
+using judging::moved_measurements;
+using judging::offsets_of;
+using judging::placed_within;
+using judging::Prospect;
+using judging::prospects;
 
 using plan::Goal;
 using plan::Plan;
@@ -201,4 +213,4 @@ TEST(Moves, KeepLimitsAndOrder) {
 }
 
 }  // namespace
-}  // namespace ttf::schedules::synthesis::instants::judging
+}  // namespace ttf::schedules::synthesis::instants
