@@ -18,6 +18,13 @@ proof='proven best: integers'
 says "^data_age .* $proof\$"
 says "^worst_age .* $proof\$"
 expect 0 '^paper_two_lasers_radar: consistent$' schedule check "$work/four.yaml"
+expect 0 '^error +1\.00000 .* at most 0\.0[0-9]+ % off$' schedule synthesize "$plans/paper_least_error.yaml" -o "$work/least.yaml"
+says '^  least of 25 +0\.0099[0-9]+ m2$'
+expect 0 '^paper_least_error: consistent$' schedule check "$work/least.yaml"
+sed 's/objective: .*/objective: [gap_error]/' "$plans/paper.yaml" >"$work/gap.yaml"
+expect 0 '^gap_error +0\.1884 m2 +0\.1884 m2  best, if the error grows with the age$' schedule synthesize "$work/gap.yaml"
+sed 's/objective: .*/objective: [error]/' "$plans/paper.yaml" >"$work/no_error.yaml"
+expect 2 'plan.error: must have process_noise and sigma' schedule synthesize "$work/no_error.yaml"
 # The plans give the shipped clusters, which experiments drive.
 diff "$work/paper.yaml" "$source/schedules/paper_planned.yaml" || fail "schedules/paper_planned.yaml is another one"
 expect 0 '^laser +55.184 +55.532 ' schedule synthesize "$plans/closed_loop.yaml" -o "$work/loop.yaml"
@@ -43,7 +50,7 @@ short_scans() {
 short_scans paper_short_scans planned_schedule
 says '^worst_age +40.874 ms .* proven best'
 short_scans closed_loop_short_scans closed_loop_planned closed_loop_planned_following
-for cluster in paper four; do
+for cluster in paper four least; do
   sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
     >"$work/drive.yaml"
   expect 0 'deadlines missed +0$' run "$work/drive.yaml" --strategy tt --no-log --out "$work/out"
