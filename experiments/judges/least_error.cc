@@ -40,7 +40,8 @@ class PhaseSearch {
     while (!open_.empty()) {
       if (open_.top().bound > enough || made_ >= most_boxes) return open_.top().bound;
       Box box = open_.top();
-      Side& longest = box.sides[longest_of(box)];
+      Side& longest = *std::max_element(box.sides.begin(), box.sides.end(),
+                                        [](const Side& a, const Side& b) { return a.length < b.length; });
       if (longest.length < 2 * kShortest) return box.bound;
       open_.pop();
       const std::int64_t half = longest.length / 2, end = longest.from + longest.length;
@@ -57,19 +58,6 @@ class PhaseSearch {
   static constexpr Duration kAnyAge = Duration::milliseconds(1'000'000);
 
   static bool is_late(const Stream& stream, const Side& side) { return side.from >= stream.period.ns; }
-
-  // The side that says the most, where sensors differ. Sides of more than a period say nothing yet.
-  std::size_t longest_of(const Box& box) const {
-    std::size_t longest = 0;
-    const auto extent = [&](std::size_t s) {
-      const Stream& stream = possible_.streams[s];
-      const bool wide = box.sides[s].length > std::min(stream.period.ns, 2 * stream.least_age.ns);
-      return std::pair{wide, static_cast<double>(box.sides[s].length) / std::sqrt(stream.variance)};
-    };
-    for (std::size_t s = 1; s < box.sides.size(); ++s)
-      if (extent(s) > extent(longest)) longest = s;
-    return longest;
-  }
 
   void add(Box box) {
     ++made_;

@@ -125,6 +125,24 @@ TEST(ErrorOfAPlan, TheLeastWorstAgeGivesErrorAway) {
   }
 }
 
+// Far ahead the laser alone counts. The plan for a car close by then has more error than the one with the least ages, as in drives
+// (docs/synthesis.md).
+TEST(ErrorOfAPlan, SigmaDecides) {
+  const auto far = [](const std::string& noise) {
+    return "  error: {sigma: {laser: 0.0106, camera: 1.7}, process_noise: " + noise + "}";
+  };
+  const Synthesis close_by = made_of(paper("error", error_of("process_noise: 1")));
+  const Synthesis by_age = made_of(paper("data_age, worst_age", ""));
+  for (const auto& [noise, loss] : {std::pair{"1", 0.055}, std::pair{"25", 0.086}}) {
+    const Plan plan = paper("error", far(noise));
+    const double of_ages = error_at(plan, by_age.cluster);
+    EXPECT_NEAR(error_at(plan, close_by.cluster) / of_ages - 1.0, loss, 6e-4) << noise;
+    const double least = made_of(plan).reached[0].value;
+    EXPECT_LE(least, of_ages * (1.0 + 1e-12));
+    EXPECT_GT(least, of_ages * 0.998);
+  }
+}
+
 TEST(ErrorOfAPlan, ObjectivesBehindItKeepIt) {
   const std::string section = error_of("process_noise: 1");
   const double least = made_of(paper("error", section)).reached[0].value;
