@@ -26,6 +26,7 @@ std::size_t first_weighed(const std::vector<double>& weights) {
 ErrorJudge::ErrorJudge(const Plan& plan) {
   TTF_CHECK(plan.error.has_value(), "a plan without plan.error");
   motion_ = plan.error->random_walk ? Motion::kRandomWalk : Motion::kConstantVelocity;
+  over_time_ = plan.error->over_time;
   densities_ = plan.error->process_noises;
   for (const PlannedChain& chain : plan.chains) {
     const double sigma = plan.error->sigmas_m[index_of(chain.from)].value();
@@ -36,7 +37,8 @@ ErrorJudge::ErrorJudge(const Plan& plan) {
 double ErrorJudge::of(const std::vector<Meeting>& meetings, const std::vector<double>& weights) const {
   std::vector<Round> rounds;
   for (const Meeting& meeting : meetings) {
-    rounds.push_back({meeting.round, {}, meeting.uses});
+    rounds.push_back({meeting.round, {}, meeting.uses, {}});
+    if (over_time_) rounds.back().held = {meeting.round.ns / static_cast<std::int64_t>(meeting.uses.size())};
     for (const Met& one : meeting.met)
       rounds.back().sightings.push_back({one.measured, variances_[one.chain], one.used, {}});
   }
@@ -55,7 +57,7 @@ double ErrorJudge::bound(const std::vector<Prospect>& prospects, const std::vect
   double sum = 0.0;
   const auto ends = static_cast<double>(prospects.size());
   for (const Prospect& prospect : prospects) {
-    Possible possible{prospect.every, {}, prospect.attainable};
+    Possible possible{prospect.every, {}, over_time_ ? prospect.every : Duration{}, prospect.attainable};
     for (const Coming& one : prospect.coming)
       possible.streams.push_back({variances_[one.chain], one.period, one.least_age});
     const auto bounded = [&](const Round& round) {

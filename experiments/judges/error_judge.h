@@ -1,9 +1,10 @@
 // The objective `error` of a plan: the expected squared error of position, on one axis, at the uses of the data.
 //
-// It is the mean over the uses of a round, and over the tasks that end chains. A service acts at its uses alone, so
-// other instants do not count. The `position_mse` of an experiment counts alike. periodic_error.h has the recursion.
-// Each sensor of a chain measures the position, with the plan's sigma. Clocks agree, and TT fuses lists in the order of
-// measurements. With several densities each one is a part. The value is then the regret.
+// It is the mean over the uses of a round, and over the tasks that end chains. A service acts at its uses alone. The
+// `position_mse` of an experiment counts alike. With `over: time` all time counts: each use holds by prediction until
+// the next one. periodic_error.h has the recursion. Each sensor of a chain measures the position, with the plan's
+// sigma. Clocks agree, and TT fuses lists in the order of measurements. With several densities each one is a part. The
+// value is then the regret.
 #pragma once
 
 #include "experiments/judges/periodic_error.h"
@@ -26,6 +27,7 @@ class ErrorJudge : public schedules::synthesis::instants::judging::Judge {
 
  private:
   Motion motion_;
+  bool over_time_;
   std::vector<double> densities_;
   std::vector<double> variances_;  // by chain [m^2]
 };

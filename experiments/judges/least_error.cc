@@ -10,8 +10,7 @@
 namespace ttf::experiments::judges {
 namespace {
 
-// A stream's ages at first use: the least one and `from`, up to `length` more, the end excluded. From one period on,
-// the phase is that of one period less. Its first use is then at least one use later than the least age allows.
+// A stream's ages at first use: the least one and `from`, up to `length` more, the end excluded.
 struct Side {
   std::int64_t from = 0, length = 0;
 };
@@ -35,7 +34,7 @@ class PhaseSearch {
 
   double run(double enough, int most_boxes) {
     Box whole;
-    for (const Stream& stream : possible_.streams) whole.sides.push_back({0, 2 * stream.period.ns});
+    for (const Stream& stream : possible_.streams) whole.sides.push_back({0, stream.period.ns});
     open_.push(whole);
     while (!open_.empty()) {
       if (open_.top().bound > enough || made_ >= most_boxes) return open_.top().bound;
@@ -55,21 +54,30 @@ class PhaseSearch {
 
  private:
   static constexpr std::int64_t kShortest = 1'000;  // [ns]
+  static constexpr std::size_t kNoStream = std::numeric_limits<std::size_t>::max();
   static constexpr Duration kAnyAge = Duration::milliseconds(1'000'000);
-
-  static bool is_late(const Stream& stream, const Side& side) { return side.from >= stream.period.ns; }
 
   void add(Box box) {
     ++made_;
-    if (!attainable(box)) return;
-    const double parent = box.bound;
-    box.bound = std::max(parent, bound_of(box));
+    const double bound = least_of(box);
+    if (bound == std::numeric_limits<double>::infinity()) return;
+    box.bound = std::max(box.bound, bound);
     box.number = made_;
     open_.push(std::move(box));
   }
 
-  bool attainable(const Box& box) const {
-    if (!possible_.attainable) return true;
+  // Where no instants have these ages, at least one stream is used later than its least age allows.
+  double least_of(const Box& box) const {
+    if (attainable(box, kNoStream)) return bound_of(box, kNoStream);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t late = 0; late < box.sides.size(); ++late)
+      if (attainable(box, late)) least = std::min(least, bound_of(box, late));
+    return least;
+  }
+
+  // With a late stream, any of the others may be late, too.
+  bool attainable(const Box& box, std::size_t late) const {
+    if (!possible_.attainable) return late == kNoStream;
     std::vector<Duration> youngest, oldest;
     for (std::size_t s = 0; s < box.sides.size(); ++s) {
       const Stream& stream = possible_.streams[s];
@@ -77,16 +85,16 @@ class PhaseSearch {
       // A box over several uses says nothing, nor does a sensor that measures more often than it is used.
       const std::int64_t every = possible_.every.ns, within = side.from % every;
       const bool known = stream.period.ns >= every && within + side.length <= every;
-      const bool late = is_late(stream, side);
-      youngest.push_back(stream.least_age + Duration{known ? within + (late ? every : 0) : 0});
-      oldest.push_back(known && !late ? stream.least_age + Duration{within + side.length} : kAnyAge);
+      youngest.push_back(stream.least_age + Duration{known ? within + (s == late ? every : 0) : 0});
+      oldest.push_back(known && late == kNoStream ? stream.least_age + Duration{within + side.length} : kAnyAge);
     }
     return possible_.attainable(youngest, oldest);
   }
 
-  double bound_of(const Box& box) const {
+  double bound_of(const Box& box, std::size_t late) const {
     Round round;
     round.length = {length_};
+    round.held = possible_.held;
     for (std::int64_t use = 0; use < length_; use += possible_.every.ns) round.uses.push_back({use});
     for (std::size_t s = 0; s < box.sides.size(); ++s) {
       const Stream& stream = possible_.streams[s];
@@ -95,7 +103,7 @@ class PhaseSearch {
       if (side.length > 2 * stream.least_age.ns) return 0.0;
       for (std::int64_t start = 0; start < length_; start += stream.period.ns) {
         const Duration measured{start - stream.least_age.ns - side.from - side.length};
-        const Duration soonest = stream.least_age + Duration{is_late(stream, side) ? possible_.every.ns : 0};
+        const Duration soonest = stream.least_age + Duration{s == late ? possible_.every.ns : 0};
         round.sightings.push_back({measured, stream.variance, measured + soonest + Duration{1}, Duration{side.length}});
       }
     }

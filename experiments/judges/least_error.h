@@ -5,8 +5,8 @@
 // bound of its own (Sighting::within). The box with the least bound is halved at its longest side, a counted number of
 // times. The least bound that is left holds for all phases.
 //
-// Ages that no instants have at first use are left out. Instants may use a measurement later than its least age allows.
-// So each phase stands a second time, a use later, for all of these.
+// No instants have the ages of some boxes at first use. In their phases at least one measurement is used later than its
+// least age allows, by one use or more. The bound of such a box is the least one over the measurement that is late.
 #pragma once
 
 #include <functional>
@@ -25,6 +25,7 @@ struct Stream {
 struct Possible {
   Duration every{};  // between uses; periods of the streams are multiples or divisors of it
   std::vector<Stream> streams;
+  Duration held{};  // Round::held
   // False: no instants have ages at first use between these, by stream. None: all may be.
   std::function<bool(const std::vector<Duration>& youngest, const std::vector<Duration>& oldest)> attainable;
 };

@@ -67,7 +67,8 @@ template <int K> class Recursion {
     set_periodic();
   }
 
-  double at(std::int64_t use) const {
+  // Returns the covariance of the prediction to a use.
+  Square<K> at(std::int64_t use) const {
     std::int64_t from = use;  // all that is measured before is known
     std::vector<std::int64_t> unknown;
     for (std::size_t s = 0; s < middles_.size(); ++s) {
@@ -81,7 +82,7 @@ template <int K> class Recursion {
     for (std::int64_t now = from;; now += end(i) - boundaries_[i], i = (i + 1) % boundaries_.size()) {
       for (std::size_t s = 0; s < middles_.size(); ++s)
         if (within_round(middles_[s], length_) == boundaries_[i] && now < unknown[s]) p = updates_[s].of(p);
-      if (now >= use) return p(0, 0);
+      if (now >= use) return p;
       p = flows_[i].of(p);
     }
   }
@@ -144,10 +145,19 @@ template <int K> class Recursion {
   std::vector<Square<K>> before_;          // by boundary
 };
 
+// The mean over h of the error that is predicted from p: (1, t) p (1, t)' + q t^3 / 3, or p + q t.
+template <int K> double held_error(const Square<K>& p, double density, double h) {
+  if constexpr (K == 1)
+    return p(0, 0) + density * h / 2.0;
+  else
+    return p(0, 0) + h * p(0, 1) + h * h / 3.0 * p(1, 1) + density * h * h * h / 12.0;
+}
+
 template <int K> std::vector<double> errors(const Round& round, double density, double spread) {
   const Recursion<K> recursion(round, density, spread);
   std::vector<double> found;
-  for (const Duration use : round.uses) found.push_back(recursion.at(use.ns));
+  for (const Duration use : round.uses)
+    found.push_back(held_error<K>(recursion.at(use.ns), density, round.held.seconds()));
   return found;
 }
 

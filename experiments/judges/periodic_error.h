@@ -33,6 +33,8 @@ struct Round {
   Duration length{};
   std::vector<Sighting> sightings;  // at least one
   std::vector<Duration> uses;
+  // Above 0: a use's error is the mean over so much time from the use on, by prediction alone.
+  Duration held{};
 };
 
 // Returns by use the expected squared error of one axis [m^2] with the noise density q [m^2/s for a walk, m^2/s^3], >

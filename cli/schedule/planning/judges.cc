@@ -15,8 +15,15 @@ PlanJudges::PlanJudges(const Plan& plan) : gap_error_(plan) {
 
 bool is_judged(Goal goal) { return goal == Goal::kError || goal == Goal::kGapError; }
 
+namespace {
+
+// In twelve columns, with a space before it.
+std::string square_metres(double value) { return fmt::format("{:.{}g} m2", value, value < 1e-3 ? 3 : 4); }
+
+}  // namespace
+
 std::string judged_text(const Reached& one, double value) {
-  return one.weights.size() > 1 ? fmt::format("{:.5f}", value) : fmt::format("{:.4g} m2", value);
+  return one.weights.size() > 1 ? fmt::format("{:.5f}", value) : square_metres(value);
 }
 
 std::string judged_proof_text(const Reached& one) {
@@ -31,7 +38,8 @@ std::string references_text(const Plan& plan, const Reached& one) {
   std::string text;
   if (one.weights.size() < 2) return text;
   for (std::size_t i = 0; i < one.weights.size(); ++i)
-    text += fmt::format("  least of {:<11g}{:>9.4g} m2\n", plan.error->process_noises[i], 1.0 / one.weights[i]);
+    text +=
+        fmt::format("  least of {:<11g}{:>12}\n", plan.error->process_noises[i], square_metres(1.0 / one.weights[i]));
   return text;
 }
 

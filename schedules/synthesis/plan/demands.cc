@@ -55,6 +55,7 @@ void read_error(YamlMap& map, Plan& plan) {
   ErrorDemand demand;
   demand.random_walk =
       map.choice_or("motion", false, Choices<bool>{{"constant_velocity", false}, {"random_walk", true}});
+  demand.over_time = map.choice_or("over", false, Choices<bool>{{"uses", false}, {"time", true}});
   demand.process_noises = read_densities(map);
   read_sigmas(map, plan, demand);
   map.finish();

@@ -5,13 +5,14 @@
 //     process_noises: [0.01, 1, 25]    instead: the largest ratio to the least error of each density counts
 //     sigma: {laser: 0.1, camera: 0.3} a measurement's standard deviation [m], for each sensor with a chain
 //     motion: constant_velocity        or random_walk
+//     over: uses                       the mean over all uses, or time: over all time, with each use held
 //   plan.gap_error:                    the expected squared error of the gap of a vehicle that follows another one
 //     time_gap: 1.8 s                  of the law (nodes/control/time_gap.h)
 //     lag: 200 ms                      of the drive train
 //     memory: 10 s                     the speed of the vehicle ahead forgets
 //     density: 1                       of the noise that drives that speed [m^2/s^3]
 //     delay: 0 ms                      from the end of a chain until the command acts
-// All of plan.gap_error may be absent, and motion. A copy of a sensor has its original's sigma, if
+// All of plan.gap_error may be absent, and motion and over. A copy of a sensor has its original's sigma, if
 // it has none and is of the same kind.
 #pragma once
 
@@ -29,6 +30,7 @@ namespace ttf::schedules::synthesis::plan {
 struct Plan;
 
 struct ErrorDemand {
+  bool over_time = false;                       // else over uses
   bool random_walk = false;                     // else constant velocity
   std::vector<double> process_noises;           // one: the error itself; several: regret
   std::vector<std::optional<double>> sigmas_m;  // by sensor; all that begin chains

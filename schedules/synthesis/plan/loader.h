@@ -16,7 +16,7 @@
 //     sensors: {NAME: {like: SENSOR, ...}}                      further sensors (schedules/synthesis/plan/likeness.h)
 //     chains: {NAME: {from: SENSOR, to: NODE.TASK, largest_age: 60 ms}}   all sensors to their use, if absent
 //     objective: [worst_age, data_age, slots, jitter, room, error, gap_error]   in this order; worst_age, if absent
-//     error: {...}, gap_error: {...}                            for these objectives (schedules/synthesis/plan/demands.h)
+//     error: {...}, gap_error: {...}                            for these objectives (plan/demands.h)
 //     in_order: false                                           lists may wait for older ones; true if absent
 //
 // A plan may begin from another one by `extends: OTHER.yaml`, and change it key by key, as a cluster file may (schedules/file/inherit.h).

@@ -20,7 +20,7 @@ TEST(BoxOfPhases, BoundsAllInstantsInIt) {
   RandomStream draws({21});
   for (int draw = 0; draw < 300; ++draw) {
     const std::int64_t length = draws.integer(20'000'000, 80'000'000);
-    Round box{{length}, {}, {Duration{}}}, inside = box;
+    Round box{{length}, {}, {Duration{}}, {draws.integer(0, 1) * length}}, inside = box;
     const auto sensors = draws.integer(1, 3);
     for (int s = 0; s < sensors; ++s) {
       const Duration within{draws.integer(1, length / 3)};
@@ -39,7 +39,7 @@ TEST(BoxOfPhases, BoundsAllInstantsInIt) {
 double error_at_ages(const Possible& possible, const std::vector<Duration>& ages, double density) {
   Duration length = possible.every;
   for (const Stream& stream : possible.streams) length = std::max(length, stream.period);
-  Round round{length, {}, {}};
+  Round round{length, {}, {}, {}};
   for (Duration use{}; use < length; use += possible.every) round.uses.push_back(use);
   for (std::size_t s = 0; s < ages.size(); ++s)
     for (Duration start{}; start < length; start += possible.streams[s].period)
@@ -51,7 +51,7 @@ TEST(LeastOverPhases, IsBelowAllAgesAndCloseToTheLeast) {
   RandomStream draws({22});
   for (int draw = 0; draw < 12; ++draw) {
     const Duration period = Duration::milliseconds(draws.integer(20, 60));
-    Possible possible{period, {}, {}};
+    Possible possible{period, {}, {}, {}};
     for (int s = 0; s < 2; ++s)
       possible.streams.push_back(
           {drawn_between(draws, 1e-3, 0.1), period, Duration::milliseconds(draws.integer(20, 90))});
@@ -75,7 +75,7 @@ TEST(LeastOverPhases, IsBelowAllAgesAndCloseToTheLeast) {
 // A sensor that measures half as often, and one that measures twice as often as it is used.
 TEST(LeastOverPhases, HoldsForOtherPeriods) {
   for (const int factor : {2, 4}) {
-    Possible possible{Duration::milliseconds(20), {}, {}};
+    Possible possible{Duration::milliseconds(20), {}, {}, {}};
     possible.streams.push_back({0.01, Duration::milliseconds(20 * factor), Duration::milliseconds(30)});
     possible.streams.push_back({0.04, Duration::milliseconds(20), Duration::milliseconds(25)});
     const auto bounded = [](const Round& round) { return bounded_mean_error(round, Motion::kConstantVelocity, 2.0); };
@@ -96,7 +96,7 @@ TEST(LeastOverPhases, HoldsForOtherPeriods) {
 // Ages that nothing has are left out. So the bound rises.
 TEST(LeastOverPhases, LeavesOutWhatCannotBe) {
   const Duration period = Duration::milliseconds(40), least = Duration::milliseconds(50);
-  Possible possible{period, {{0.01, period, least}}, {}};
+  Possible possible{period, {{0.01, period, least}}, {}, {}};
   const auto bounded = [](const Round& round) { return bounded_mean_error(round, Motion::kConstantVelocity, 1.0); };
   const double free = least_over_phases(possible, bounded, 1e9, 2'000);
   const Duration later = least + Duration::milliseconds(10);
@@ -106,9 +106,40 @@ TEST(LeastOverPhases, LeavesOutWhatCannotBe) {
   EXPECT_NEAR(bound, error_at_ages(possible, {later}, 1.0), 1e-3 * bound);
 }
 
+// Two lists that cannot both be new: their ages have a least sum. Ages may also be longer than by a period.
+TEST(LeastOverPhases, IsBelowAllAgesThatCanBe) {
+  RandomStream draws({23});
+  for (int draw = 0; draw < 8; ++draw) {
+    const Duration period = Duration::milliseconds(draws.integer(20, 60));
+    Possible possible{period, {}, {}, {}};
+    for (int s = 0; s < 2; ++s)
+      possible.streams.push_back(
+          {drawn_between(draws, 1e-3, 0.1), period, Duration::milliseconds(draws.integer(20, 90))});
+    const Duration sum = possible.streams[0].least_age + possible.streams[1].least_age +
+                         Duration{draws.integer(period.ns / 8, 3 * period.ns / 2)};
+    possible.attainable = [&](const auto&, const std::vector<Duration>& oldest) {
+      return oldest[0] + oldest[1] >= sum;
+    };
+    const double density = drawn_between(draws, 0.01, 30.0);
+    const auto bounded = [&](const Round& round) {
+      return bounded_mean_error(round, Motion::kConstantVelocity, density);
+    };
+    const double bound = least_over_phases(possible, bounded, 1e9, 3'000);
+    double least = 1e9;
+    for (int a = 0; a < 60; ++a)
+      for (int b = 0; b < 60; ++b) {
+        const std::vector<Duration> ages{possible.streams[0].least_age + Duration{period.ns * a / 24},
+                                         possible.streams[1].least_age + Duration{period.ns * b / 24}};
+        if (ages[0] + ages[1] >= sum) least = std::min(least, error_at_ages(possible, ages, density));
+      }
+    EXPECT_LE(bound, least) << draw;
+    EXPECT_GE(bound, 0.95 * least) << draw;
+  }
+}
+
 TEST(LeastOverPhases, EndsWhenItHasEnough) {
   const Duration period = Duration::milliseconds(40);
-  const Possible possible{period, {{0.01, period, period}}, {}};
+  const Possible possible{period, {{0.01, period, period}}, {}, {}};
   int boxes = 0;
   const auto bounded = [&](const Round& round) {
     ++boxes;

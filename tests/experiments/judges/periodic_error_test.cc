@@ -17,7 +17,7 @@ Duration seconds(double s) { return {std::llround(s * 1e9)}; }
 // Two sensors that measure once in a period, the second one `lag` later: the mean over time of the predicted error.
 // Between measurements it is a polynomial of the third degree, so Simpson's rule is exact.
 double mean_over_time(Motion motion, double period, double lag, double first, double second, double density) {
-  Round round{seconds(period), {{{}, first, {}, {}}, {seconds(lag), second, seconds(lag), {}}}, {}};
+  Round round{seconds(period), {{{}, first, {}, {}}, {seconds(lag), second, seconds(lag), {}}}, {}, {}};
   double sum = 0.0;
   for (const auto& [from, to] : {std::pair{Duration{}, seconds(lag)}, std::pair{seconds(lag), round.length}}) {
     if (from == to) continue;
@@ -32,7 +32,7 @@ double mean_over_time(Motion motion, double period, double lag, double first, do
 TEST(PeriodicError, OfARandomWalkHasItsClosedForm) {
   for (const double q : {0.1, 1.0, 7.0})
     for (const double r : {0.2, 1.0, 3.0}) {
-      const Round round{seconds(1.0), {{{}, r, {}, {}}}, {Duration{}}};
+      const Round round{seconds(1.0), {{{}, r, {}, {}}}, {Duration{}}, {}};
       EXPECT_NEAR(mean_error(round, Motion::kRandomWalk, q), (-q + std::sqrt(q * q + 4.0 * q * r)) / 2.0, 1e-12);
     }
 }
@@ -74,14 +74,14 @@ TEST(PeriodicError, OfTwoSensorsAtConstantVelocityIsTheKnownTable) {
     EXPECT_NEAR(mean(row.period / 2.0), row.staggered, 0.6 * row.last_digit) << row.period << " " << row.density;
   }
   // The worst instant, just before a measurement.
-  Round round{seconds(0.08), {{{}, 0.01, {}, {}}, {{}, 0.01, {}, {}}}, {seconds(0.08) - Duration{1}}};
+  Round round{seconds(0.08), {{{}, 0.01, {}, {}}, {{}, 0.01, {}, {}}}, {seconds(0.08) - Duration{1}}, {}};
   EXPECT_NEAR(mean_error(round, Motion::kConstantVelocity, 25.0), 2.485e-2, 6e-6);
   round.sightings[1].measured = round.sightings[1].known = seconds(0.04);
   EXPECT_NEAR(mean_error(round, Motion::kConstantVelocity, 25.0), 1.446e-2, 6e-6);
 }
 
 Round drawn_round(RandomStream& draws) {
-  Round round{Duration::milliseconds(draws.integer(20, 80)), {}, {}};
+  Round round{Duration::milliseconds(draws.integer(20, 80)), {}, {}, {}};
   const auto sensors = draws.integer(1, 4);
   for (int s = 0; s < sensors; ++s) {
     const Duration measured{draws.integer(0, round.length.ns - 1)};
@@ -114,6 +114,29 @@ TEST(PeriodicError, IsThatOfAllListsThatTheUseKnows) {
       sweep::ErrorRecursion recursion(sweep::PointMotion::known(density, 10.0));
       for (const sweep::Look& look : looks) recursion.fuse(look);
       EXPECT_NEAR(errors[u] / recursion.at(use)(0, 0), 1.0, 1e-6) << "draw " << draw << ", use " << u;
+    }
+  }
+}
+
+// Over a time that ends before the next use: Simpson's rule over three uses that know the same.
+TEST(PeriodicError, OverTimeIsTheMeanOfPredictions) {
+  RandomStream draws({13});
+  for (int draw = 0; draw < 50; ++draw) {
+    Round round = drawn_round(draws);
+    round.uses.resize(1);
+    Round held = round;
+    held.held = {draws.integer(1, round.length.ns)};
+    for (const Motion motion : {Motion::kRandomWalk, Motion::kConstantVelocity}) {
+      // The later uses know nothing new: each measurement is known as much later.
+      double sum = 0.0;
+      for (const auto& [share, weight] : {std::pair{0, 1.0}, std::pair{1, 4.0}, std::pair{2, 1.0}}) {
+        Round later = round;
+        const Duration by{held.held.ns / 2 * share};
+        later.uses[0] += by;
+        for (Sighting& one : later.sightings) one.known += by;
+        sum += weight / 6.0 * mean_error(later, motion, 2.0);
+      }
+      EXPECT_NEAR(mean_error(held, motion, 2.0) / sum, 1.0, 1e-6);
     }
   }
 }

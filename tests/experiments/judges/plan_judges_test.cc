@@ -87,7 +87,8 @@ TEST(ErrorOfAPlan, IsThatOfTheClusterByItsLists) {
   }
 }
 
-// No cluster that is best for another objective has a smaller error; nor has one whose sensors measure at other instants.
+// No cluster that is best for another objective has a smaller error. None has one whose sensors measure at other
+// instants.
 TEST(ErrorOfAPlan, NoOtherInstantsAreBetter) {
   const Plan plan = paper("error", error_of("process_noise: 1"), "8600 us");
   const Synthesis made = made_of(plan);
@@ -125,8 +126,8 @@ TEST(ErrorOfAPlan, TheLeastWorstAgeGivesErrorAway) {
   }
 }
 
-// Far ahead the laser alone counts. The plan for a car close by then has more error than the one with the least ages, as in drives
-// (docs/synthesis.md).
+// Far ahead the laser alone counts. The plan for a car close by then has more error than the one with the least ages,
+// as in drives (docs/synthesis.md).
 TEST(ErrorOfAPlan, SigmaDecides) {
   const auto far = [](const std::string& noise) {
     return "  error: {sigma: {laser: 0.0106, camera: 1.7}, process_noise: " + noise + "}";
@@ -140,6 +141,27 @@ TEST(ErrorOfAPlan, SigmaDecides) {
     const double least = made_of(plan).reached[0].value;
     EXPECT_LE(least, of_ages * (1.0 + 1e-12));
     EXPECT_GT(least, of_ages * 0.998);
+  }
+}
+
+// The mean over uses falls if there are fewer of them; that over time does not.
+TEST(ErrorOfAPlan, OverTimeMoreMeasurementsAreBetter) {
+  for (const bool over_time : {false, true}) {
+    std::string text = schedules::synthesis::plan_text("paper");
+    const std::string over = over_time ? "process_noise: 1, over: time" : "process_noise: 1";
+    text = schedules::synthesis::changed(text, "objective: \\[[^\\]]*\\]", "objective: [error]\n" + error_of(over));
+    text = schedules::synthesis::changed(text, "cycle: \\{[^}]*\\}",
+                                         "cycle: {shortest: 8.5 ms, longest: 8.5 ms, step: 5 us}");
+    text =
+        schedules::synthesis::changed(text, "laser: \\{shortest: [^}]*\\}", "laser: {shortest: 60 ms, longest: 80 ms}");
+    text = schedules::synthesis::changed(text, "camera: \\{shortest: [^}]*\\}",
+                                         "camera: {shortest: 30 ms, longest: 80 ms}");
+    text = schedules::synthesis::changed(text, ", largest_age: 60 ms\\}\n    camera", "}\n    camera");
+    const Synthesis made = made_of(schedules::synthesis::plan::parse_plan(text, "plan"));
+    EXPECT_EQ(made.cluster.sensors[0].period, Duration::milliseconds(68));
+    EXPECT_EQ(made.cluster.sensors[1].period, Duration::milliseconds(over_time ? 34 : 68));
+    EXPECT_LE(made.reached[0].bound, made.reached[0].value);
+    EXPECT_GT(made.reached[0].bound, 0.95 * made.reached[0].value);
   }
 }
 

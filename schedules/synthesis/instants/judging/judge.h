@@ -41,8 +41,8 @@ struct Prospect {
   Duration every{};  // between uses
   std::vector<Coming> coming;
   Duration least_worst_age{};  // no instants have a smaller age of the oldest of these
-  // Returns false if no instants have ages at first use between these, both included, by `coming`. A sensor may measure
-  // more often than it is used. Its oldest measurement counts then.
+  // Returns false if no instants have ages at first use between these, both included, by `coming`. It does so only
+  // where all of a chain has one period, and so one age.
   std::function<bool(const std::vector<Duration>& youngest, const std::vector<Duration>& oldest)> attainable;
 };
 

@@ -130,6 +130,8 @@ bool of_one_period(const Problem& problem, const End& end) {
 
 bool possible(const Reading& reading, const End& end, const std::vector<Ticks>& largest_ages, std::int64_t tick_ps,
               const std::vector<Duration>& youngest, const std::vector<Duration>& oldest) {
+  // With several periods, one measurement may be used late, and the next one soon. Then nothing is ruled out.
+  if (!of_one_period(reading.problem, end)) return true;
   std::vector<Ticks> from, to, beyond;
   for (const Duration age : youngest) from.push_back(age.ns * 1'000 / tick_ps);
   for (const Duration age : oldest) to.push_back((age.ns * 1'000 + tick_ps - 1) / tick_ps);
@@ -138,7 +140,7 @@ bool possible(const Reading& reading, const End& end, const std::vector<Ticks>& 
   const Ticks largest = *std::max_element(to.begin(), to.end());
   for (const Ticks age : to) beyond.push_back(largest - age);
   if (least_worst_of(reading.problem, end, beyond) > largest) return false;
-  return !of_one_period(reading.problem, end) || kept_in_order(reading, end, from, to);
+  return kept_in_order(reading, end, from, to);
 }
 
 }  // namespace

@@ -48,7 +48,8 @@ Duration age_of(const std::vector<Meeting>& meetings, std::size_t chain) {
   return {};
 }
 
-// Wants the camera to be so much older than the laser, and both of them young: |camera - laser - apart| + laser / 1000, in us.
+// Wants the camera to be so much older than the laser, and both of them young.
+// Its value is |camera - laser - apart| + laser / 1000, in us.
 class WantsApart : public Judge {
  public:
   explicit WantsApart(std::vector<double> apart_us) : apart_us_(std::move(apart_us)) {}

@@ -10,15 +10,15 @@ std::string with_sections(const std::string& objectives, const std::string& sect
 }
 
 TEST(PlanDemands, AreRead) {
-  const Plan plan =
-      parse_plan(with_sections("error, gap_error",
-                               "  error: {process_noises: [0.01, 1, 25], motion: random_walk, sigma: {laser: 0.06, "
-                               "camera: 0.15}}\n"
-                               "  gap_error: {time_gap: 1500 ms, delay: 30 ms}"),
-                 "plan.yaml");
+  const Plan plan = parse_plan(
+      with_sections("error, gap_error",
+                    "  error: {process_noises: [0.01, 1, 25], motion: random_walk, over: time, sigma: {laser: 0.06, "
+                    "camera: 0.15}}\n"
+                    "  gap_error: {time_gap: 1500 ms, delay: 30 ms}"),
+      "plan.yaml");
   EXPECT_EQ(plan.objective, (std::vector<Goal>{Goal::kError, Goal::kGapError}));
   ASSERT_TRUE(plan.error);
-  EXPECT_TRUE(plan.error->random_walk);
+  EXPECT_TRUE(plan.error->random_walk && plan.error->over_time);
   EXPECT_EQ(plan.error->process_noises, (std::vector<double>{0.01, 1.0, 25.0}));
   EXPECT_EQ(plan.error->sigmas_m, (std::vector<std::optional<double>>{0.06, 0.15}));
   EXPECT_EQ(plan.gap_error.time_gap_s, 1.5);
