@@ -90,7 +90,7 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
 
 // Static slots lie before the clock's correction phase, so only its rate moves them.
 void FlexRayController::State::lay_cycle() {
-  const int round = g.gCycleCountMax + 1;  // 64 except in hand-made schedules; a power of two needs no division
+  const int round = g.gCycleCountMax + 1;  // 64 in 2.1; a power of two needs no division
   counter = static_cast<int>((round & (round - 1)) == 0 ? clock->cycle() & (round - 1) : clock->cycle() % round);
   if (grid_rate == clock->rate_correction()) return;
   grid_rate = clock->rate_correction();

@@ -73,6 +73,7 @@ recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const 
   manifest.cluster_name = cluster.name;
   manifest.strategy = name_of(strategy);
   manifest.cycle_ns = cluster.cycle().ns;
+  manifest.cycles = cycles_per_round(cluster.flexray);
   manifest.bit_ps = cluster.flexray.gdBit_ps;
   manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
   if (recording.rows) {

@@ -266,9 +266,9 @@ CheckSeen& FaultAccount::notice(Cause cause, Check check, bool faulty, std::int6
   FaultEffects& effects = this->effects(cause);
   CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[c];
   if (seen.cycles == 0) seen.first = at;
-  auto& counted =
-      counted_[cause.value_or(place_.size())][2 * c + (faulty ? 1 : 0)][static_cast<std::size_t>(cycle & 63)];
-  if (!counted || at - *counted > cycle_ * 32) ++seen.cycles;
+  auto& counted = counted_[cause.value_or(place_.size())][2 * c + (faulty ? 1 : 0)]
+                          [static_cast<std::size_t>(counter_in(cluster_.flexray, cycle))];
+  if (!counted || at - *counted > cycle_ * (cycles_per_round(cluster_.flexray) / 2)) ++seen.cycles;
   counted = at;
   return seen;
 }

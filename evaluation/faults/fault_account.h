@@ -129,7 +129,7 @@ class FaultAccount final : public recording::records::Sink {
   using Cause = FaultCauses::Cause;
   // A cycle counts once, however many nodes and slots it has findings about: indexed by its counter, which
   // comes again after a round.
-  using Counted = std::array<std::array<std::optional<TrueTime>, 64>, 2 * kAllChecks.size()>;
+  using Counted = std::array<std::array<std::optional<TrueTime>, schedules::model::kMostCycles>, 2 * kAllChecks.size()>;
 
   bool knows(NodeId node) const { return index_of(node) < standings_.size(); }  // a log may be of another cluster
   // A starting node takes these steps in any case, so only those back have a cause.

@@ -27,11 +27,11 @@ SlotLedger::SlotLedger(const schedules::model::Cluster& cluster, const Standings
 
 // Returns the cycle's page; its previous content is four cycles old, and settled.
 SlotLedger::Cycle& SlotLedger::open(std::int64_t cycle) {
-  const std::int64_t counter = cycle & (schedules::model::kCycles - 1);
+  const std::int64_t counter = counter_in(cluster_.flexray, cycle);
   Cycle& page = cycles_[static_cast<std::size_t>(counter) % kCycles];
   if (page.counter == counter) return page;
   // All nodes have reported the cycle before the last.
-  const std::int64_t due = (counter + schedules::model::kCycles - 2) & (schedules::model::kCycles - 1);
+  const std::int64_t due = counter_in(cluster_.flexray, counter - 2);
   Cycle& before = cycles_[static_cast<std::size_t>(due) % kCycles];
   if (before.counter == due) settle(before, kEverything);
   before.counter = -1;
@@ -49,7 +49,7 @@ SlotLedger::Cycle& SlotLedger::open(std::int64_t cycle) {
 void SlotLedger::finish(TrueTime at) {
   if (newest_ < 0) return;
   for (std::int64_t back = kCycles - 1; back >= 0; --back) {
-    const std::int64_t counter = (newest_ + schedules::model::kCycles - back) & (schedules::model::kCycles - 1);
+    const std::int64_t counter = counter_in(cluster_.flexray, newest_ - back);
     Cycle& page = cycles_[static_cast<std::size_t>(counter) % kCycles];
     if (page.counter != counter) continue;
     settle(page, at);

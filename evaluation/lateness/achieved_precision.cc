@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/int128.h"
-#include "schedules/model/round.h"
 
 namespace ttf::evaluation::lateness {
 namespace {
@@ -19,9 +18,9 @@ bool possible(std::int64_t ns) {
 
 }  // namespace
 
-AchievedPrecision::AchievedPrecision(Duration cycle) {
+AchievedPrecision::AchievedPrecision(Duration cycle, int cycles) {
   if (cycle <= Duration{} || cycle > kLongestCycle) return;
-  round_ns_ = (cycle * schedules::model::kCycles).ns;
+  round_ns_ = (cycle * cycles).ns;
   longest_gap_ = cycle * kGapCycles;
 }
 

@@ -21,13 +21,15 @@
 #include "core/time.h"
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
+#include "schedules/model/round.h"
 
 namespace ttf::evaluation::lateness {
 
 class AchievedPrecision {
  public:
-  // `cycle`: nominal length of the communication cycle. At 0, or if longer than possible, nothing is compared.
-  explicit AchievedPrecision(Duration cycle);
+  // `cycle`: nominal length of the communication cycle. At 0, or if longer than possible, nothing is compared. `cycles`: values
+  // of the cycle counter.
+  explicit AchievedPrecision(Duration cycle, int cycles = schedules::model::kMostCycles);
 
   // Takes stamps of one machine's nodes, in the order of its clock.
   void add(const recording::records::Stamp& stamp);

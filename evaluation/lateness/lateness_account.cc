@@ -49,7 +49,8 @@ std::uint64_t RealTimeFindings::late_frames() const { return sum_over(timing, &N
 
 LatenessAccount::LatenessAccount(const schedules::model::Cluster& cluster, RealTimeDrive drive)
     : cluster_(cluster), drive_(std::move(drive)), missing_(cluster, drive_.time_scale_ppm) {
-  for (const auto& [node, host] : drive_.hosts) by_host_.try_emplace(host, cluster.cycle());
+  for (const auto& [node, host] : drive_.hosts)
+    by_host_.try_emplace(host, cluster.cycle(), cycles_per_round(cluster.flexray));
 }
 
 // A log may be of another cluster.

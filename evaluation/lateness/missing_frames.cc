@@ -9,15 +9,16 @@ namespace ttf::evaluation::lateness {
 namespace {
 
 using schedules::model::FrameSlot;
-using schedules::model::kCycles;
 
 std::int64_t within_type_ns(Int128 ns) {
   using Limits = std::numeric_limits<std::int64_t>;
   return static_cast<std::int64_t>(std::clamp<Int128>(ns, Limits::min(), Limits::max()));
 }
 
-// Returns 0..63 for any number.
-std::size_t cycle_counter(Int128 cycle) { return static_cast<std::size_t>((cycle % kCycles + kCycles) % kCycles); }
+// Returns 0..cycles - 1 for any number.
+std::size_t cycle_counter(Int128 cycle, std::int64_t cycles) {
+  return static_cast<std::size_t>((cycle % cycles + cycles) % cycles);
+}
 
 bool is_on(const FrameSlot& frame, int slot, std::uint8_t channel) {
   return frame.slot == slot &&
@@ -28,12 +29,12 @@ bool is_on(const FrameSlot& frame, int slot, std::uint8_t channel) {
 }  // namespace
 
 // Counts the turns from `first_back` to `last_back` cycles before `cycle`; both are 1 or more.
-std::int64_t MissingFrames::Sender::turns_before(std::int64_t cycle, std::int64_t first_back,
-                                                 std::int64_t last_back) const {
+std::int64_t MissingFrames::turns_before(const Sender& sender, std::int64_t cycle, std::int64_t first_back,
+                                         std::int64_t last_back) const {
   const auto up_to = [&](std::int64_t back) {
-    std::int64_t sum = back / kCycles * static_cast<std::int64_t>(turns.count());
-    for (std::int64_t rest = 1; rest <= back % kCycles; ++rest)
-      if (turns[cycle_counter(Int128{cycle} - rest)]) ++sum;
+    std::int64_t sum = back / cycles_ * static_cast<std::int64_t>(sender.turns.count());
+    for (std::int64_t rest = 1; rest <= back % cycles_; ++rest)
+      if (sender.turns[cycle_counter(Int128{cycle} - rest, cycles_)]) ++sum;
     return sum;
   };
   return first_back > last_back ? 0 : up_to(last_back) - up_to(first_back - 1);
@@ -50,8 +51,8 @@ MissingFrames::Sender& MissingFrames::sender_at(const Place& place) {
   if (!is_new) return sender;
   const auto [slot, channel, node] = place;
   for (const FrameSlot& frame : cluster_.frames)
-    for (std::size_t counter = 0; counter < kCycles && frame.sender == node && is_on(frame, slot, channel); ++counter)
-      if (schedules::model::in_cycle(frame, static_cast<std::int64_t>(counter))) sender.turns.set(counter);
+    for (std::int64_t counter = 0; counter < cycles_ && frame.sender == node && is_on(frame, slot, channel); ++counter)
+      if (schedules::model::in_cycle(frame, counter)) sender.turns.set(static_cast<std::size_t>(counter));
   return sender;
 }
 
@@ -62,8 +63,8 @@ std::optional<std::int64_t> MissingFrames::cycles_from(const Turn& earlier, cons
   if (cycle_ns <= 0) return std::nullopt;
   const Int128 apart = Int128{later.due_ns} - earlier.due_ns;
   const Int128 about = (2 * apart + (apart < 0 ? -cycle_ns : cycle_ns)) / (2 * cycle_ns);
-  const auto off = static_cast<std::int64_t>(cycle_counter(Int128{later.cycle} - earlier.cycle - about));
-  return within_type_ns(about + (off < kCycles / 2 ? off : off - kCycles));
+  const auto off = static_cast<std::int64_t>(cycle_counter(Int128{later.cycle} - earlier.cycle - about, cycles_));
+  return within_type_ns(about + (off < cycles_ / 2 ? off : off - cycles_));
 }
 
 void MissingFrames::add(const recording::records::TimingProblem& problem) {
@@ -79,7 +80,7 @@ void MissingFrames::add(const recording::records::SlotFrameSent& frame) {
   const Turn turn{frame.stamp.true_time.ns, frame.cycle};
   if (sender.last)
     if (const auto cycles = cycles_from(*sender.last, turn);
-        cycles && *cycles > 1 && sender.turns_before(turn.cycle, 1, *cycles - 1) > 0)
+        cycles && *cycles > 1 && turns_before(sender, turn.cycle, 1, *cycles - 1) > 0)
       sender.silences.push_back({*sender.last, turn});
   sender.last = turn;
 }
@@ -87,8 +88,8 @@ void MissingFrames::add(const recording::records::SlotFrameSent& frame) {
 // Returns how many cycles the first missing frame was before the one that came.
 std::int64_t MissingFrames::reach_of(const Lost& lost) const {
   std::vector<std::int64_t> turns;  // one round's, backwards
-  for (std::int64_t back = 1; back <= kCycles; ++back) {
-    const auto counter = static_cast<std::int64_t>(cycle_counter(Int128{lost.came.cycle} - back));
+  for (std::int64_t back = 1; back <= cycles_; ++back) {
+    const auto counter = static_cast<std::int64_t>(cycle_counter(Int128{lost.came.cycle} - back, cycles_));
     if (std::any_of(cluster_.frames.begin(), cluster_.frames.end(), [&](const FrameSlot& frame) {
           return frame.sender != lost.receiver && is_on(frame, lost.slot, lost.channel) &&
                  schedules::model::in_cycle(frame, counter);
@@ -97,14 +98,14 @@ std::int64_t MissingFrames::reach_of(const Lost& lost) const {
   }
   if (turns.empty() || lost.count == 0) return 0;
   const std::uint64_t last = lost.count - 1;
-  return static_cast<std::int64_t>(last / turns.size()) * kCycles + turns[last % turns.size()];
+  return static_cast<std::int64_t>(last / turns.size()) * cycles_ + turns[last % turns.size()];
 }
 
 MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, const Sender& sender) const {
   // Turns outside this range are too far away.
   const Int128 cycle_ns = cluster_.cycle().ns;
-  const std::int64_t from_ns = within_type_ns(lost.came.due_ns - (reach + kCycles) * cycle_ns);
-  const std::int64_t to_ns = within_type_ns(lost.came.due_ns + kCycles * cycle_ns);
+  const std::int64_t from_ns = within_type_ns(lost.came.due_ns - (reach + cycles_) * cycle_ns);
+  const std::int64_t to_ns = within_type_ns(lost.came.due_ns + cycles_ * cycle_ns);
   const auto is_before = [](const Turn& turn, std::int64_t ns) { return turn.due_ns < ns; };
   const auto ends_before = [](const Silence& silence, std::int64_t ns) { return silence.behind.due_ns < ns; };
 
@@ -123,7 +124,7 @@ MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, co
     if (first > last) continue;
     const auto withheld =
         std::upper_bound(missed.begin(), missed.end(), last) - std::lower_bound(missed.begin(), missed.end(), first);
-    const std::int64_t silent = sender.turns_before(lost.came.cycle, first, last);
+    const std::int64_t silent = turns_before(sender, lost.came.cycle, first, last);
     found.away += static_cast<std::uint64_t>(std::max<std::int64_t>(0, silent - withheld));
   }
   return found;

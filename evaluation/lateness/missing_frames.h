@@ -57,11 +57,10 @@ class MissingFrames {
   };
   // The known acts of a sender in a slot of a channel.
   struct Sender {
-    std::bitset<schedules::model::kCycles> turns;  // by cycle counter
+    std::bitset<schedules::model::kMostCycles> turns;  // by cycle counter
     std::vector<Turn> missed;
     std::vector<Silence> silences;  // in the order of time
     std::optional<Turn> last;       // the last one it sent
-    std::int64_t turns_before(std::int64_t cycle, std::int64_t first_back, std::int64_t last_back) const;
   };
   using Place = std::tuple<std::uint16_t, std::uint8_t, NodeId>;  // slot, channel, sender
   struct Lost {
@@ -72,6 +71,8 @@ class MissingFrames {
     std::uint32_t count = 0;
   };
   std::int64_t due_ns(const recording::records::TimingProblem& problem) const;
+  std::int64_t turns_before(const Sender& sender, std::int64_t cycle, std::int64_t first_back,
+                            std::int64_t last_back) const;
   Sender& sender_at(const Place& place);
   std::optional<std::int64_t> cycles_from(const Turn& earlier, const Turn& later) const;
   std::int64_t reach_of(const Lost& lost) const;
@@ -79,6 +80,7 @@ class MissingFrames {
 
   const schedules::model::Cluster& cluster_;
   const std::int64_t time_scale_ppm_;
+  const std::int64_t cycles_ = cycles_per_round(cluster_.flexray);
   std::map<Place, Sender> senders_;
   std::vector<Lost> lost_;
 };

@@ -123,9 +123,9 @@ std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);
 
 // Returns the instant of a list's "timestamp" header signal, in microseconds, on the reader's own count of cycles.
 //
-// The signal holds the low bits of the sender's global time. Nodes agree on the cycle counter, 0..63, but each
+// The signal holds the low bits of the sender's global time. Nodes agree on the cycle counter, but each
 // counts its wraps itself: a node that integrates into a running cluster begins at the counter it finds. So a
-// stamp is known modulo a round, 64 cycles, and means the instant nearest to `near`. Within half a round of
+// stamp is known modulo a round, gCycleCountMax + 1 cycles, and means the instant nearest to `near`. Within half a round of
 // `near`, this is the instant with these low bits. Otherwise the sender counts other rounds, and its stamp is
 // shifted by whole rounds. The signal must not have wrapped on the sender's count: 32 bits hold 71 minutes.
 GlobalTime time_stamp(const schedules::model::PduLayout& layout, const bus::cni::ListView& list, GlobalTime near,

@@ -10,6 +10,7 @@
 
 #include "core/ids.h"
 #include "recording/log/sensor_style.h"
+#include "schedules/model/round.h"
 
 namespace ttf::recording::log {
 
@@ -21,10 +22,11 @@ struct LogManifest {
   std::string scenario_name;
   std::string cluster_name;
   std::string strategy;
-  std::string recording_name;  // file of the recorded observations that fed the drive; empty: none
-  std::string truth_name;      // trace of another simulator that was the drive's world; empty: none
-  std::int64_t cycle_ns = 0;   // nominal communication cycle, for the grid of diagrams; 0 if unknown
-  std::int64_t bit_ps = 0;     // nominal bit on FlexRay, for symbols' lengths; 0 if unknown
+  std::string recording_name;                  // file of the recorded observations that fed the drive; empty: none
+  std::string truth_name;                      // trace of another simulator that was the drive's world; empty: none
+  std::int64_t cycle_ns = 0;                   // nominal communication cycle, for the grid of diagrams; 0 if unknown
+  int cycles = schedules::model::kMostCycles;  // values of the cycle counter
+  std::int64_t bit_ps = 0;                     // nominal bit on FlexRay, for symbols' lengths; 0 if unknown
   std::vector<std::pair<std::string, std::string>> hashes;
   std::vector<std::string> node_names;
   std::vector<std::vector<std::string>> task_names;  // per node, in the order of Node::tasks

@@ -76,6 +76,11 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
     if (!scale || *scale <= 0) return false;  // it is divided by
     return manifest.time_scale_ppm = *scale, true;
   }
+  if (key == "cycles") {
+    const auto cycles = whole<int>(value);
+    if (!cycles || *cycles < 1 || *cycles > schedules::model::kMostCycles) return false;  // it is divided by
+    return manifest.cycles = *cycles, true;
+  }
   if (key == "cycle_ns") {
     const auto cycle = whole<std::int64_t>(value);
     manifest.cycle_ns = cycle.value_or(0);
@@ -131,6 +136,7 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
   if (!manifest.host.empty()) entries.emplace_back("host", manifest.host);
   if (manifest.time_scale_ppm != 1'000'000)
     entries.emplace_back("time_scale_ppm", std::to_string(manifest.time_scale_ppm));
+  if (manifest.cycles != schedules::model::kMostCycles) entries.emplace_back("cycles", std::to_string(manifest.cycles));
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);
   const auto list = [&entries](std::string_view prefix, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i) entries.emplace_back(fmt::format("{}.{}", prefix, i), names[i]);

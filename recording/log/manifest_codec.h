@@ -18,7 +18,7 @@ using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
 
 // Keys: version, seed, scenario, cluster, strategy, cycle_ns, bit_ps, task_lists, hash.<name>, node.<i>,
 // node.<i>.task.<j>, pdu.<i>, pdu_sensor.<i>, sensor.<i>, can_bus.<i>; recording, clock, host,
-// time_scale_ppm, sensor_kind.<i>, sensor_colour.<i> and sensor_marker.<i> unless they have their defaults; and crc32 over all of them.
+// time_scale_ppm, cycles, sensor_kind.<i>, sensor_colour.<i> and sensor_marker.<i> unless they have their defaults; and crc32 over all of them.
 ManifestEntries manifest_entries(const LogManifest& manifest);
 
 // Reads every readable entry. Returns false if the checksum does not match (metadata has none of its own) or a

@@ -137,7 +137,7 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
   for (const StoredLog& log : logs) {
     if (log.info().manifest.clock != log::kWallClock) continue;
     if (log.info().manifest.cycle_ns > 0 && log.info().manifest.cycle_ns <= kLongestCycle_ns)
-      round_ns = log.info().manifest.cycle_ns * schedules::model::kCycles;
+      round_ns = log.info().manifest.cycle_ns * log.info().manifest.cycles;
     auto& nodes = hosts[log.info().manifest.host];
     for (const SyncStamp& stamp : log.sync_stamps()) nodes[stamp.node].push_back(stamp);
   }

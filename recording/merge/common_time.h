@@ -13,9 +13,9 @@
 // lowest such node. The error is bounded by the cluster's precision plus a clock's correction in a double
 // cycle.
 //
-// Each node counts rounds of 64 cycles for itself, and anew after a restart. Whole rounds are added so that a
+// Each node counts rounds of cycles for itself, and anew after a restart. Whole rounds are added so that a
 // machine's first stamp is within half a round of its clock, and every other stamp advances as that clock does.
-// Machines' clocks must therefore agree to half a round: 160 ms at a cycle of 5 ms. A stamp that goes back or
+// Machines' clocks must therefore agree to half a round: 160 ms at 64 cycles of 5 ms. A stamp that goes back or
 // stands still is ignored.
 #pragma once
 

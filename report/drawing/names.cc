@@ -85,6 +85,7 @@ Names names_of(const schedules::model::Cluster& cluster) {
   }
   for (const auto& sensor : cluster.sensors) names.sensors.push_back(sensor.name);
   for (const auto& bus : cluster.can_buses) names.can_buses.push_back(bus.name);
+  names.cycles = cycles_per_round(cluster.flexray);
   return names;
 }
 
@@ -98,6 +99,7 @@ Names names_of(const recording::log::LogManifest& manifest) {
   names.can_buses = manifest.can_bus_names;
   names.pdu_sensors = manifest.pdu_sensors;
   names.sensor_styles = manifest.sensor_styles;
+  names.cycles = manifest.cycles;
   return names;
 }
 

@@ -21,6 +21,7 @@ struct Names {
   // The sensor whose measurement each PDU's list descends from, kNoSensor if absent. If the vector is empty,
   // a PDU belongs to the sensor named within its own name.
   std::vector<SensorId> pdu_sensors;
+  int cycles = schedules::model::kMostCycles;  // values of the cycle counter
 
   std::string node(NodeId id) const;
   std::string task(NodeId node, std::uint8_t task) const;

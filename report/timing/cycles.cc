@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "report/drawing/log_limits.h"
-#include "schedules/model/round.h"
 
 namespace ttf::report::timing {
 namespace {
@@ -26,7 +25,7 @@ struct Told {
 };
 
 // Returns the statements in the order of the records.
-std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueTime from) {
+std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, int cycles, TrueTime from) {
   std::vector<Told> all;
   std::map<std::int64_t, std::size_t> frames;  // by count
   for (const auto& f : data.slot_frames) {
@@ -39,7 +38,7 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueT
   const auto usual =
       std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   // Within a window clocks drift by far less than a cycle: a difference of whole rounds comes from the counts.
-  for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::model::kCycles);
+  for (Told& told : all) told.rounds = rounded(told.count - usual->first, cycles);
   return all;
 }
 
@@ -60,17 +59,17 @@ std::int64_t oldest_count(const std::vector<Told>& all) {
 
 }  // namespace
 
-std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, TrueTime from, TrueTime to) {
+std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, int cycles, TrueTime from,
+                                              TrueTime to) {
   std::map<std::int64_t, TrueTime> known, all;
   if (cycle.ns <= 0 || (to - from).ns / cycle.ns > drawing::kMostCycleLines) return all;
-  const std::vector<Told> told = what_frames_tell(data, cycle, from);
+  const std::vector<Told> told = what_frames_tell(data, cycle, cycles, from);
   if (!told.empty()) {
     const std::int64_t oldest = oldest_count(told);
     // Frames of the same count come first: a frame of another count may be a mistake.
     for (const bool same : {true, false})
       for (const Told& one : told)
-        if ((one.rounds == oldest) == same)
-          known.try_emplace(one.cycle + (oldest - one.rounds) * schedules::model::kCycles, one.start);
+        if ((one.rounds == oldest) == same) known.try_emplace(one.cycle + (oldest - one.rounds) * cycles, one.start);
   }
   const auto [number, start] =
       known.empty() ? std::pair<std::int64_t, TrueTime>{} : std::pair<std::int64_t, TrueTime>(*known.begin());

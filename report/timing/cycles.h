@@ -14,7 +14,8 @@ namespace ttf::report::timing {
 
 // Returns all cycles that touch the window and one on either side; cycles before cycle 0 have negative
 // numbers. Returns an empty map without a cycle length or if the lines are too many for a grid. A count with
-// frames of a single cycle, while others have more, is a mistake of the log.
-std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, TrueTime from, TrueTime to);
+// frames of a single cycle, while others have more, is a mistake of the log. `cycles`: values of the cycle counter.
+std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, int cycles, TrueTime from,
+                                              TrueTime to);
 
 }  // namespace ttf::report::timing

@@ -99,7 +99,7 @@ class TimingPainter : TimingCanvas {
  private:
   void grid() {
     svg_->open_group("grid");
-    const auto starts = cycle_starts(data, cycle_, from, to);
+    const auto starts = cycle_starts(data, cycle_, names.cycles, from, to);
     drawing::LabelSpace above;
     for (auto it = starts.begin(); it != starts.end(); ++it) {
       const auto next = std::next(it);

@@ -384,7 +384,7 @@ std::vector<std::int64_t> entries(const model::Cluster& cluster, const Stage& st
     for (const SlotGroup& group : stage.slots) gates.push_back(latch(group, latest));
   std::vector<std::int64_t> instants;
   for (const model::CycleInstant& gate : gates)
-    for (std::int64_t cycle = from_cycle; cycle < from_cycle + model::kCycles; ++cycle)
+    for (std::int64_t cycle = from_cycle; cycle < from_cycle + cycles_per_round(cluster.flexray); ++cycle)
       if (in_cycle(gate, cycle)) instants.push_back(time_of(cluster.flexray, cycle, gate.offset).ns + (latest ? 1 : 0));
   return instants;
 }

@@ -77,7 +77,7 @@ Publisher publisher_of(const model::Cluster& cluster, NodeId node);
 std::vector<std::int64_t> walk(const model::Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
                                std::int64_t start, bool latest, bool first_is_exact);
 
-// Returns the last instants for entering a stage on the grid, within 64 cycles from `from_cycle` (earliest). For
+// Returns the last instants for entering a stage on the grid, within a round from `from_cycle` (earliest). For
 // the latest walk they are one nanosecond later, so that the list may miss the stage.
 std::vector<std::int64_t> entries(const model::Cluster& cluster, const Stage& stage, std::int64_t from_cycle,
                                   bool latest);

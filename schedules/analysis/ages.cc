@@ -122,7 +122,7 @@ class Ages {
     std::size_t gate = path.fused;
     for (; gate < path.used && !path.stages[gate].on_grid(true); ++gate) spans += path.stages[gate].worst.ns;
     if (gate == path.used) return {spans};
-    for (const std::int64_t start : entries(cluster_, path.stages[gate], model::kFromCycle, true))
+    for (const std::int64_t start : entries(cluster_, path.stages[gate], first_analysed(cluster_.flexray), true))
       rest = std::max(rest, walk(cluster_, path, gate, path.used, start, true, true).back() - start);
     return {spans + rest};
   }
@@ -159,10 +159,11 @@ class Ages {
     if (gate == last) return found;
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
-      for (std::int64_t cycle = model::kFromCycle; cycle < model::kFromCycle + model::kCycles; ++cycle)
+      const std::int64_t from = first_analysed(cluster_.flexray);
+      for (std::int64_t cycle = from; cycle < from + cycles_per_round(cluster_.flexray); ++cycle)
         if (in_cycle(sensor.at, cycle)) starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
     } else {
-      starts = entries(cluster_, path.stages[gate], model::kFromCycle, latest);
+      starts = entries(cluster_, path.stages[gate], first_analysed(cluster_.flexray), latest);
     }
     const Extreme before = found[gate];
     for (const std::int64_t start : starts) {

@@ -24,7 +24,7 @@
 //       the wait
 //   A5  a sensor that runs freely or follows its host has any phase against the cycle: the wait at the first stage on
 //       the cycle's grid is up to its period; from there on the grid is fixed and waits are exact. A scheduled sensor
-//       is on the grid from the start. All 64 cycles are analysed.
+//       is on the grid from the start. A whole round of cycles is analysed.
 // The bounds are safe: simulated ages lie between them.
 #pragma once
 

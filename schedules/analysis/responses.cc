@@ -45,7 +45,7 @@ class ChainAnalysis {
       set_.chains.push_back({0, activation_of(id, node_.tasks[t], writers)});
       if (by_time(node_.tasks[t])) add_instants(t, instants);
     }
-    const std::int64_t round = time_of(cluster.flexray, model::kCycles, Macroticks{0}).ns;
+    const std::int64_t round = time_of(cluster.flexray, cycles_per_round(cluster.flexray), Macroticks{0}).ns;
     set_.timed = processor::TimedInstants(std::move(instants), round, corrections_of(cluster, node_));
     for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
       chain_[t] = chain_[first_of(t)];
@@ -93,7 +93,7 @@ class ChainAnalysis {
 
   void add_instants(std::size_t task, std::vector<processor::TimedInstants::Instant>& instants) const {
     const model::CycleInstant& at = node_.tasks[task].activation.at;
-    for (std::int64_t cycle = at.base_cycle; cycle < model::kCycles; cycle += at.repetition)
+    for (std::int64_t cycle = at.base_cycle; cycle < cycles_per_round(cluster_.flexray); cycle += at.repetition)
       instants.push_back({time_of(cluster_.flexray, cycle, at.offset).ns, *chain_[task]});
   }
 
@@ -224,7 +224,7 @@ Duration least_apart(const model::Cluster& cluster, const model::Node& node, Dur
 }
 
 Duration longest_busy_time(const model::Cluster& cluster, const model::Node& node) {
-  if (std::any_of(node.tasks.begin(), node.tasks.end(), by_time)) return cluster.cycle() * model::kCycles;
+  if (std::any_of(node.tasks.begin(), node.tasks.end(), by_time)) return cluster.cycle() * model::kMostCycles;
   return {processor::kLongestBusy_ns};
 }
 

@@ -24,11 +24,12 @@ std::optional<SettledRound> settled_round(const model::Cluster& cluster, SensorI
   std::size_t gate = 0;
   for (; !path.stages[gate].on_grid(true); ++gate) before += path.stages[gate].worst.ns;
 
-  const std::int64_t round_ps = model::kCycles * cluster.flexray.cycle_ps();
+  const std::int64_t cycles = cycles_per_round(cluster.flexray), from = first_analysed(cluster.flexray);
+  const std::int64_t round_ps = cycles * cluster.flexray.cycle_ps();
   const std::int64_t rounds = 1000 / std::gcd<std::int64_t>(1000, round_ps);
   std::vector<std::int64_t> gates;
   for (std::int64_t r = 0; r < rounds; ++r)
-    for (const std::int64_t missed : entries(cluster, path.stages[gate], model::kFromCycle + r * model::kCycles, true))
+    for (const std::int64_t missed : entries(cluster, path.stages[gate], from + r * cycles, true))
       gates.push_back(missed - 1);
   std::sort(gates.begin(), gates.end());
 

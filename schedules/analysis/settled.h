@@ -30,7 +30,7 @@ struct Settled {
 
 struct SettledRound {
   std::vector<Settled> instants;  // strictly increasing in both; without fusion instants that settle nothing new
-  Duration round{};               // period of the instants: 64 cycles, or the multiple that is whole nanoseconds
+  Duration round{};  // period of the instants: a round of cycles, or the multiple that is whole nanoseconds
   bool operator==(const SettledRound&) const = default;
 };
 

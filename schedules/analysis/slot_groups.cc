@@ -69,13 +69,13 @@ std::optional<SlotGap> shortest_slot_gap(const model::Cluster& cluster, PduId pd
   SlotGap result;
   for (const SlotGroup& group : slot_groups(cluster, pdu)) {
     if (!group.bounded) return std::nullopt;
-    for (std::int64_t cycle = group.base_cycle; cycle < model::kCycles; cycle += group.repetition)
+    for (std::int64_t cycle = group.base_cycle; cycle < cycles_per_round(g); cycle += group.repetition)
       starts.push_back(time_of(g, cycle, group.taken_from).ns);
     result.spread = std::max(result.spread, time_of(g, 0, group.complete_by) - time_of(g, 0, group.taken_from));
   }
   if (starts.empty()) return std::nullopt;
   std::sort(starts.begin(), starts.end());
-  result.gap = result.longest = {starts.front() + time_of(g, model::kCycles, Macroticks{0}).ns - starts.back()};
+  result.gap = result.longest = {starts.front() + time_of(g, cycles_per_round(g), Macroticks{0}).ns - starts.back()};
   for (std::size_t i = 1; i < starts.size(); ++i) {
     const Duration next{starts[i] - starts[i - 1]};
     result.gap = std::min(result.gap, next);

@@ -32,7 +32,7 @@ std::vector<SlotGroup> slot_groups(const model::Cluster& cluster, PduId pdu);
 Macroticks slot_start(const model::GlobalParameters& flexray, int slot);
 
 // The shortest and longest time between the beginnings of two successive sendings of a PDU, and the longest
-// duration of one, over all 64 cycles. Absent if the PDU has no slots, or if some sending has no bound.
+// duration of one, over all cycles of a round. Absent if the PDU has no slots, or if some sending has no bound.
 struct SlotGap {
   Duration gap{};
   Duration longest{};

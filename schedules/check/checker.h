@@ -16,6 +16,7 @@
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
 //   modes        modes of tasks whose instants and lists meet no others (schedules/modes/detection_modes.h)
 //   flow         every reader has a writer and the reverse, sensors have their tasks, no list flows in a ring
+//   round        measurements are fused within a round of cycles, so that their stamps are told apart
 #pragma once
 
 #include <algorithm>
@@ -87,6 +88,7 @@ void check_tasks(const model::Cluster& cluster, ClusterFindings& findings);
 void check_responses(const model::Cluster& cluster, NodeId node, ClusterFindings& findings);
 void check_flow(const model::Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
 void check_loops(const model::Cluster& cluster, ClusterFindings& findings);  // after all those
-void check_modes(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
+void check_modes(const model::Cluster& cluster, ClusterFindings& findings);  // after all those
+void check_round(const model::Cluster& cluster, ClusterFindings& findings);  // after all others
 
 }  // namespace ttf::schedules::check

@@ -7,15 +7,16 @@
 namespace ttf::schedules::check {
 namespace {
 
-constexpr std::array<ClusterRule, 9> kRules{{{"cycle", "the cycle and its segments", false, check_cycle},
-                                             {"clocks", "clock synchronisation and start-up", false, check_clocks},
-                                             {"slots", "owners and payloads of slots", false, check_slots},
-                                             {"dynamic", "the dynamic segment", false, check_dynamic},
-                                             {"can", "messages and loads of CANs", false, check_can},
-                                             {"tasks", "activations and deadlines of tasks", true, check_tasks},
-                                             {"flow", "writers and readers of lists", true, check_flow},
-                                             {"loops", "sensors that follow their hosts", true, check_loops},
-                                             {"modes", "modes of tasks", true, check_modes}}};
+constexpr std::array<ClusterRule, 10> kRules{{{"cycle", "the cycle and its segments", false, check_cycle},
+                                              {"clocks", "clock synchronisation and start-up", false, check_clocks},
+                                              {"slots", "owners and payloads of slots", false, check_slots},
+                                              {"dynamic", "the dynamic segment", false, check_dynamic},
+                                              {"can", "messages and loads of CANs", false, check_can},
+                                              {"tasks", "activations and deadlines of tasks", true, check_tasks},
+                                              {"flow", "writers and readers of lists", true, check_flow},
+                                              {"loops", "sensors that follow their hosts", true, check_loops},
+                                              {"modes", "modes of tasks", true, check_modes},
+                                              {"round", "ages within a round of cycles", true, check_round}}};
 
 }  // namespace
 

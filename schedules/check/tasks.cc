@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -15,11 +16,11 @@ namespace ttf::schedules::check {
 namespace {
 
 // Returns whether two periodic intervals, each shorter than its period, overlap. Their starts differ by `from_a`
-// modulo the shorter period, since repetitions are powers of two.
+// modulo the common divisor of their periods, and some instances by no more (Chinese remainder theorem).
 bool meet(const model::GlobalParameters& flexray, const model::Task& a, const model::Task& b) {
   const model::CycleInstant &x = a.activation.at, &y = b.activation.at;
   const std::int64_t cycle_ns = flexray.cycle_ps() / 1000;
-  const std::int64_t period = cycle_ns * std::min(x.repetition, y.repetition);
+  const std::int64_t period = cycle_ns * std::gcd(x.repetition, y.repetition);
   const std::int64_t start_a = time_of(flexray, x.base_cycle, x.offset).ns;
   const std::int64_t start_b = time_of(flexray, y.base_cycle, y.offset).ns;
   const std::int64_t from_a = ((start_b - start_a) % period + period) % period;  // a's start to the next start of b

@@ -15,6 +15,8 @@
 #include "schedules/file/load_modes.h"
 #include "schedules/file/parameter_table.h"
 #include "schedules/model/limits.h"
+#include "schedules/model/repetitions.h"
+#include "schedules/model/round.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -28,7 +30,8 @@ const Choices<model::Channels> kChannels{
 
 class Loader {
  public:
-  Loader(const StrictYaml& file, Findings& findings) : root_(file.root(findings)), completion_(cluster_, findings) {
+  Loader(const StrictYaml& file, Findings& findings)
+      : root_(file.root(findings)), findings_(findings), completion_(cluster_, findings) {
     cluster_.file = file.name();
     cluster_.text = file.text();
   }
@@ -103,6 +106,12 @@ class Loader {
     };
     for (const auto& p : kGlobalIntegers) read(p);
     for (const auto& p : kGlobalScaled) read(p);
+    if (global.gCycleCountMax % 2 == 0)
+      map.fail("gCycleCountMax", "must be odd: clocks are corrected after an even and an odd cycle");
+    // Repetitions depend on it: other mistakes are found with the usual number.
+    if (std::any_of(findings_.list().begin(), findings_.list().end(),
+                    [](const Finding& one) { return one.key == "flexray.gCycleCountMax"; }))
+      global.gCycleCountMax = model::kMostCycles - 1;
     completion_.globals(map, std::move(absent));
     map.finish();
   }
@@ -200,17 +209,17 @@ class Loader {
 
   model::CycleInstant load_instant(YamlMap& map) {
     model::CycleInstant at;
-    load_multiplexing(map, at.base_cycle, at.repetition);
+    load_multiplexing(map, repetitions(cluster_.flexray), at.base_cycle, at.repetition);
     at.offset = {map.integer("offset", {0, std::max(cluster_.flexray.gMacroPerCycle - 1, 0)}, "macroticks")};
     return at;
   }
 
-  void load_multiplexing(YamlMap& map, int& base_cycle, int& repetition) {
+  void load_multiplexing(YamlMap& map, const std::vector<int>& allowed, int& base_cycle, int& repetition) {
     base_cycle = static_cast<int>(map.integer("base_cycle", {0, 63}));
     repetition = static_cast<int>(map.integer("repetition", {1, 64}, "cycles"));
     bool usable = true;
-    if ((repetition & (repetition - 1)) != 0) {
-      map.fail("repetition", "must be one of 1, 2, 4, 8, 16, 32, 64");
+    if (std::find(allowed.begin(), allowed.end(), repetition) == allowed.end()) {
+      map.fail("repetition", repetitions_text(cluster_.flexray, allowed));
       usable = false;
     }
     if (base_cycle >= repetition) {
@@ -365,7 +374,7 @@ class Loader {
     frame.slot = static_cast<int>(map.integer("slot", {1, model::kLastSlot}));
     frame.channels = map.choice("channels", kChannels);
     frame.sender = node(map, "sender");
-    load_multiplexing(map, frame.base_cycle, frame.repetition);
+    load_multiplexing(map, frame_repetitions(cluster_.flexray), frame.base_cycle, frame.repetition);
     std::int64_t fragments = 1;
     int step = 1;
     if (map.has("pdu")) {
@@ -395,6 +404,7 @@ class Loader {
   }
 
   YamlMap root_;
+  Findings& findings_;
   model::Cluster cluster_;
   Completion completion_;
 };

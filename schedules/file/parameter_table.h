@@ -1,6 +1,6 @@
 // The FlexRay parameters of a cluster file: name, range, unit and member in one table per type. Ranges: FlexRay
 // Protocol Specification 2.1 Rev. A, annex B; for narrower registers of Bosch's E-Ray controller, theirs
-// (GTUC10).
+// (GTUC10). gCycleCountMax has that of 3.0.1 (schedules/model/repetitions.h).
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ inline constexpr IntegerParameter<Global> kGlobalIntegers[] = {
     {"gSyncNodeMax", 2, 15, "", &Global::gSyncNodeMax},
     {"gMaxWithoutClockCorrectionPassive", 1, 15, "double cycles", &Global::gMaxWithoutClockCorrectionPassive},
     {"gMaxWithoutClockCorrectionFatal", 1, 15, "double cycles", &Global::gMaxWithoutClockCorrectionFatal},
-    {"gCycleCountMax", 63, 63, "", &Global::gCycleCountMax},
+    {"gCycleCountMax", 7, 63, "", &Global::gCycleCountMax},
     {"gNetworkManagementVectorLength", 0, 12, "bytes", &Global::gNetworkManagementVectorLength},
     {"gdTSSTransmitter", 3, 15, "gdBit", &Global::gdTSSTransmitter},
     {"gdCASRxLowMax", 67, 99, "gdBit", &Global::gdCASRxLowMax},

@@ -1,6 +1,7 @@
 #include "schedules/model/cluster.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/check.h"
@@ -23,9 +24,8 @@ std::string_view channels_text(Channels channels) {
 }
 
 bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
-  // Repetitions are powers of two, so the longer one is a multiple of the shorter.
-  const int shorter = std::min(a.repetition, b.repetition);
-  return a.base_cycle % shorter == b.base_cycle % shorter;
+  const int common = std::gcd(a.repetition, b.repetition);
+  return a.base_cycle % common == b.base_cycle % common;
 }
 
 bool activates(const Task& task, const PortBinding& read) {

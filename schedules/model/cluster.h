@@ -254,7 +254,7 @@ struct Cluster {
   std::optional<SensorId> find_sensor(std::string_view name) const;
   Duration cycle() const { return {flexray.cycle_ps() / 1000}; }
   // The time after which the whole schedule repeats, to the nanosecond.
-  Duration round() const { return {kCycles * flexray.cycle_ps() / 1000}; }
+  Duration round() const { return {cycles_per_round(flexray) * flexray.cycle_ps() / 1000}; }
 };
 
 // Return whether a task has this step.

@@ -103,8 +103,9 @@ std::vector<GlobalTime> beginnings(const model::Cluster& cluster, const Grid& gr
   const std::int64_t cycles = grid.step.ns / cluster.cycle().ns;
   std::vector<GlobalTime> instants;
   // If the step does not divide the round, a detection may begin in all cycles that some multiple of it reaches.
-  const std::int64_t every = std::gcd(model::kCycles, cycles);
-  for (std::int64_t c = model::kFromCycle; c < model::kFromCycle + model::kCycles; c += every)
+  const std::int64_t every = std::gcd<std::int64_t>(cycles_per_round(cluster.flexray), cycles);
+  const std::int64_t from = first_analysed(cluster.flexray);
+  for (std::int64_t c = from; c < from + cycles_per_round(cluster.flexray); c += every)
     instants.push_back(model::time_of(cluster.flexray, c + grid.base_cycle % every, grid.offset));
   return instants;
 }

@@ -72,7 +72,8 @@ std::string yaml_text(const model::Cluster& cluster, const Detector& detector, c
                             one.detection.secondary ? "secondary" : "primary", in_ms_text(one.worst_case));
     }
   }
-  const std::int64_t repetition = std::gcd(model::kCycles, grid.step.ns / cluster.cycle().ns);
+  const std::int64_t repetition =
+      std::gcd<std::int64_t>(cycles_per_round(cluster.flexray), grid.step.ns / cluster.cycle().ns);
   const std::string keys =
       fmt::format("activation: {{kind: modes, base_cycle: {}, repetition: {}, offset: {}}}\n",
                   grid.base_cycle % repetition, repetition, grid.offset.value) +

@@ -18,7 +18,8 @@ namespace {
 bool is_exact(const model::Cluster& cluster, const Path& path) {
   const model::Sensor& sensor = cluster.sensor(path.sensor);
   if (!sensor.scheduled || path.used == 0) return false;
-  for (std::int64_t cycle = model::kFromCycle; cycle < model::kFromCycle + model::kCycles; ++cycle) {
+  const std::int64_t from = first_analysed(cluster.flexray);
+  for (std::int64_t cycle = from; cycle < from + cycles_per_round(cluster.flexray); ++cycle) {
     if (!in_cycle(sensor.at, cycle)) continue;
     const std::int64_t start = time_of(cluster.flexray, cycle, sensor.at.offset).ns;
     const auto end = [&](bool latest) { return walk(cluster, path, 0, path.used, start, latest, false).back(); };

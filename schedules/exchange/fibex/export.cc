@@ -12,6 +12,7 @@
 #include "schedules/exchange/fibex/export_pdus.h"
 #include "schedules/exchange/fibex/parameters.h"
 #include "schedules/exchange/fibex/xml.h"
+#include "schedules/model/round.h"
 
 namespace ttf::schedules::exchange::fibex {
 namespace {
@@ -76,6 +77,7 @@ class Exporter {
     put(cluster, "fx:MEDIUM", "ELECTRICAL");
     pugi::xml_node extension = cluster.append_child("fx:MANUFACTURER-EXTENSION");
     for (const FibexParameter& one : kFibexExtension) put_parameter(extension, one, g);
+    if (cycles_per_round(g) != model::kMostCycles) put_parameter(extension, kFibexRound[0], g);
     if (cluster_.topology == model::Topology::kStar) put(extension, "ttf:TOPOLOGY", "star");
     if (cluster_.guardian) put(extension, "ttf:GUARDIAN", "true");
     for (const FibexParameter& one : kFibexCluster) {

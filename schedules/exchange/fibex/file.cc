@@ -142,6 +142,9 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   }
   if (auto extension = cluster.child("fx:MANUFACTURER-EXTENSION")) {
     reader.parameters(*extension, kFibexExtension, out.global, out.given);
+    reader.parameters(*extension, kFibexRound, out.global, out.given);
+    if (out.global.gCycleCountMax % 2 == 0)
+      reader.fail(*extension, std::to_string(out.global.gCycleCountMax), "must have an odd CYCLE-COUNT-MAX");
     if (const auto topology = extension->text_of("ttf:TOPOLOGY")) {
       if (*topology != "star" && *topology != "bus")
         reader.fail(*extension, *topology, "must have a TOPOLOGY bus or star");
@@ -164,12 +167,12 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   cluster.finish();
 }
 
-// CYCLE-COUNTER names one cycle of 64; BASE-CYCLE and CYCLE-REPETITION a series.
-void read_timing(XmlElement& timing, FibexTriggering& out, FibexReader& reader) {
+// CYCLE-COUNTER names one cycle of the round; BASE-CYCLE and CYCLE-REPETITION a series.
+void read_timing(XmlElement& timing, FibexTriggering& out, int cycles, FibexReader& reader) {
   out.slot = reader.integer(timing, "fx:SLOT-ID", 1, kLastSlotId);
   if (timing.has("fx:CYCLE-COUNTER")) {
-    out.base_cycle = reader.integer(timing, "fx:CYCLE-COUNTER", 0, 63);
-    out.repetition = 64;
+    out.base_cycle = reader.integer(timing, "fx:CYCLE-COUNTER", 0, cycles - 1);
+    out.repetition = cycles;
   } else {
     out.repetition = reader.integer(timing, "fx:CYCLE-REPETITION", 1, 64, 1);
     out.base_cycle = reader.integer(timing, "fx:BASE-CYCLE", 0, 63, 0);
@@ -195,7 +198,7 @@ std::optional<model::Channel> read_channel(XmlElement& channel, FibexFile& out, 
     one.finish();
     if (timings.empty()) reader.leave_out(one, triggering.id, "has no ABSOLUTELY-SCHEDULED-TIMING, and is left out");
     for (XmlElement& timing : timings) {
-      read_timing(timing, triggering, reader);
+      read_timing(timing, triggering, cycles_per_round(out.global), reader);
       out.triggerings.push_back(triggering);
     }
   }

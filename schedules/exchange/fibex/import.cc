@@ -11,6 +11,7 @@
 #include "schedules/exchange/fibex/lists.h"
 #include "schedules/exchange/fibex/references.h"
 #include "schedules/model/limits.h"
+#include "schedules/model/repetitions.h"
 
 namespace ttf::schedules::exchange::fibex {
 namespace {
@@ -113,15 +114,17 @@ class Importer {
 
   // Returns whether a cluster file can have the frame in one of its segments.
   bool has_a_slot(const FibexTriggering& one) {
-    const auto out = [&](const std::string& value, const char* why) {
+    const auto out = [&](const std::string& value, const std::string& why) {
       leave_out(one.line, "fx:FRAME-TRIGGERING", value, why);
       return false;
     };
     const model::GlobalParameters& g = out_.cluster.flexray;
     if (one.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
       return out(fmt::format("slot {}", one.slot), "is left out: it is beyond the static slots and the minislots");
-    if ((one.repetition & (one.repetition - 1)) != 0)
-      return out(fmt::format("repetition {}", one.repetition), "is left out: cycles repeat by a power of two");
+    if (const auto allowed = frame_repetitions(g);
+        std::find(allowed.begin(), allowed.end(), one.repetition) == allowed.end())
+      return out(fmt::format("repetition {}", one.repetition),
+                 fmt::format("is left out: it {}", repetitions_text(g, allowed)));
     const auto sender = senders_.find(one.id);
     if (sender == senders_.end()) return out(one.id, "is left out: no ECU sends it");
     if (!model::includes(ecus_[index_of(sender->second)]->parameters.pChannels, one.channel))

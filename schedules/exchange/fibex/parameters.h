@@ -59,6 +59,9 @@ inline constexpr FibexParameter kFibexExtension[] = {
     {"gdMaxMicrotick", "ttf:MAX-MICROTICK"},
 };
 
+// The same, unless the cycle counter is that of 2.1.
+inline constexpr FibexParameter kFibexRound[] = {{"gCycleCountMax", "ttf:CYCLE-COUNT-MAX"}};
+
 // In fx:CONTROLLER, after flexray:KEY-SLOT-USAGE (pKeySlotId and its use).
 inline constexpr FibexParameter kFibexController[] = {
     {"pClusterDriftDamping", "flexray:CLUSTER-DRIFT-DAMPING"},

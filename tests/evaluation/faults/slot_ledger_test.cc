@@ -95,6 +95,16 @@ TEST_F(Ledger, TheLastCyclesAreSettledInTheirOrderAfterARound) {
   EXPECT_EQ(losses_[1].at, frame_at(65));
 }
 
+// A round of 50 cycles, which the pages of open cycles do not divide.
+TEST_F(Ledger, ARoundMayBeShorter) {
+  cluster_.flexray.gCycleCountMax = 49;
+  for (int c = 0; c < 120; ++c) cycle(c, c % 25 == 24);
+  ledger_.finish(static_end(120));
+  ASSERT_EQ(losses_.size(), 4u);
+  for (std::size_t loss = 0; loss < losses_.size(); ++loss)
+    EXPECT_EQ(losses_[loss].at, frame_at(static_cast<int>(25 * loss + 24)));
+}
+
 // A node without a report has neither received nor missed the frame, and an absent frame is not forged.
 TEST_F(Ledger, WhatHasNotBeenReportedByTheEndIsOpen) {
   cycle(0, false);

@@ -84,7 +84,7 @@ class MissingFramesTest : public testing::Test {
   std::uint64_t withheld(NodeId receiver = kListener) const { return missing(receiver).withheld; }
   std::uint64_t away(NodeId receiver = kListener) const { return missing(receiver).away; }
 
-  const schedules::model::Cluster cluster_ = cluster_of_two_slots();
+  schedules::model::Cluster cluster_ = cluster_of_two_slots();
   std::int64_t scale_ppm_ = 1'000'000;
   std::vector<recording::records::TimingProblem> told_;
   std::vector<recording::records::SlotFrameSent> sent_;
@@ -111,6 +111,22 @@ TEST_F(MissingFramesTest, LostOnly) {
   missed(10, 0, 1, kListener);
   missed(10 + 64);
   missed(10 - 64);
+  EXPECT_EQ(withheld(), 0u);
+}
+
+// Turns are those of the round: a node that counts 20 cycles ahead is at the same counter, and one 64 ahead is not.
+TEST_F(MissingFramesTest, ARoundMayBeShorter) {
+  cluster_.flexray.gCycleCountMax = 19;
+  missed(10, 20);
+  lost(11, 1);
+  EXPECT_EQ(withheld(), 1u);
+  told_.clear();
+  missed(49, -40, 2);
+  lost(53, 2, 0, 2);  // 51 and 49
+  EXPECT_EQ(withheld(), 1u);
+  told_.clear();
+  missed(10, 64);
+  lost(11, 1);
   EXPECT_EQ(withheld(), 0u);
 }
 

@@ -204,6 +204,24 @@ TEST(Log, WithoutATimeScaleRealTimeWasTheDrives) {
   }
 }
 
+// Logs of a round of 64 cycles do not say so.
+TEST(Log, SaysHowManyCyclesTheCounterHas) {
+  LogManifest manifest;
+  for (const auto& [key, value] : manifest_entries(manifest)) EXPECT_NE(key, "cycles");
+  manifest.cycles = 60;
+  ManifestEntries entries = manifest_entries(manifest);
+  LogManifest read;
+  EXPECT_TRUE(read_manifest(entries, read));
+  EXPECT_EQ(read, manifest);
+  for (const char* impossible : {"0", "-60", "65", "6.5", ""}) {
+    for (auto& [key, value] : entries)
+      if (key == "cycles") value = impossible;
+    LogManifest other;
+    EXPECT_FALSE(read_manifest(entries, other)) << impossible;
+    EXPECT_EQ(other.cycles, 64) << impossible;
+  }
+}
+
 TEST(Log, KeepsHowPicturesShowItsSensors) {
   LogManifest manifest = sample_manifest();
   for (const auto& [key, value] : manifest_entries(manifest)) EXPECT_FALSE(key.starts_with("sensor_")) << key;

@@ -68,17 +68,18 @@ TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   EXPECT_EQ(count(svg, "fill=\"#444444\">3</text>"), 0u);
 }
 
-// Restarts nodes: from then on they count `rounds` of 64 cycles less.
+// Restarts nodes: from then on they count `rounds` less.
 class Restarted final : public recording::records::Sink {
  public:
-  Restarted(recording::records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds)
-      : out_(out), nodes_(std::move(nodes)), at_(at), rounds_(rounds) {}
+  Restarted(recording::records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds,
+            std::int64_t cycles = 64)
+      : out_(out), nodes_(std::move(nodes)), at_(at), less_(rounds * cycles) {}
   using recording::records::Sink::on;
   void on(const recording::records::SlotFrameSent& r) override {
     recording::records::SlotFrameSent frame = r;
     if (r.stamp.true_time >= at_ && std::find(nodes_.begin(), nodes_.end(), r.stamp.node) != nodes_.end()) {
-      frame.cycle -= rounds_ * 64;
-      frame.stamp.global.ns -= rounds_ * 64 * 5'000'000;
+      frame.cycle -= less_;
+      frame.stamp.global.ns -= less_ * 5'000'000;
     }
     out_.on(frame);
   }
@@ -87,7 +88,7 @@ class Restarted final : public recording::records::Sink {
   recording::records::Sink& out_;
   std::vector<NodeId> nodes_;
   TrueTime at_;
-  std::int64_t rounds_;
+  std::int64_t less_;  // cycles
 };
 
 // Node 4 sends the first slot of every cycle; the numbers are still those of the others.
@@ -103,6 +104,17 @@ TEST(TimingDiagram, ARestartedNodeDoesNotNumberTheCycles) {
         EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
       EXPECT_EQ(count(svg, "fill=\"#444444\">0</text>"), 0u);
     }
+}
+
+TEST(TimingDiagram, ARoundMayBeOfSixtyCycles) {
+  drawing::Names names = synthetic_names();
+  names.cycles = 60;
+  TimingDiagram d(names, Duration::milliseconds(5), at_us(600'000), at_us(750'000));
+  Restarted some(d, {NodeId{4}}, at_us(100'000), 2, 60);
+  SyntheticDrive{}.drive(some, 1'500'000);
+  const std::string svg = d.svg();
+  for (int cycle = 120; cycle < 150; ++cycle)
+    EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
 }
 
 // All restart: the old count is gone, and cycles before the new cycle 0 have no number.

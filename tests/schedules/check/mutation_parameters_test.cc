@@ -26,7 +26,8 @@ TEST(Mutations, OfParameters) {
   expect_named({
       global_parameter("gColdStartAttempts", "32", "2..31"),
       global_parameter("gdNIT", "900", "2..805 macroticks"),
-      global_parameter("gCycleCountMax", "31", "63..63"),
+      global_parameter("gCycleCountMax", "64", "7..63"),
+      global_parameter("gCycleCountMax", "62", "must be odd"),
       global_parameter("gdTSSTransmitter", "16", "3..15 gdBit"),
       {"pWakeupPattern",
        "\\bpWakeupPattern: [0-9.]+",

@@ -36,7 +36,7 @@ TEST(Rules, ABusDescriptionIsCheckedWithoutThoseThatNeedTasks) {
   EXPECT_EQ(
       skipped_text(bus),
       "paper_dynamic describes no tasks, so these are not checked: activations and deadlines of tasks, writers and "
-      "readers of lists, sensors that follow their hosts, modes of tasks");
+      "readers of lists, sensors that follow their hosts, modes of tasks, ages within a round of cycles");
   EXPECT_THAT(exchange::show_text(bus), HasSubstr("\nno tasks, sensors and CANs are described\n"));
   model::Cluster broken = bus;
   broken.flexray.gdNIT += 1;

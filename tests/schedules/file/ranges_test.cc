@@ -33,7 +33,7 @@ constexpr AnnexB kRanges[] = {
     {"gSyncNodeMax", 2, 15},
     {"gMaxWithoutClockCorrectionPassive", 1, 15},
     {"gMaxWithoutClockCorrectionFatal", 1, 15},
-    {"gCycleCountMax", 63, 63},
+    {"gCycleCountMax", 7, 63},  // of 3.0.1; 63 in 2.1
     {"gNetworkManagementVectorLength", 0, 12},
     {"gdTSSTransmitter", 3, 15},
     {"gdCASRxLowMax", 67, 99},

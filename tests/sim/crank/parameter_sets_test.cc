@@ -160,6 +160,16 @@ TEST(ParameterSets, ThatPassStartUpAndKeepTheirPrecision) {
   EXPECT_EQ(tallies.at("").drawn, 200);
 }
 
+// The protocol is the same whatever the last value of the cycle counter, as long as it is odd (FlexRay 3.0.1).
+TEST(ParameterSets, StartUpWithAnyRoundOfCycles) {
+  for (std::uint32_t index = 0; index < 80; index += 2) {
+    schedules::model::Cluster cluster = Drawn(index).cluster();
+    cluster.flexray.gCycleCountMax = 7 + 2 * static_cast<int>(index % 29);
+    const Shown shown = drive(cluster, index);
+    EXPECT_TRUE(shown.all()) << "set " << index << " with gCycleCountMax " << cluster.flexray.gCycleCountMax;
+  }
+}
+
 // A row of docs/flexray_constraints.md.
 std::string row_of(const std::string& name, const Tally& tally) {
   return fmt::format("| `{} | {} | {} | {} | {} | {} | {} |", name, tally.drawn, tally.starts, tally.takes_back,

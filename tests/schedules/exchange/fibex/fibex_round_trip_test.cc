@@ -38,6 +38,25 @@ INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_cluste
 
 TEST_P(FibexShipped, IsTheSameAfterExportAndImport) { expect_round_trip(cluster_); }
 
+// FIBEX 3.1 has no place for another round of cycles: an extension has it.
+TEST(FibexRound, OfSixtyCyclesIsTheSameAfterExportAndImport) {
+  model::Cluster cluster = check::load_checked_cluster(shipped_path("paper_synchronised"));
+  EXPECT_EQ(fibex_text(cluster).find("CYCLE-COUNT-MAX"), std::string::npos);
+  cluster.flexray.gCycleCountMax = 59;
+  for (model::FrameSlot& frame : cluster.frames) {
+    if (frame.repetition != 8) continue;
+    frame.repetition = 10;
+    frame.base_cycle += 2;
+  }
+  expect_round_trip(cluster);
+  std::string xml = fibex_text(cluster);
+  const std::string count = "CYCLE-COUNT-MAX>59<";
+  ASSERT_NE(xml.find(count), std::string::npos);
+  EXPECT_EQ(parse_fibex(xml, "cluster.xml").cluster.flexray.gCycleCountMax, 59);
+  xml.replace(xml.find(count), count.size(), "CYCLE-COUNT-MAX>58<");
+  EXPECT_THROW((void)parse_fibex(xml, "cluster.xml"), InputError);
+}
+
 std::vector<std::string> ecus_of(const std::string& xml) {
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(xml.c_str()));
