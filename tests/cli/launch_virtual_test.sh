@@ -35,6 +35,13 @@ for cluster in paper_free_running paper_free_flexray; do
   launch "$work/$cluster" "$work/$cluster.yaml" --strategy adva || fail "launch $cluster: $(cat "$work/$cluster.err")"
   [[ $(hash_of "$work/$cluster") == "$(hash_of "$work/run_$cluster")" ]] || fail "launch $cluster leaves other records than run"
 done
+# A round of sixty cycles, with lists in every fifth.
+"$program" schedule synthesize "$source/schedules/plans/paper_sixty_cycles.yaml" -o "$work/sixty_cycles.yaml" >/dev/null 2>&1 ||
+  fail "no schedule of sixty cycles"
+sed "s#tt: .*#tt: sixty_cycles.yaml#; s#\\.\\./schedules#$source/schedules#" "$drive" >"$work/sixty.yaml"
+"$program" run "$work/sixty.yaml" --strategy tt --no-pictures --out "$work/run_sixty" >/dev/null 2>&1 || fail "run sixty cycles"
+launch "$work/sixty" "$work/sixty.yaml" || fail "launch sixty cycles: $(cat "$work/sixty.err")"
+[[ $(hash_of "$work/sixty") == "$(hash_of "$work/run_sixty")" ]] || fail "a launch of sixty cycles leaves other records than run"
 # The world of another simulator.
 python3 "$source/examples/osi_traces.py" queue "$work/queue.osi" || fail "no trace"
 "$program" run "$drive" --strategy tt --no-pictures --truth "$work/queue.osi" --out "$work/run_queue" >/dev/null 2>&1 || fail "run queue"

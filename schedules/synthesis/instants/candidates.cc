@@ -6,6 +6,7 @@
 #include "schedules/analysis/parameter_bounds.h"
 #include "schedules/analysis/responses.h"
 #include "schedules/analysis/sensor_loop.h"
+#include "schedules/model/repetitions.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::instants {
@@ -73,7 +74,7 @@ class Periods {
   // Returns the repetition of a task in cycles.
   int of(TaskId id) {
     int& known = state_[index_of(id.node)][id.task];
-    if (known == kAsked) return kMostOften;  // a ring: its other lists decide
+    if (known == kAsked) return seldom_;  // a ring: its other lists decide
     if (known != 0) return known;
     known = kAsked;
     const int found = find(id);
@@ -88,20 +89,20 @@ class Periods {
       for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t)
         for (const model::PortBinding& out : cluster_.nodes[n].tasks[t].writes)
           if (out.pdu == pdu && out.medium == medium) return of({static_cast<NodeId>(n), t});
-    return kMostOften;
+    return seldom_;
   }
 
  private:
-  static constexpr int kAsked = -1, kMostOften = 64;
+  static constexpr int kAsked = -1;
 
   int find(TaskId id) {
     const model::Task& task = task_at(cluster_, id);
     if (task.activation.kind == model::ActivationKind::kSensor) {
       const model::Sensor& sensor = cluster_.sensor(task.activation.sensor);
-      return sensor.scheduled ? sensor.at.repetition : kMostOften;
+      return sensor.scheduled ? sensor.at.repetition : seldom_;
     }
     if (by_time(task) && !plan_.tasks[index_of(id.node)][id.task].at.repetition) return task.activation.at.repetition;
-    int least = kMostOften;
+    int least = seldom_;
     for (const model::PortBinding& in : task.reads)
       if (task.activation.kind != model::ActivationKind::kMessage || activates(task, in))
         least = std::min(least, of_list(in.pdu, in.medium));
@@ -114,6 +115,7 @@ class Periods {
   const Plan& plan_;
   Timed& timed_;
   model::Cluster& cluster_;
+  const int seldom_ = model::frame_repetitions(cluster_.flexray).back();  // where nothing says how often
   std::vector<std::vector<int>> state_;
 };
 
@@ -156,7 +158,7 @@ std::vector<int> repetitions(const Plan& plan, std::size_t sensor, Duration cycl
   if (!plan.sensors[sensor].at.repetition) return {plan.cluster.sensors[sensor].at.repetition};
   const auto& rate = plan.sensors[sensor].rate;
   std::vector<int> found;
-  for (int repetition = 1; repetition <= 64; repetition *= 2)
+  for (const int repetition : model::frame_repetitions(plan.cluster.flexray))
     if (rate && cycle * repetition >= rate->shortest && cycle * repetition <= rate->longest)
       found.push_back(repetition);
   return found;

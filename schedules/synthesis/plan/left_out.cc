@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/decimal.h"
+#include "schedules/model/repetitions.h"
 
 namespace ttf::schedules::synthesis::plan {
 namespace {
@@ -55,6 +56,7 @@ class Filler {
     auto map = root_.map_if("flexray");
     if (!map) return;
     const Path path{"flexray"};
+    take_round(*map);
     const std::string cycle_us = scaled_text(longest_cycle_.ns, 1'000);
     found_.cycle = leave(*map, path, "gdCycle", cycle_us);
     // Without gdMacrotick there is nothing to count by: the loader says what is missing.
@@ -67,6 +69,15 @@ class Filler {
     found_.parameters.static_slots = leave(*map, path, "gNumberOfStaticSlots", "1023");
     found_.parameters.idle_time = leave(*map, path, "gdNIT", "2");
     found_.parameters.correction_start = leave(*map, path, "gOffsetCorrectionStart", "9");
+  }
+
+  // A base cycle that is said is below the placeholder of the repetition.
+  void take_round(YamlMap& flexray) {
+    model::GlobalParameters g;
+    const auto count = flexray.integer_if("gCycleCountMax", {7, 63});
+    if (count && *count % 2 != 0) g.gCycleCountMax = static_cast<int>(*count);
+    longest_ = fmt::format("{}", model::repetitions(g).back());
+    longest_of_frames_ = fmt::format("{}", model::frame_repetitions(g).back());
   }
 
   void nodes() {
@@ -98,7 +109,7 @@ class Filler {
       if (!activation || activation->text_or("kind", "") != "time") continue;
       path.emplace_back("activation");
       planned.at.instant = leave_instant(*activation, path, "offset", kNone);
-      planned.at.repetition = leave(*activation, path, "repetition", planned.at.instant ? kOnce : "64");
+      planned.at.repetition = leave(*activation, path, "repetition", planned.at.instant ? kOnce : longest_);
     }
   }
 
@@ -107,7 +118,7 @@ class Filler {
       LeftOut& left = found_.sensors.emplace_back();
       if (map.text_or("measurement", "") != "scheduled") continue;
       left.instant = leave_instant(map, {"sensors", name}, "offset", kNone);
-      left.repetition = leave(map, {"sensors", name}, "repetition", left.instant ? kOnce : "64");
+      left.repetition = leave(map, {"sensors", name}, "repetition", left.instant ? kOnce : longest_);
     }
   }
 
@@ -126,7 +137,7 @@ class Filler {
       return;
     }
     left.slot = left.base_cycle = leave_instant(map, path, "slot", kOnce);
-    left.repetition = leave(map, path, "repetition", left.slot ? kOnce : "64");
+    left.repetition = leave(map, path, "repetition", left.slot ? kOnce : longest_of_frames_);
     leave(map, path, "fragments", kOnce);
     for (const char* key : {"first_fragment", "fragment_step", "network_management", "message_id"})
       if (map.has(key) && (left.slot || left.repetition))
@@ -150,6 +161,7 @@ class Filler {
   Duration longest_cycle_;
   Findings& findings_;
   std::vector<std::pair<Path, std::string>> values_;
+  std::string longest_ = "64", longest_of_frames_ = "64";  // repetitions
   LeftOutValues found_;
 };
 

@@ -2,12 +2,14 @@
 #include "schedules/synthesis/instants/measured.h"
 
 #include <algorithm>
+#include <set>
 
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
 #include "schedules/check/real_time_rules.h"
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/file/loader.h"
+#include "schedules/synthesis/instants/candidates.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/synthesis/plans.h"
 
@@ -36,6 +38,44 @@ TEST(SynthesizePaper, BeatsTheScheduleByHandAndIsProvenBest) {
   }
   // The value is that of `schedule check`, by its own walk.
   EXPECT_DOUBLE_EQ(made.reached[1].value, worst_use_ms(made.cluster));
+}
+
+// Periods beyond powers of two: in a round of 60 cycles, five cycles of 6.83 ms do what four of 8.535 ms do.
+TEST(SynthesizePaper, ARoundOfSixtyCyclesHasOtherPeriods) {
+  const plan::Plan plan = plan::load_plan(plan_path("paper_sixty_cycles"));
+  std::set<int> tried;
+  for (const Candidate& one : candidates(plan)) tried.insert(one.repetitions.begin(), one.repetitions.end());
+  EXPECT_EQ(tried, (std::set<int>{5}));
+  const Synthesis made = synthesize(plan);
+  ASSERT_TRUE(made.found);
+  EXPECT_TRUE(check::check(made.cluster).empty());
+  EXPECT_EQ(made.cluster.flexray.gCycleCountMax, 59);
+  for (const model::Sensor& sensor : made.cluster.sensors) EXPECT_EQ(sensor.at.repetition, 5);
+  for (const Reached& one : made.reached) EXPECT_TRUE(one.proven) << name_of(one.goal);
+  const Synthesis four = synthesize(plan::load_plan(plan_path("paper")));
+  EXPECT_LT(made.reached[0].value, four.reached[0].value);
+  EXPECT_LT(made.reached[2].value, four.reached[2].value) << "slots";
+  const model::Cluster again = file::parse_cluster(exchange::cluster_yaml(made.cluster, ""), "made.yaml");
+  EXPECT_EQ(worst_use_ms(again), worst_use_ms(made.cluster));
+}
+
+// A wide range of periods has all repetitions that divide the round, and sensors of different ones.
+TEST(SynthesizePaper, SensorsOfDifferentPeriodsMeetInARound) {
+  std::string text = changed(plan_text("paper"), "gCycleCountMax: 63", "gCycleCountMax: 39");
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 9 ms, longest: 9 ms, step: 1 ms}");
+  text = changed(text, "laser: \\{shortest: [^}]*\\}", "laser: {shortest: 36 ms, longest: 36 ms}");
+  text = changed(text, "camera: \\{shortest: [^}]*\\}", "camera: {shortest: 45 ms, longest: 90 ms}");
+  text = changed(text, "objective: \\[[^\\]]*\\]", "objective: [worst_age]");
+  for (int i = 0; i < 2; ++i) text = changed(text, ", largest_age: 60 ms", "");
+  const plan::Plan plan = plan::parse_plan(text, "plan.yaml");
+  std::set<std::vector<int>> tried;
+  for (const Candidate& one : candidates(plan)) tried.insert(one.repetitions);
+  EXPECT_EQ(tried, (std::set<std::vector<int>>{{4, 5}, {4, 8}, {4, 10}}));
+  const Synthesis made = synthesize(plan);
+  ASSERT_TRUE(made.found);
+  EXPECT_TRUE(check::check(made.cluster).empty());
+  EXPECT_GE(made.reached[0].value, made.reached[0].bound);
+  EXPECT_DOUBLE_EQ(made.reached[0].value, worst_use_ms(made.cluster));
 }
 
 TEST(SynthesizePaper, WrittenAndReadAgainItIsTheSame) {
