@@ -41,7 +41,7 @@ constexpr Description kCluster[] = {
      "them.",
      "0"},
     {"nodes.NAME.tasks.NAME.activation.repetition",
-     "The task runs in every so many cycles, or in modes at such distances; a power of two.", "2"},
+     "The task runs in every so many cycles, or in modes at such distances: a divisor of gCycleCountMax + 1.", "2"},
     {"nodes.NAME.tasks.NAME.activation.offset", "The task begins at this macrotick of the cycle.", "100"},
     {"nodes.NAME.tasks.NAME.activation.port", "A list that has arrived at this port activates the task.", "raw"},
     {"nodes.NAME.tasks.NAME.activation.sensor", "This sensor's measurements activate the task.", "laser"},

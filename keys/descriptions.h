@@ -39,6 +39,7 @@ Descriptions fault_list_descriptions();
 Descriptions cluster_descriptions();
 Descriptions cluster_parameter_descriptions();  // below `flexray`
 Descriptions node_parameter_descriptions();     // below `flexray` of a node, and `node_parameters`
+Descriptions plan_descriptions();
 Descriptions experiment_descriptions();
 Descriptions track_descriptions();
 

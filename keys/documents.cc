@@ -11,6 +11,7 @@
 #include "nodes/laser/recorded_scans.h"
 #include "replay/config.h"
 #include "schedules/file/loader.h"
+#include "schedules/synthesis/plan/loader.h"
 
 namespace ttf::keys {
 namespace {
@@ -93,6 +94,15 @@ std::vector<Document> all() {
        "A cluster file says what happens in a cluster, and when: nodes, tasks, sensors, lists, FlexRay and CAN.",
        [](const StrictYaml& yaml) { schedules::file::read_cluster(yaml); },
        {{"", cluster_descriptions()},
+        {"flexray", cluster_parameter_descriptions()},
+        {"node_parameters", node_parameter_descriptions()},
+        {"nodes.NAME.flexray", node_parameter_descriptions()}}},
+      {"plan",
+       "Plan",
+       "A plan is a cluster file with values left out, and a section `plan` with demands on them (docs/synthesis.md).",
+       schedules::synthesis::plan::ask_for_keys,
+       {{"", plan_descriptions()},
+        {"", cluster_descriptions()},
         {"flexray", cluster_parameter_descriptions()},
         {"node_parameters", node_parameter_descriptions()},
         {"nodes.NAME.flexray", node_parameter_descriptions()}}},

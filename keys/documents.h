@@ -1,4 +1,4 @@
-// The five kinds of files that the program reads, each with the loader whose keys it has.
+// The six kinds of files that the program reads, each with the loader whose keys it has.
 #pragma once
 
 #include <string>

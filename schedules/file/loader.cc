@@ -409,8 +409,19 @@ class Loader {
   Completion completion_;
 };
 
+// All that a plan leaves out would be a finding of its own.
+void refuse_plan(const StrictYaml& file) {
+  if (file.text().empty()) return;  // a described file
+  Findings none;
+  const YamlMap root = file.root(none);
+  if (root.has("plan"))
+    throw InputError({file.name(), root.line("plan"), "plan", "",
+                      "is of a plan, not of a cluster; `ttfusion schedule synthesize` takes it"});
+}
+
 model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) {
   expect_kind(file, FileKind::kCluster);
+  refuse_plan(file);
   Findings met;
   model::Cluster cluster = Loader(file, met).load();
   cluster.origins = origins;

@@ -75,11 +75,19 @@ TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
                                               {FileKind::kExperiment, "experiment"},
                                               {FileKind::kTrack, "track"},
                                               {FileKind::kFaults, "faults"}};
-  ASSERT_EQ(kinds.size(), documents().size());
+  ASSERT_EQ(kinds.size() + 1, documents().size()) << "a plan is a cluster file with one key more";
   std::map<std::string, std::set<std::string>> known;  // key, kinds
+  std::set<std::string> of_plans;
   for (const Document& document : documents())
     for (const Case& one : outline_of(document).find("")->cases)
-      for (const Key& key : one.keys) known[key.question.key].insert(document.kind);
+      for (const Key& key : one.keys)
+        if (document.kind == "plan")
+          of_plans.insert(key.question.key);
+        else
+          known[key.question.key].insert(document.kind);
+  EXPECT_TRUE(of_plans.contains("plan"));
+  EXPECT_FALSE(known.contains("plan"));
+  for (const auto& [key, of] : known) EXPECT_EQ(of_plans.contains(key), of.contains("cluster")) << key;
   std::set<FileKind> told;
   for (const auto& [key, of] : known) {
     // Beside a key that no kind has, only a kind's own keys tell it.
@@ -94,7 +102,8 @@ TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
 TEST(Documents, ShippedFilesAreOfTheirKind) {
   for (const auto& [folder, kind] :
        {std::pair{"scenarios", FileKind::kScenario}, std::pair{"schedules", FileKind::kCluster},
-        std::pair{"experiments", FileKind::kExperiment}, std::pair{"experiments/faults", FileKind::kFaults}})
+        std::pair{"schedules/plans", FileKind::kCluster}, std::pair{"experiments", FileKind::kExperiment},
+        std::pair{"experiments/faults", FileKind::kFaults}})
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TTF_SOURCE_DIR) / folder))
       if (entry.path().extension() == ".yaml") {
         EXPECT_EQ(kind_of(StrictYaml::load(entry.path().string())), kind) << entry.path();

@@ -48,6 +48,7 @@ def refusals(kind: str, text: str) -> list[str]:
 SHIPPED = ([("scenario", path) for path in sorted((SOURCE / "scenarios").glob("*.yaml"))] +
            [("scenario", path) for path in sorted((SOURCE / "tests/test_bed").glob("*.yaml"))] +
            [("cluster", path) for path in sorted((SOURCE / "schedules").glob("*.yaml"))] +
+           [("plan", path) for path in sorted((SOURCE / "schedules/plans").glob("*.yaml"))] +
            [("experiment", path) for path in sorted((SOURCE / "experiments").glob("*.yaml"))] +
            [("faults", path) for path in sorted((SOURCE / "experiments/faults").glob("*.yaml"))])
 
@@ -69,6 +70,8 @@ CAR = "scenarios/dynamics.yaml"
 LASERS = "scenarios/two_lasers.yaml"
 PAPER = "schedules/paper_synchronised.yaml"
 HEIR = "schedules/paper_unsynchronised.yaml"
+PLAN = "schedules/plans/paper.yaml"
+HEIR_OF_PLAN = "schedules/plans/paper_two_lasers_radar.yaml"
 NOISE = "experiments/process_noise.yaml"
 CAMPAIGN = "experiments/fault_campaign.yaml"
 CAN_CAMPAIGN = "experiments/can_fault_campaign.yaml"
@@ -88,6 +91,12 @@ WRONG = [
     ("an unknown colour", "scenario", LASERS, "colour: green", "colour: pink", "colour"),
     ("a word that needs the mapping", "scenario", CAR, "seed: 1\n", "seed: 1\nstartup: cold\n", "startup"),
     ("a flag that is a number", "cluster", PAPER, "synchronisation: true", "synchronisation: 1", "synchronisation"),
+    ("a plan without its section", "plan", PLAN, "plan:\n", "plans:\n", "plan"),
+    ("a plan's unknown key", "plan", PLAN, "  objective: [", "  objectives: [", "objectives"),
+    ("an unknown objective", "plan", PLAN, "data_age, worst_age", "age, worst_age", "objective"),
+    ("an age without a unit", "plan", PLAN, "to: feature.use, largest_age: 60 ms", "to: feature.use, largest_age: 60", "largest_age"),
+    ("a key of tasks", "plan", PLAN, "draw: worst", "draw: often", "draw"),
+    ("another kind of sensor", "plan", HEIR_OF_PLAN, "kind: radar", "kind: sonar", "kind"),
     ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
     ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",
      "period"),
@@ -110,7 +119,8 @@ WRONG = [
 
 def program_says(kind: str, folder: pathlib.Path, text: str) -> tuple[int, str]:
     file = folder / "wrong.yaml"
-    file.write_text(text.replace("extends: ", f"extends: {SOURCE}/schedules/"))
+    base = "schedules/plans" if kind == "plan" else "schedules"
+    file.write_text(text.replace("extends: ", f"extends: {SOURCE}/{base}/"))
     observations = folder / "observations.csv"
     observations.write_text("time,sensor,x,y\n0,laser,1,2\n1,laser,1,2\n")
     sweep = folder / "sweep.yaml"
@@ -118,6 +128,7 @@ def program_says(kind: str, folder: pathlib.Path, text: str) -> tuple[int, str]:
                      "paradigms: {tt: {strategy: tt}}\naxes: {bus: {settings: {crash: {faults: wrong.yaml}}}}\n")
     command = {"scenario": ["run", file, "--out", folder / "out"],
                "cluster": ["schedule", "check", file],
+               "plan": ["schedule", "synthesize", file],
                "experiment": ["experiment", file, "--out", folder / "out"],
                "faults": ["experiment", sweep, "--out", folder / "out"],
                "track": ["track", observations, "--config", file, "-o", folder / "tracks.csv"]}[kind]
@@ -137,7 +148,7 @@ class Schemas(unittest.TestCase):
                 for inner in schema:
                     walk(inner)
 
-        self.assertEqual(set(SCHEMAS), {"scenario", "cluster", "experiment", "track", "faults"})
+        self.assertEqual(set(SCHEMAS), {"scenario", "cluster", "plan", "experiment", "track", "faults"})
         for kind, schema in SCHEMAS.items():
             with self.subTest(kind):
                 jsonschema.Draft7Validator.check_schema(schema)

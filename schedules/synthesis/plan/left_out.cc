@@ -53,22 +53,21 @@ class Filler {
   }
 
   void flexray() {
-    auto map = root_.map_if("flexray");
-    if (!map) return;
+    YamlMap map = root_.map("flexray");
     const Path path{"flexray"};
-    take_round(*map);
+    take_round(map);
     const std::string cycle_us = scaled_text(longest_cycle_.ns, 1'000);
-    found_.cycle = leave(*map, path, "gdCycle", cycle_us);
+    found_.cycle = leave(map, path, "gdCycle", cycle_us);
     // Without gdMacrotick there is nothing to count by: the loader says what is missing.
-    if (map->has("gdMacrotick")) {
-      const std::int64_t cycle_ps =
-          found_.cycle ? longest_cycle_.ns * 1'000 : map->scaled("gdCycle", 1'000'000, {1, INT64_MAX}, "us");
-      const std::int64_t macrotick_ps = map->scaled("gdMacrotick", 1'000'000, {1'000'000, 6'000'000}, "us");
-      leave(*map, path, "gMacroPerCycle", fmt::format("{}", cycle_ps / macrotick_ps));
+    if (map.has("gdMacrotick")) {
+      const std::int64_t cycle_ps = found_.cycle ? longest_cycle_.ns * 1'000
+                                                 : map.scaled("gdCycle", 1'000'000, {10'000'000, 16'000'000'000}, "us");
+      const std::int64_t macrotick_ps = map.scaled("gdMacrotick", 1'000'000, {1'000'000, 6'000'000}, "us");
+      leave(map, path, "gMacroPerCycle", fmt::format("{}", cycle_ps / macrotick_ps));
     }
-    found_.parameters.static_slots = leave(*map, path, "gNumberOfStaticSlots", "1023");
-    found_.parameters.idle_time = leave(*map, path, "gdNIT", "2");
-    found_.parameters.correction_start = leave(*map, path, "gOffsetCorrectionStart", "9");
+    found_.parameters.static_slots = leave(map, path, "gNumberOfStaticSlots", "1023");
+    found_.parameters.idle_time = leave(map, path, "gdNIT", "2");
+    found_.parameters.correction_start = leave(map, path, "gOffsetCorrectionStart", "9");
   }
 
   // A base cycle that is said is below the placeholder of the repetition.
@@ -81,13 +80,13 @@ class Filler {
   }
 
   void nodes() {
-    const auto shared = root_.map_if("node_parameters");
+    const YamlMap shared = root_.map("node_parameters");
     for (auto& [name, map] : root_.named_maps("nodes")) {
       LeftOutParameters::Controller left;
       if (const auto own = map.map_if("flexray")) {
         const Path path{"nodes", name, "flexray"};
         const auto leave_own = [&, &own = *own](const char* key, const char* value) {
-          return !(shared && shared->has(key)) && leave(own, path, key, value);
+          return !shared.has(key) && leave(own, path, key, value);
         };
         left = {leave_own("pMicroPerCycle", "640"), leave_own("pRateCorrectionOut", "2"),
                 leave_own("pdListenTimeout", "1284")};
@@ -99,24 +98,25 @@ class Filler {
 
   void tasks(YamlMap& node, const std::string& name) {
     std::vector<PlannedTask>& tasks = found_.tasks.emplace_back();
-    if (!node.has("tasks")) return;
     for (auto& [task_name, task] : node.named_maps("tasks")) {
       PlannedTask& planned = tasks.emplace_back();
       Path path{"nodes", name, "tasks", task_name};
       planned.deadline = leave(task, path, "deadline", "10 s");
-      auto activation = task.map_if("activation");
-      planned.line = activation ? activation->line() : task.line();
-      if (!activation || activation->text_or("kind", "") != "time") continue;
+      YamlMap activation = task.map("activation");
+      planned.line = activation.line();
+      if (!activation.choice<bool>(
+              "kind", {{"time", true}, {"message", false}, {"sensor", false}, {"completion", false}, {"modes", false}}))
+        continue;
       path.emplace_back("activation");
-      planned.at.instant = leave_instant(*activation, path, "offset", kNone);
-      planned.at.repetition = leave(*activation, path, "repetition", planned.at.instant ? kOnce : longest_);
+      planned.at.instant = leave_instant(activation, path, "offset", kNone);
+      planned.at.repetition = leave(activation, path, "repetition", planned.at.instant ? kOnce : longest_);
     }
   }
 
   void sensors() {
     for (auto& [name, map] : root_.named_maps("sensors")) {
       LeftOut& left = found_.sensors.emplace_back();
-      if (map.text_or("measurement", "") != "scheduled") continue;
+      if (!map.choice<bool>("measurement", {{"free", false}, {"scheduled", true}, {"completion", false}})) continue;
       left.instant = leave_instant(map, {"sensors", name}, "offset", kNone);
       left.repetition = leave(map, {"sensors", name}, "repetition", left.instant ? kOnce : longest_);
     }

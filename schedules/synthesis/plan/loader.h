@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/strict_yaml.h"
 #include "schedules/synthesis/plan/plan.h"
 
 namespace ttf::schedules::synthesis::plan {
@@ -34,6 +35,9 @@ namespace ttf::schedules::synthesis::plan {
 Plan load_plan(const std::string& path);
 // The same from a text, which cannot extend a file.
 Plan parse_plan(std::string text, std::string name);
+
+// Asks a described file (StrictYaml::described()) for every key of a plan.
+void ask_for_keys(const StrictYaml& described);
 
 // Returns findings about the cluster of a plan with the files and lines that its values come from.
 std::vector<Finding> in_the_files(const Plan& plan, std::vector<Finding> findings);

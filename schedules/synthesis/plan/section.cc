@@ -29,8 +29,9 @@ void share_rates(Plan& plan) {
 
 void read_rates(YamlMap& section, Plan& plan) {
   if (!section.has("rates")) return;
+  auto rates = section.named_maps("rates");
   YamlMap places = section.map("rates");
-  for (auto& [name, map] : section.named_maps("rates")) {
+  for (auto& [name, map] : rates) {
     Rate rate;
     rate.line = map.line();
     rate.shortest = map.duration("shortest", kPeriods);

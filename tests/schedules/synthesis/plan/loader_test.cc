@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "schedules/file/loader.h"
 #include "tests/schedules/synthesis/plans.h"
 
 namespace ttf::schedules::synthesis::plan {
@@ -147,6 +148,18 @@ TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
       ASSERT_EQ(sender.tasks.size(), 1u);
       EXPECT_EQ(sender.tasks[0].writes[0].pdu, message.pdu);
     }
+}
+
+// Not one finding for each value that it leaves out.
+TEST(PlanLoader, InPlaceOfAClusterAPlanIsOneSentence) {
+  try {
+    (void)file::parse_cluster(plan_text("paper"), "plan.yaml");
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.findings().size(), 1u);
+    EXPECT_EQ(error.findings()[0].sentence(),
+              "plan.yaml:12: plan: is of a plan, not of a cluster; `ttfusion schedule synthesize` takes it");
+  }
 }
 
 // A list of one frame stands in its sender's key slot: a further sensor's host needs another one.

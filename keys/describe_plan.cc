@@ -1,0 +1,36 @@
+#include "keys/descriptions.h"
+
+namespace ttf::keys {
+namespace {
+
+constexpr Description kPlan[] = {
+    {"plan", "The program chooses what the file leaves out, with these demands (docs/synthesis.md)."},
+    {"plan.cycle", "The cycle has one of these lengths, instead of `gdCycle`."},
+    {"plan.cycle.shortest", "This is the shortest of the lengths.", "8.5 ms"},
+    {"plan.cycle.longest", "No length is above this.", "9 ms"},
+    {"plan.cycle.step", "The lengths are this far apart.", "5 us"},
+    {"plan.sensors", "The cluster has these further sensors, each with a device, a host, lists, a CAN and slots."},
+    {"plan.sensors.NAME.like", "The sensor is a copy of this one.", "laser"},
+    {"plan.sensors.NAME.kind", "The sensor is of this kind, with its steps and layouts; absent, of its original's.",
+     "radar"},
+    {"plan.sensors.NAME.raw", "The device's list has at most so many elements; absent, as its original.", "32"},
+    {"plan.sensors.NAME.objects", "The host's list has at most so many elements; absent, as its original.", "12"},
+    {"plan.sensors.NAME.preprocessing", "The host's task takes at most this time; absent, as its original.", "14 ms"},
+    {"plan.rates", "Sensors without `repetition` measure so often."},
+    {"plan.rates.NAME.shortest", "The sensor's period is at least this.", "34 ms"},
+    {"plan.rates.NAME.longest", "The sensor's period is at most this.", "40 ms"},
+    {"plan.chains", "Data goes along these chains; a sensor without one has a chain to the task that uses the image."},
+    {"plan.chains.NAME.from", "The chain begins with measurements of this sensor.", "laser"},
+    {"plan.chains.NAME.to", "The chain ends where this task begins, which time activates.", "feature.use"},
+    {"plan.chains.NAME.largest_age", "Measurements are at most this old at the chain's end; absent, of any age.",
+     "60 ms"},
+    {"plan.objective", "These are best, the most important first; absent, the worst age (docs/synthesis.md).",
+     "[data_age, worst_age, slots]"},
+    {"plan.in_order", "Lists are fused in the order of their measurements; otherwise they may wait for older ones."},
+};
+
+}  // namespace
+
+Descriptions plan_descriptions() { return kPlan; }
+
+}  // namespace ttf::keys
