@@ -147,7 +147,7 @@ std::vector<Finding> in_the_files(const Plan& plan, std::vector<Finding> finding
   return moved(plan.origins, std::move(findings));
 }
 
-// The values are made up, so that nothing of what is read has a meaning.
+// The values are made up, and have no meaning.
 void ask_for_keys(const StrictYaml& described) {
   Findings made_up;
   YamlMap root = described.root(made_up);

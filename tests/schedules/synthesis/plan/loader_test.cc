@@ -150,7 +150,7 @@ TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
     }
 }
 
-// Not one finding for each value that it leaves out.
+// The values that it leaves out are no findings.
 TEST(PlanLoader, InPlaceOfAClusterAPlanIsOneSentence) {
   try {
     (void)file::parse_cluster(plan_text("paper"), "plan.yaml");
