@@ -78,8 +78,10 @@ void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path&
   std::size_t next = 0;
   std::set<std::string> known;
   for (const std::string& name : names) {
-    const std::string text = shipped_in == "schedules" ? fuzz::shipped_cluster(name)
-                                                       : fuzz::shipped((shipped_in / (name + ".yaml")).string());
+    const bool may_extend = *shipped_in.begin() == "schedules";
+    const std::string text = may_extend
+                                 ? fuzz::shipped_cluster((shipped_in.lexically_relative("schedules") / name).string())
+                                 : fuzz::shipped((shipped_in / (name + ".yaml")).string());
     write(folder / (what + "_text") / name, text);
     write(folder / (what + "_edits") / name, name + "\n");
     for (const auto& [key, times] : keys_of(text)) {
@@ -507,6 +509,8 @@ int main(int argc, char** argv) {
   yaml_seeds(folder, "cluster", "schedules",
              {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo",
               "paper_free_flexray"});
+  yaml_seeds(folder, "plan", "schedules/plans",
+             {"paper_laser", "paper", "paper_short_scans", "paper_sixty_cycles", "paper_two_lasers_radar"});
   yaml_seeds(folder, "scenario", "scenarios",
              {"paper_scenario1", "paper_scenario2", "laser_radar_recorded", "faulty_bus", "cold_start"});
   fibex_seeds(folder);
