@@ -49,6 +49,12 @@ struct PduLayout {
   int max_fragments() const { return fragments_of(max_elements); }
 };
 
+// Returns how many elements of so many bits fit into a fragment behind its header; at least 1, which may not fit.
+constexpr int most_elements(int fragment_bytes, int header_bits, int element_bits) {
+  const int room = 8 * fragment_bytes - header_bits;
+  return element_bits > 0 && room > element_bits ? room / element_bits : 1;
+}
+
 // Returns the index of a signal in a header or element, or nullopt.
 std::optional<std::size_t> find_signal(const std::vector<Signal>& signals, std::string_view name);
 

@@ -24,6 +24,8 @@ constexpr std::size_t kMostSensors = 2, kMostChains = 4, kMostLists = 6, kMostCh
 // Leaves out most choices. Returns whether the rest is small.
 bool narrowed(Plan& plan) {
   plan.cycle.longest = std::min(plan.cycle.longest, plan.cycle.shortest + plan.cycle.step);
+  if (plan.payload)
+    plan.payload->longest = std::min(plan.payload->longest, plan.payload->shortest + plan.payload->step);
   for (synthesis::plan::PlannedSensor& sensor : plan.sensors)
     if (sensor.rate) sensor.rate->longest = std::min(sensor.rate->longest, sensor.rate->shortest * 2);
   return plan.sensors.size() <= kMostSensors && plan.chains.size() <= kMostChains && plan.lists.size() <= kMostLists &&

@@ -509,8 +509,9 @@ int main(int argc, char** argv) {
   yaml_seeds(folder, "cluster", "schedules",
              {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo",
               "paper_free_flexray"});
-  yaml_seeds(folder, "plan", "schedules/plans",
-             {"paper_laser", "paper", "paper_short_scans", "paper_sixty_cycles", "paper_two_lasers_radar"});
+  yaml_seeds(
+      folder, "plan", "schedules/plans",
+      {"paper_laser", "paper", "paper_payload", "paper_short_scans", "paper_sixty_cycles", "paper_two_lasers_radar"});
   yaml_seeds(folder, "scenario", "scenarios",
              {"paper_scenario1", "paper_scenario2", "laser_radar_recorded", "faulty_bus", "cold_start"});
   fibex_seeds(folder);

@@ -8,6 +8,7 @@
 
 #include "core/decimal.h"
 #include "schedules/analysis/parameter_bounds.h"
+#include "schedules/model/limits.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::explanation {
@@ -31,6 +32,7 @@ class Collector {
     modes();
     slots();
     lengths();
+    payload();
     rates();
     standing();
     ages();
@@ -121,6 +123,19 @@ class Collector {
           plan.cycle.shortest = Duration::milliseconds(1);
           plan.cycle.longest = Duration::milliseconds(16);
           plan.cycle.step = std::max(plan.cycle.step, Duration::microseconds(100));
+          if (!plan.payload) return;
+          const int range = plan.payload->longest - plan.payload->shortest;
+          plan.payload->step = std::max(plan.payload->step, range / 6 * 2);  // four payloads
+        });
+  }
+
+  void payload() {
+    if (!plan_.payload) return;
+    say(fmt::format("plan.payload: {} to {} bytes", plan_.payload->shortest, plan_.payload->longest),
+        plan_.payload->line, [](Plan& plan) {
+          plan.payload->shortest = 2;
+          plan.payload->longest = model::kMostFragmentBytes;
+          plan.payload->step = 42;  // seven payloads
         });
   }
 

@@ -6,6 +6,7 @@
 #include "schedules/analysis/parameter_bounds.h"
 #include "schedules/analysis/responses.h"
 #include "schedules/analysis/sensor_loop.h"
+#include "schedules/model/limits.h"
 #include "schedules/model/repetitions.h"
 #include "schedules/synthesis/plan/ways.h"
 
@@ -21,6 +22,37 @@ using plan::TaskId;
 namespace {
 
 constexpr int kCorrectionRoom = 100;  // macroticks behind gOffsetCorrectionStart
+
+// A list of the layout is told apart by its header, and is no longer than records can number.
+bool is_numbered(const model::PduLayout& layout, const model::PduLayout& with_signals) {
+  const auto found = find_signal(with_signals.header, "fragment");
+  return found && layout.max_fragments() <= model::kMostFragments &&
+         layout.max_fragments() <= std::int64_t{1} << with_signals.header[*found].bits;
+}
+
+// Sets the payload of static slots, their length and the free layouts. Returns false if something does not fit.
+bool set_payload(const Plan& plan, int bytes, Timed& timed) {
+  model::Cluster& cluster = timed.cluster;
+  cluster.flexray.gPayloadLengthStatic = bytes / 2;
+  const auto shortest = analysis::shortest_static_slot(cluster.flexray);
+  if (plan.parameters.slot_length)
+    cluster.flexray.gdStaticSlot = static_cast<int>(std::min<std::int64_t>(shortest, 661));
+  if (cluster.flexray.gdStaticSlot < shortest) return false;
+  for (std::size_t p = 0; p < cluster.pdus.size(); ++p) {
+    model::PduLayout& layout = cluster.pdus[p];
+    if (!plan.free_layouts[p]) continue;
+    layout.fragment_bytes = bytes;
+    layout.elements_per_fragment = model::most_elements(bytes, layout.header_bits, layout.element_bits);
+    if (layout.header_bits + layout.elements_per_fragment * layout.element_bits > 8 * bytes) return false;
+    if (!is_numbered(layout, plan.unchanging->pdus[p])) return false;
+  }
+  const auto fits = [&](PduId pdu, int before) { return before + cluster.pdu(pdu).fragment_bytes <= bytes; };
+  return std::all_of(timed.lists.begin(), timed.lists.end(), [&](const auto& list) { return fits(list.pdu, 0); }) &&
+         std::all_of(cluster.frames.begin(), cluster.frames.end(), [&](const model::FrameSlot& frame) {
+           return frame.pdu == kNoPdu || is_dynamic(cluster.flexray, frame) ||
+                  fits(frame.pdu, preamble_bytes(cluster.flexray, frame));
+         });
+}
 
 // Sets FlexRay's parameters. Returns false if one leaves its range.
 bool set_parameters(const Plan& plan, Duration cycle, model::Cluster& cluster) {
@@ -164,12 +196,21 @@ std::vector<int> repetitions(const Plan& plan, std::size_t sensor, Duration cycl
   return found;
 }
 
+std::vector<int> payloads(const Plan& plan) {
+  if (!plan.payload) return {0};
+  std::vector<int> found;
+  for (int bytes = plan.payload->shortest; bytes <= plan.payload->longest; bytes += plan.payload->step)
+    found.push_back(bytes);
+  return found;
+}
+
 }  // namespace
 
 std::vector<Candidate> candidates(const Plan& plan) {
   std::vector<Candidate> found;
   for (Duration cycle = plan.cycle.shortest; cycle <= plan.cycle.longest; cycle += plan.cycle.step) {
-    std::vector<Candidate> of_length{{cycle, {}}};
+    std::vector<Candidate> of_length;
+    for (const int payload : payloads(plan)) of_length.push_back({cycle, {}, payload});
     for (std::size_t s = 0; s < plan.sensors.size(); ++s) {
       std::vector<Candidate> longer;
       for (const Candidate& one : of_length)
@@ -188,6 +229,7 @@ std::vector<Candidate> candidates(const Plan& plan) {
 
 std::optional<Timed> timed(const Plan& plan, const Candidate& candidate) {
   Timed made{plan.cluster, plan.lists};
+  if (candidate.payload > 0 && !set_payload(plan, candidate.payload, made)) return std::nullopt;
   if (!set_parameters(plan, candidate.cycle, made.cluster)) return std::nullopt;
   set_controllers(plan, made.cluster);
   for (std::size_t s = 0; s < plan.sensors.size(); ++s) {

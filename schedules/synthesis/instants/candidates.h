@@ -1,8 +1,9 @@
-// The choices of a plan that are no instants: the length of the cycle, and how often each sensor measures. Each makes a
-// candidate, and all other periods follow.
+// The choices of a plan that are no instants: the length of the cycle, the payload of static slots, and how often each sensor
+// measures. Each makes a candidate, and all other periods follow.
 //
 //   A task has the shortest repetition of the lists that it reads; without lists, that of the tasks of its node that fuse.
 //   A list has its writer's.
+//   A fragment whose layout is left out has the payload's length, and as many elements as it holds.
 //
 // FlexRay's parameters that the plan leaves out follow from the length of the cycle (annex B, 2.1 Rev. A):
 //   gMacroPerCycle = gdCycle / gdMacrotick; gdNIT and gNumberOfStaticSlots by constraint 18, with as many slots as fit beside
@@ -24,9 +25,10 @@ inline constexpr std::size_t kMostCandidates = 20'000;
 struct Candidate {
   Duration cycle{};
   std::vector<int> repetitions;  // by sensor; that of the file where it says one
+  int payload = 0;               // bytes; 0: that of the file
 };
 
-// Returns all candidates within the plan's lengths and rates, short cycles first; at most kMostCandidates + 1.
+// Returns all candidates within the plan's lengths, payloads and rates, short cycles first, then short payloads; at most kMostCandidates + 1.
 std::vector<Candidate> candidates(const plan::Plan& plan);
 
 // A plan whose periods and parameters are chosen. Instants are still left out.

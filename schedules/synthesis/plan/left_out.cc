@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/decimal.h"
+#include "schedules/model/limits.h"
 #include "schedules/model/repetitions.h"
 
 namespace ttf::schedules::synthesis::plan {
@@ -19,13 +20,14 @@ constexpr const char* kOnce = "1";
 
 class Filler {
  public:
-  Filler(StrictYaml& file, Duration longest_cycle, Findings& findings)
-      : file_(file), root_(file.root(none_)), longest_cycle_(longest_cycle), findings_(findings) {}
+  Filler(StrictYaml& file, Duration longest_cycle, const std::optional<PayloadLengths>& payload, Findings& findings)
+      : file_(file), root_(file.root(none_)), longest_cycle_(longest_cycle), payload_(payload), findings_(findings) {}
 
   LeftOutValues fill() {
     flexray();
     nodes();
     sensors();
+    pdus();
     frames();
     cans();
     // All is asked before anything is put: aliases share their mapping.
@@ -64,6 +66,10 @@ class Filler {
                                                  : map.scaled("gdCycle", 1'000'000, {10'000'000, 16'000'000'000}, "us");
       const std::int64_t macrotick_ps = map.scaled("gdMacrotick", 1'000'000, {1'000'000, 6'000'000}, "us");
       leave(map, path, "gMacroPerCycle", fmt::format("{}", cycle_ps / macrotick_ps));
+    }
+    if (payload_) {
+      leave(map, path, "gPayloadLengthStatic", fmt::format("{}", payload_->longest / 2));
+      found_.parameters.slot_length = !map.has("gdStaticSlot");  // the loader derives it
     }
     found_.parameters.static_slots = leave(map, path, "gNumberOfStaticSlots", "1023");
     found_.parameters.idle_time = leave(map, path, "gdNIT", "2");
@@ -122,6 +128,35 @@ class Filler {
     }
   }
 
+  void pdus() {
+    for (auto& [name, map] : root_.named_maps("pdus")) {
+      const Path path{"pdus", name};
+      const bool bytes = payload_ && leave(map, path, "fragment_bytes", fmt::format("{}", payload_->longest));
+      const bool elements = payload_ && !map.has("elements_per_fragment");
+      if (elements) {
+        const auto room =
+            bytes ? payload_->longest : map.integer("fragment_bytes", {1, model::kMostFragmentBytes}, "bytes");
+        leave(map, path, "elements_per_fragment", fmt::format("{}", most_elements(map, static_cast<int>(room))));
+      }
+      found_.layouts.push_back(bytes && elements);
+      if (bytes != elements)
+        findings_.add({map.file(), map.line(),
+                       fmt::format("{}.{}", map.path(), bytes ? "fragment_bytes" : "elements_per_fragment"), "",
+                       "is missing: a plan leaves out both fragment_bytes and elements_per_fragment, or none of them"});
+    }
+  }
+
+  // So many elements fit behind the header.
+  static int most_elements(YamlMap& pdu, int bytes) {
+    const auto bits = [&](const char* key) {
+      int sum = 0;
+      for (YamlMap& signal : pdu.maps(key))
+        sum += static_cast<int>(signal.integer("bits", {1, model::kMostSignalBits}));
+      return sum;
+    };
+    return model::most_elements(bytes, (bits("header") + 7) / 8 * 8, bits("element"));
+  }
+
   void frames() {
     const auto entries = root_.maps("frames");
     for (std::size_t i = 0; i < entries.size(); ++i) frame(entries[i], {"frames", fmt::format("{}", i)});
@@ -159,6 +194,7 @@ class Filler {
   Findings none_;  // the loader of cluster files reports them
   YamlMap root_;
   Duration longest_cycle_;
+  const std::optional<PayloadLengths>& payload_;
   Findings& findings_;
   std::vector<std::pair<Path, std::string>> values_;
   std::string longest_ = "64", longest_of_frames_ = "64";  // repetitions
@@ -167,8 +203,9 @@ class Filler {
 
 }  // namespace
 
-LeftOutValues fill_in(StrictYaml& file, Duration longest_cycle, Findings& findings) {
-  return Filler(file, longest_cycle, findings).fill();
+LeftOutValues fill_in(StrictYaml& file, Duration longest_cycle, const std::optional<PayloadLengths>& payload,
+                      Findings& findings) {
+  return Filler(file, longest_cycle, payload, findings).fill();
 }
 
 }  // namespace ttf::schedules::synthesis::plan

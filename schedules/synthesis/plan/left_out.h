@@ -2,6 +2,7 @@
 // (schedules/file/loader.h) reads the rest.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/errors.h"
@@ -21,9 +22,11 @@ struct LeftOutValues {
   std::vector<LeftOut> sensors;
   std::vector<Frame> frames;  // by entry
   std::vector<std::vector<bool>> shortest_periods;
+  std::vector<bool> layouts;  // by PDU
 };
 
-// `longest_cycle` stands for a cycle that is left out. A value that is left out by half is a finding.
-LeftOutValues fill_in(StrictYaml& file, Duration longest_cycle, Findings& findings);
+// `longest_cycle` stands for a cycle that is left out, and the longest payload for one that is. A value that is left out by half is a finding.
+LeftOutValues fill_in(StrictYaml& file, Duration longest_cycle, const std::optional<PayloadLengths>& payload,
+                      Findings& findings);
 
 }  // namespace ttf::schedules::synthesis::plan

@@ -134,6 +134,7 @@ class Copier {
       made.sensor = sensor;
       made.line = wanted_.line;
       if (const auto& most = raw ? wanted_.raw : wanted_.objects) made.max_elements = *most;
+      plan_.free_layouts.push_back(plan_.free_layouts[p] && !(wanted_.kind && known_kind(*wanted_.kind)));
       new_pdus_[p] = static_cast<PduId>(cluster_.pdus.size());
       cluster_.pdus.push_back(std::move(made));
     }

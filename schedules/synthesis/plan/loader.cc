@@ -79,6 +79,36 @@ CycleLengths lengths_of(const StrictYaml& file, const std::optional<CycleLengths
   return {one, one, one, known.line("gdCycle")};
 }
 
+// A plan says the payload, or has the lengths to choose from.
+void refuse_payloads(const StrictYaml& file, const std::optional<PayloadLengths>& free, Findings& findings) {
+  Findings none;
+  YamlMap root = file.root(none);
+  const auto flexray = root.map_if("flexray");
+  if (free && flexray && flexray->has("gPayloadLengthStatic"))
+    findings.add({file.name(), flexray->line("gPayloadLengthStatic"), "flexray.gPayloadLengthStatic", "",
+                  fmt::format("must be left out: plan.payload (line {}) has the lengths to choose from", free->line)});
+}
+
+// The payload of static slots says how many elements are in a fragment, where nothing else does.
+void refuse_layouts(const Plan& plan, Findings& findings) {
+  for (std::size_t p = 0; p < plan.free_layouts.size(); ++p) {
+    if (!plan.free_layouts[p]) continue;
+    const auto pdu = static_cast<PduId>(p);
+    const model::PduLayout& layout = plan.cluster.pdu(pdu);
+    const bool planned =
+        std::any_of(plan.lists.begin(), plan.lists.end(), [&](const PlannedList& list) { return list.pdu == pdu; });
+    const bool on_a_can =
+        std::any_of(plan.cluster.can_buses.begin(), plan.cluster.can_buses.end(), [&](const auto& bus) {
+          return std::any_of(bus.messages.begin(), bus.messages.end(), [&](const auto& one) { return one.pdu == pdu; });
+        });
+    if (!planned || on_a_can)
+      findings.add(
+          {plan.cluster.file, layout.line, fmt::format("pdus.{}.fragment_bytes", layout.name), "",
+           "must be said: the payload of static slots stands for it only where a plan chooses the list's slots, "
+           "and no CAN carries it"});
+  }
+}
+
 // Candidates copy the cluster: what they have in common is kept once.
 void set_aside(Plan& plan) {
   auto kept = std::make_shared<Unchanging>();
@@ -100,8 +130,10 @@ Plan read(StrictYaml file, TextOrigins origins) {
   Plan plan;
   const auto free = read_cycle(section);
   plan.free_cycle = free.has_value();
+  plan.payload = read_payload(section);
+  refuse_payloads(file, plan.payload, findings);
   plan.cycle = lengths_of(file, free, findings);
-  LeftOutValues left = fill_in(file, plan.cycle.longest, findings);
+  LeftOutValues left = fill_in(file, plan.cycle.longest, plan.payload, findings);
   file.take("plan");
   try {
     plan.cluster = file::read_cluster(file);
@@ -112,9 +144,11 @@ Plan read(StrictYaml file, TextOrigins origins) {
   plan.parameters = std::move(left.parameters);
   plan.tasks = std::move(left.tasks);
   plan.shortest_periods = std::move(left.shortest_periods);
+  plan.free_layouts = std::move(left.layouts);
   for (const LeftOut& at : left.sensors) plan.sensors.push_back({at, std::nullopt, std::nullopt});
   take_lists(plan, left.frames);
   use_key_slots(plan);
+  refuse_layouts(plan, findings);
   plan.origins = std::move(origins);
   read_section(section, plan);
   findings.throw_if_any();
@@ -154,7 +188,8 @@ void ask_for_keys(const StrictYaml& described) {
   YamlMap section = root.map("plan");
   (void)read_cycle(section);
   StrictYaml filled = described;
-  (void)fill_in(filled, Duration::milliseconds(5), made_up);
+  const auto payload = read_payload(section);
+  (void)fill_in(filled, Duration::milliseconds(5), payload, made_up);
   try {
     (void)file::read_cluster(filled);
   } catch (const InputError&) {

@@ -1,6 +1,8 @@
 // Reads a plan: the keys of a cluster file (schedules/file/loader.h), of which these may be left out, and `plan`.
 //
-//   flexray           gdCycle and gMacroPerCycle with plan.cycle; gNumberOfStaticSlots, gdNIT, gOffsetCorrectionStart
+//   flexray           gdCycle and gMacroPerCycle with plan.cycle; gNumberOfStaticSlots, gdNIT, gOffsetCorrectionStart;
+//                     gPayloadLengthStatic and gdStaticSlot with plan.payload
+//   pdus              with plan.payload: fragment_bytes and elements_per_fragment of a list whose slots are left out
 //   node_parameters   pMicroPerCycle, pRateCorrectionOut, pdListenTimeout, also in a node's own
 //   sensors           base_cycle and offset of a scheduled one; its repetition with plan.rates
 //   activation        base_cycle and offset of kind time; repetition
@@ -12,6 +14,7 @@
 //
 //   plan:
 //     cycle: {shortest: 5 ms, longest: 10 ms, step: 100 us}     lengths to choose from; instead of gdCycle
+//     payload: {shortest: 32, longest: 96, step: 2}             of a static slot, in bytes; instead of gPayloadLengthStatic
 //     rates: {SENSOR: {shortest: 34 ms, longest: 40 ms}}        allowed periods
 //     sensors: {NAME: {like: SENSOR, ...}}                      further sensors (schedules/synthesis/plan/likeness.h)
 //     chains: {NAME: {from: SENSOR, to: NODE.TASK, largest_age: 60 ms}}   all sensors to their use, if absent

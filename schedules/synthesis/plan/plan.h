@@ -82,9 +82,16 @@ struct CycleLengths {
   int line = 0;
 };
 
+// Possible payloads of the static slots [bytes]: shortest, shortest + step, ..., at most longest; all even.
+struct PayloadLengths {
+  int shortest = 0, longest = 0, step = 2;
+  int line = 0;
+};
+
 // FlexRay's parameters that follow from the length of the cycle, where the plan leaves them out.
 struct LeftOutParameters {
   bool static_slots = false, idle_time = false, correction_start = false;
+  bool slot_length = false;  // with a free payload: the shortest that holds it
   struct Controller {
     bool microticks = false, rate = false, listen = false;
   };
@@ -102,6 +109,8 @@ struct Plan {
   std::shared_ptr<const Unchanging> unchanging;
   CycleLengths cycle;  // one length, if the plan says gdCycle
   bool free_cycle = false;
+  std::optional<PayloadLengths> payload;  // none: the plan says gPayloadLengthStatic
+  std::vector<bool> free_layouts;         // by PDU: a fragment has as many elements as the payload holds
   LeftOutParameters parameters;
   std::vector<std::vector<PlannedTask>> tasks;      // by node and task
   std::vector<PlannedSensor> sensors;               // by sensor

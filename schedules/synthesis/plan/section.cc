@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "schedules/model/limits.h"
 #include "schedules/synthesis/plan/demands.h"
 #include "schedules/synthesis/plan/likeness.h"
 #include "schedules/synthesis/plan/ways.h"
@@ -135,6 +136,22 @@ std::optional<CycleLengths> read_cycle(YamlMap& section) {
   lengths.step = map->duration("step", {Duration::microseconds(1), kCycles.high});
   if ((lengths.longest - lengths.shortest).ns / lengths.step.ns >= kMostLengths)
     map->fail("step", fmt::format("must make at most {} lengths of the cycle", kMostLengths));
+  map->finish();
+  return lengths;
+}
+
+std::optional<PayloadLengths> read_payload(YamlMap& section) {
+  auto map = section.map_if("payload");
+  if (!map) return std::nullopt;
+  PayloadLengths lengths;
+  lengths.line = map->line();
+  const auto even = [&](const char* key, std::int64_t bytes) {
+    if (bytes % 2 != 0) map->fail(key, "must be even: a payload is of words of two bytes");
+    return static_cast<int>(bytes);
+  };
+  lengths.shortest = even("shortest", map->integer("shortest", {2, model::kMostFragmentBytes}, "bytes"));
+  lengths.longest = even("longest", map->integer("longest", {lengths.shortest, model::kMostFragmentBytes}, "bytes"));
+  lengths.step = even("step", map->integer_or("step", 2, {2, model::kMostFragmentBytes}, "bytes"));
   map->finish();
   return lengths;
 }

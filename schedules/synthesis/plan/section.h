@@ -9,6 +9,9 @@ namespace ttf::schedules::synthesis::plan {
 // Reads plan.cycle, if it is there.
 std::optional<CycleLengths> read_cycle(YamlMap& section);
 
+// The same for plan.payload.
+std::optional<PayloadLengths> read_payload(YamlMap& section);
+
 // Reads the other keys into a plan whose cluster is complete. Adds findings.
 void read_section(YamlMap& section, Plan& plan);
 

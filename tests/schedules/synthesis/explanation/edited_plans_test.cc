@@ -79,7 +79,6 @@ TEST(Explain, APlanWithOneValueChangedIsSolvedExplainedOrRefused) {
   EXPECT_GT(fates[Fate::kSolved], 100);
   EXPECT_GE(fates[Fate::kExplained], 3);
   EXPECT_GT(fates[Fate::kRefused], 200);
-              fates[Fate::kRefused]);
 }
 
 }  // namespace

@@ -1,13 +1,17 @@
 #include "schedules/synthesis/instants/synthesize.h"
 #include "schedules/synthesis/instants/measured.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "schedules/analysis/ages.h"
+#include "schedules/analysis/parameter_bounds.h"
 #include "schedules/check/checker.h"
 #include "schedules/check/real_time_rules.h"
 #include "schedules/exchange/cluster_yaml.h"
+#include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
 #include "schedules/synthesis/instants/candidates.h"
 #include "tests/schedules/cluster_file.h"
@@ -57,6 +61,35 @@ TEST(SynthesizePaper, ARoundOfSixtyCyclesHasOtherPeriods) {
   EXPECT_LT(made.reached[2].value, four.reached[2].value) << "slots";
   const model::Cluster again = file::parse_cluster(exchange::cluster_yaml(made.cluster, ""), "made.yaml");
   EXPECT_EQ(worst_use_ms(again), worst_use_ms(made.cluster));
+}
+
+// With a free payload, a fragment has as many elements as fit, and the slot is as short as may be. Each payload alone is no better.
+TEST(SynthesizePayload, TheBestOneIsNoWorseThanAnyAlone) {
+  std::string text = file::inherited(plan_path("paper_payload")).text;
+  text = changed(changed(text, "shortest: 8.5 ms", "shortest: 8.6 ms"), "longest: 9 ms", "longest: 8.6 ms");
+  text = changed(text, "objective: \\[[^\\]]*\\]", "objective: [worst_age]");
+  const auto with = [&](int shortest, int longest) {
+    const std::string payload = fmt::format("payload: {{shortest: {}, longest: {}, step: 4}}", shortest, longest);
+    return synthesize(plan::parse_plan(changed(text, "payload: \\{[^}]*\\}", payload), "plan.yaml"));
+  };
+  const Synthesis best = with(24, 120);
+  ASSERT_TRUE(best.found && best.reached[0].proven);
+  int solved = 0;
+  for (int bytes = 32; bytes <= 120; bytes += 4) {
+    const Synthesis alone = with(bytes, bytes);
+    if (!alone.found) continue;
+    ++solved;
+    EXPECT_GE(alone.reached[0].value, best.reached[0].value) << bytes << " bytes";
+    const model::GlobalParameters& g = alone.cluster.flexray;
+    EXPECT_EQ(g.gPayloadLengthStatic, bytes / 2);
+    EXPECT_EQ(g.gdStaticSlot, analysis::shortest_static_slot(g));
+    const model::PduLayout& image = alone.cluster.pdu(*alone.cluster.find_pdu("image"));
+    EXPECT_EQ(image.elements_per_fragment, (bytes - 8) * 8 / 192) << "a header of 8 bytes, objects of 24";
+    EXPECT_TRUE(check::check(file::parse_cluster(exchange::cluster_yaml(alone.cluster, ""), "made.yaml")).empty());
+  }
+  EXPECT_GT(solved, 15);
+  // An object of the image takes 24 bytes behind a header of 8: it fits no payload below 32.
+  EXPECT_THROW((void)with(24, 30), InputError);
 }
 
 // A wide range of periods has all repetitions that divide the round, and sensors of different ones.

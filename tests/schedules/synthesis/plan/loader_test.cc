@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
 #include "tests/schedules/synthesis/plans.h"
 
@@ -148,6 +149,33 @@ TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
       ASSERT_EQ(sender.tasks.size(), 1u);
       EXPECT_EQ(sender.tasks[0].writes[0].pdu, message.pdu);
     }
+}
+
+// Every mistake about a free payload is one sentence, too.
+TEST(PlanLoader, NamesMistakesAboutAFreePayload) {
+  const std::string original = file::inherited(plan_path("paper_payload")).text;
+  EXPECT_TRUE(plan_findings(original).empty());
+  const std::string layout = "(camera_objects:\n +sensor: camera\n)";
+  const Mistake mistakes[] = {
+      {"payload twice", "  gdMacrotick: 1", "  gPayloadLengthStatic: 28\n  gdMacrotick: 1",
+       "flexray.gPayloadLengthStatic", "must be left out"},
+      {"odd", "payload: \\{shortest: 24", "payload: {shortest: 25", "plan.payload.shortest", "must be even"},
+      {"backwards", "shortest: 24, longest: 120", "shortest: 40, longest: 30", "plan.payload.longest", "40..254 bytes"},
+      {"none at all", "shortest: 24, longest: 120", "shortest: 0, longest: 120", "plan.payload.shortest",
+       "2..254 bytes"},
+      {"half a layout", layout.c_str(), "$1    fragment_bytes: 56\n", "pdus.camera_objects.elements_per_fragment",
+       "leaves out both"},
+      {"layout of a CAN", "    fragment_bytes: 8\n    max_elements: 40\n    elements_per_fragment: 1\n",
+       "    max_elements: 40\n", "pdus.camera_frame.fragment_bytes", "must be said"},
+  };
+  for (const Mistake& one : mistakes) {
+    SCOPED_TRACE(one.name);
+    const auto findings = plan_findings(changed(original, one.pattern, one.replacement));
+    ASSERT_EQ(findings.size(), 1u) << findings.size();
+    EXPECT_EQ(findings[0].key, one.key);
+    EXPECT_NE(findings[0].sentence().find(one.words), std::string::npos) << findings[0].sentence();
+    EXPECT_GT(findings[0].line, 0);
+  }
 }
 
 // The values that it leaves out are no findings.
