@@ -48,6 +48,7 @@ struct ScheduleOptions {
   std::string scenario;
   bool json = false;
   bool task_set = false;
+  bool explicit_values = false;
   PaperSizeOptions paper;
   CaptureArguments capture;
   MediumArguments medium;
@@ -226,7 +227,32 @@ int check(const ScheduleOptions& options) {
   return 0;
 }
 
+void write_text(const std::string& text, const std::string& path) {
+  if (path.empty()) {
+    fmt::print("{}", text);
+    return;
+  }
+  write_file(path, text);
+  say_written(path);
+}
+
+// Writes the whole cluster file, with what it inherits and derives.
+void write_whole(const ScheduleOptions& options) {
+  const std::string name = std::filesystem::path(options.file).filename().string();
+  write_text(schedules::exchange::cluster_yaml(consistent_cluster(options.file),
+                                               fmt::format("{} with all that it inherits and derives.", name)),
+             options.out);
+}
+
 int show(const ScheduleOptions& options) {
+  if (options.explicit_values) {
+    if (!is_cluster_file(options.file))
+      throw InputError({"command line", 0, "--explicit", options.file, "goes with a cluster file only"});
+    if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
+    refuse_other_format(options.out, "yaml", {{"yaml", {".yaml", ".yml"}}});
+    write_whole(options);
+    return 0;
+  }
   if (!options.out.empty()) report::drawing::check_picture_path(options.out);
   const report::drawing::Sheet sheet = sheet_of(options.paper);
   if (options.paper.width && options.out.empty())
@@ -239,15 +265,6 @@ int show(const ScheduleOptions& options) {
   report::drawing::write_picture(report::plots::schedule_svg(cluster, sheet), options.out);
   say_written(options.out);
   return 0;
-}
-
-void write_text(const std::string& text, const std::string& path) {
-  if (path.empty()) {
-    fmt::print("{}", text);
-    return;
-  }
-  write_file(path, text);
-  say_written(path);
 }
 
 int export_cluster(const ScheduleOptions& options) {
@@ -268,10 +285,7 @@ int export_cluster(const ScheduleOptions& options) {
     return 0;
   }
   if (is_cluster_file(options.file)) {
-    const std::string name = std::filesystem::path(options.file).filename().string();
-    write_text(schedules::exchange::cluster_yaml(consistent_cluster(options.file),
-                                                 fmt::format("{} with all that it inherits and derives.", name)),
-               options.out);
+    write_whole(options);
     return 0;
   }
   const schedules::exchange::fibex::FibexImport import = fibex_input(options.file);
@@ -339,9 +353,14 @@ void add_schedule(CLI::App& app, Action& action) {
     };
   });
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
-  showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
+  showing->footer(
+      "Examples: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg\n"
+      "          ttfusion schedule show paper_fitted --explicit -o whole.yaml");
   showing->add_option("file", options->file, "Cluster file or FIBEX file, or a shipped cluster's name")->required();
-  showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->check(named());
+  showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf; with --explicit a .yaml")
+      ->check(named());
+  showing->add_flag("--explicit", options->explicit_values,
+                    "In place of the drawing a whole cluster file: all that this one inherits and derives");
   add_paper_size(*showing, options->paper);
   call_on_file(*showing, options, action, show);
   CLI::App* exporting =

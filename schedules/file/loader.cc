@@ -14,6 +14,7 @@
 #include "schedules/file/inherit.h"
 #include "schedules/file/load_modes.h"
 #include "schedules/file/parameter_table.h"
+#include "schedules/file/shortest_periods.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/repetitions.h"
 #include "schedules/model/round.h"
@@ -273,7 +274,8 @@ class Loader {
       message.pdu = pdu(entry, "pdu");
       message.identifier = static_cast<std::uint32_t>(entry.integer("identifier", {0, 2047}));
       message.sender = node(entry, "sender");
-      message.shortest_period = entry.duration("shortest_period", {Duration::microseconds(100), kLongest});
+      if (entry.has("shortest_period"))  // else zero until all senders are known
+        message.shortest_period = entry.duration("shortest_period", {Duration::microseconds(100), kLongest});
       entry.finish();
       bus.messages.push_back(message);
     }
@@ -431,6 +433,13 @@ model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) 
   for (const Finding& finding : met.list())
     if (known.insert({finding.line, finding.sentence()}).second)
       findings.add(cluster.finding(finding.line, finding.key, finding.value, finding.expected));
+  findings.throw_if_any();
+  derive_shortest_periods(cluster);
+  for (const model::CanBus& bus : cluster.can_buses)
+    for (std::size_t m = 0; m < bus.messages.size(); ++m)
+      if (bus.messages[m].shortest_period == Duration{})
+        findings.add(cluster.finding(bus.messages[m].line, fmt::format("can.{}.messages[{}].shortest_period", bus.name, m), "",
+                                     "must be in the file: the tasks of its sender do not bound the time between two lists"));
   findings.throw_if_any();
   return cluster;
 }

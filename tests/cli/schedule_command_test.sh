@@ -187,5 +187,12 @@ expect 2 '--can-errors = 10: must be the least time between two errors with its 
   schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10
 expect 2 'must not be given with' schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10ms --medium can-fd:1M/5M
 
+# The whole file, on standard output and as a file, is what the export writes.
+"$program" schedule export paper_fitted --format yaml >"$work/exported.yaml" || fail "a cluster file is not exported"
+"$program" schedule show paper_fitted --explicit >"$work/shown.yaml" || fail "show --explicit fails"
+cmp -s "$work/exported.yaml" "$work/shown.yaml" || fail "show --explicit shows another cluster than the export"
+expect 0 'wrote' schedule show paper_fitted --explicit -o "$work/whole.yaml"
+expect 2 'whole.svg' schedule show paper_fitted --explicit -o "$work/whole.svg"
+
 [[ $failures -eq 0 ]] && echo "schedule command: all as documented"
 exit $((failures > 0))
