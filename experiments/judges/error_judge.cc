@@ -29,7 +29,8 @@ ErrorJudge::ErrorJudge(const Plan& plan) {
   over_time_ = plan.error->over_time;
   densities_ = plan.error->process_noises;
   for (const PlannedChain& chain : plan.chains) {
-    const double sigma = plan.error->sigmas_m[index_of(chain.from)].value();
+    // Odometry has none, and is not met.
+    const double sigma = plan.error->sigmas_m[index_of(chain.from)].value_or(1.0);
     variances_.push_back(sigma * sigma);
   }
 }

@@ -14,6 +14,11 @@ namespace {
 constexpr Range<double> kDensities{1e-6, 1e6};
 constexpr Range<double> kSigmas{1e-4, 1e3};  // [m]
 
+// Odometry measures its own vehicle.
+bool observes(const Plan& plan, const PlannedChain& chain) {
+  return plan.cluster.sensor(chain.from).kind != model::SensorKind::kOdometry;
+}
+
 std::vector<double> read_densities(YamlMap& map) {
   if (!map.has("process_noises")) return {map.number("process_noise", kDensities)};
   if (map.has("process_noise")) map.fail("process_noise", "must be left out: process_noises has the densities");
@@ -44,7 +49,7 @@ void read_sigmas(YamlMap& map, const Plan& plan, ErrorDemand& demand) {
       demand.sigmas_m[s] = demand.sigmas_m[index_of(like)];
   }
   for (const PlannedChain& chain : plan.chains)
-    if (!demand.sigmas_m[index_of(chain.from)]) {
+    if (observes(plan, chain) && !demand.sigmas_m[index_of(chain.from)]) {
       const std::string& name = plan.cluster.sensor(chain.from).name;
       sigmas.fail(name, fmt::format("is missing: {} begins the chain {}", name, chain.name));
     }
@@ -81,9 +86,15 @@ void read_gap_error(YamlMap& map, GapErrorDemand& demand) {
 void read_demands(YamlMap& section, Plan& plan) {
   if (auto map = section.map_if("error")) read_error(*map, plan);
   if (auto map = section.map_if("gap_error")) read_gap_error(*map, plan.gap_error);
-  const bool asked = std::find(plan.objective.begin(), plan.objective.end(), Goal::kError) != plan.objective.end();
-  if (asked && !section.has("error"))
+  const auto asked = [&](Goal goal) {
+    return std::find(plan.objective.begin(), plan.objective.end(), goal) != plan.objective.end();
+  };
+  if (asked(Goal::kError) && !section.has("error"))
     section.fail("error", "must have process_noise and sigma: the objective error counts with them");
+  const bool observed = std::any_of(plan.chains.begin(), plan.chains.end(),
+                                    [&](const PlannedChain& chain) { return observes(plan, chain); });
+  if ((asked(Goal::kError) || asked(Goal::kGapError)) && !observed)
+    section.fail("objective", "must leave out error and gap_error: no chain begins with a sensor of objects");
 }
 
 }  // namespace ttf::schedules::synthesis::plan

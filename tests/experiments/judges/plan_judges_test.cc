@@ -14,6 +14,7 @@
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/synthesis/instants/judging/meetings.h"
 #include "schedules/synthesis/instants/synthesize.h"
+#include "tests/schedules/cluster_file.h"
 #include "tests/schedules/synthesis/plans.h"
 
 namespace ttf::experiments::judges {
@@ -163,6 +164,23 @@ TEST(ErrorOfAPlan, OverTimeMoreMeasurementsAreBetter) {
     EXPECT_LE(made.reached[0].bound, made.reached[0].value);
     EXPECT_GT(made.reached[0].bound, 0.95 * made.reached[0].value);
   }
+}
+
+// A cluster with odometry, which measures no object.
+TEST(ErrorOfAPlan, OdometryDoesNotCount) {
+  const std::string text = schedules::synthesis::without_instants(schedules::shipped_text("moving_synchronised")) +
+                           "\nplan:\n  objective: [error, gap_error]\n" + error_of("process_noise: 1") + "\n";
+  const Plan plan = schedules::synthesis::plan::parse_plan(text, "plan");
+  EXPECT_TRUE(std::any_of(plan.chains.begin(), plan.chains.end(), [&](const auto& chain) {
+    return plan.cluster.sensor(chain.from).kind == schedules::model::SensorKind::kOdometry;
+  }));
+  const Synthesis made = made_of(plan);
+  for (const auto& meeting : judging::meetings(plan, made.cluster))
+    for (const auto& one : meeting.met)
+      EXPECT_NE(plan.cluster.sensor(plan.chains[one.chain].from).kind, schedules::model::SensorKind::kOdometry);
+  EXPECT_GT(made.reached[0].value, 0.0);
+  EXPECT_LE(made.reached[0].bound, made.reached[0].value);
+  EXPECT_LE(made.reached[1].bound, made.reached[1].value);
 }
 
 TEST(ErrorOfAPlan, ObjectivesBehindItKeepIt) {

@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/errors.h"
 #include "schedules/synthesis/plan/loader.h"
@@ -28,6 +29,17 @@ inline std::string changed(const std::string& text, const std::string& pattern, 
       std::regex_replace(text, std::regex(pattern), replacement, std::regex_constants::format_first_only);
   EXPECT_NE(made, text) << pattern << " does not occur";
   return made;
+}
+
+// Returns a shipped cluster's text without the instants of tasks and sensors, and without the lists' slots.
+inline std::string without_instants(std::string text) {
+  const std::pair<const char*, const char*> left_out[] = {
+      {"(kind: time), base_cycle: \\d+, (repetition: \\d+), offset: \\d+", "$1, $2"},
+      {"(measurement: scheduled,)\\s+base_cycle: \\d+, (repetition: \\d+), offset: \\d+", "$1 $2"},
+      {"slot: \\d+, (channels: \\w+, sender: \\w+), base_cycle: \\d+, (repetition: \\d+, pdu: \\w+), fragments: \\d+",
+       "$1, $2"}};
+  for (const auto& [pattern, replacement] : left_out) text = std::regex_replace(text, std::regex(pattern), replacement);
+  return text;
 }
 
 // Returns the findings of a plan's loader.

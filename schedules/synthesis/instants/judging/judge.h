@@ -24,7 +24,7 @@ struct Met {
   Duration used{};        // not before `measured`, in any round
 };
 
-// One task that ends chains.
+// One task that ends chains of sensors that observe objects.
 struct Meeting {
   Duration round{};
   std::vector<Duration> uses;  // within the round, rising
