@@ -199,6 +199,7 @@ TEST(ErrorOfAPlan, ObjectivesBehindItKeepIt) {
   }
   // Fewer slots are possible, with another error. So nothing is proven about slots.
   EXPECT_FALSE(made.reached[1].proven);
+  EXPECT_EQ(made.reached[5].bound, 0.0);  // and nothing about the gap error
 }
 
 // The regret is 1 only if one schedule is the best for all densities, and each part is weighed by its own least error.

@@ -177,12 +177,14 @@ std::optional<std::size_t> Optimiser::least_sum() {
 void Optimiser::judge(Goal goal) {
   const auto found = judges_.find(goal);
   TTF_CHECK(found != judges_.end(), "nobody judges {}", name_of(goal));
-  if (possible_.empty())
+  const bool first = possible_.empty();
+  if (first)
     for (std::size_t i = 0; i < trials_.size(); ++i)
       if (!trials_[i].out) possible_.push_back(i);
   judging::Judged judged = judging::least_judged(plan_, *found->second, trials_);
   exact_ = exact_ && judged.exact;
-  note(goal, judged.value, judged.bound);
+  // Behind another judge measurements and uses stand, and a bound of what is left proves nothing.
+  note(goal, judged.value, first ? judged.bound : 0.0);
   reached_.back().weights = std::move(judged.weights);
   reached_.back().supposes = found->second->supposes();
   reached_.back().proven = reached_.back().proven && reached_.back().supposes.empty();
