@@ -183,7 +183,7 @@ void Optimiser::judge(Goal goal) {
       if (!trials_[i].out) possible_.push_back(i);
   judging::Judged judged = judging::least_judged(plan_, *found->second, trials_);
   exact_ = exact_ && judged.exact;
-  // Behind another judge measurements and uses stand, and a bound of what is left proves nothing.
+  // Behind another judge measurements and uses stand already. Other ones might be better, so there is no bound.
   note(goal, judged.value, first ? judged.bound : 0.0);
   reached_.back().weights = std::move(judged.weights);
   reached_.back().supposes = found->second->supposes();
