@@ -1,6 +1,8 @@
 // The cost of synthesis: drawn problems of 6 nodes, processors and static segment loaded to 70 %, half of the messages in chains.
-// The argument is the seed. Counters: the largest age [us], its bound, and whether it is proven least.
+// The argument is the seed. Counters: the largest age [us], its bound, whether it is proven least, and the most memory that the
+// program has had so far [MiB]. A largest age of plain difference logic that its steps leave open is at most 1 s.
 #include <benchmark/benchmark.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 
@@ -14,6 +16,19 @@ namespace {
 
 Problem drawn(const benchmark::State& state) { return generated({.seed = static_cast<std::uint64_t>(state.range(0))}); }
 
+double most_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+void count(benchmark::State& state, double age, double bound, bool proven) {
+  state.counters["age"] = age;
+  state.counters["bound"] = bound;
+  state.counters["proven"] = proven;
+  state.counters["MiB"] = most_memory();
+}
+
 void solve_largest(benchmark::State& state, solver::Prover* prover) {
   const Problem problem = drawn(state);
   const solver::Objective largest;
@@ -23,9 +38,7 @@ void solve_largest(benchmark::State& state, solver::Prover* prover) {
     state.SkipWithError("no solution");
     return;
   }
-  state.counters["age"] = outcome.reached[0].value;
-  state.counters["bound"] = outcome.reached[0].bound;
-  state.counters["proven"] = outcome.reached[0].proven;
+  count(state, outcome.reached[0].value, outcome.reached[0].bound, outcome.reached[0].proven);
 }
 
 void least_age_by_search(benchmark::State& state) { solve_largest(state, nullptr); }
@@ -56,9 +69,7 @@ void least_age_by_differences(benchmark::State& state) {
         most = std::ranges::max(ages(problem, verdict.solution));
     }
   }
-  state.counters["age"] = static_cast<double>(most);
-  state.counters["bound"] = static_cast<double>(least);
-  state.counters["proven"] = least == most;
+  count(state, static_cast<double>(most), static_cast<double>(least), least == most);
 }
 
 void thousand_messages(benchmark::State& state) {
@@ -66,6 +77,7 @@ void thousand_messages(benchmark::State& state) {
       generated({.tasks = 300, .messages = 1000, .seed = static_cast<std::uint64_t>(state.range(0))});
   for (auto _ : state)
     if (!solver::solve(problem, {}).solution) state.SkipWithError("no solution");
+  state.counters["MiB"] = most_memory();
 }
 
 BENCHMARK(least_age_by_search)->DenseRange(1, 20)->Unit(benchmark::kMillisecond);

@@ -79,7 +79,8 @@ std::optional<Solution> in_order(const Question& question, Solution solution) {
   return solution;
 }
 
-// Turns know neither orders nor sums, so theirs may break these. A split costs as many steps as there are pairs of numbers.
+// Turns know neither orders nor sums, so theirs may break these. A split costs as many steps as there are pairs of
+// numbers.
 Verdict Decider::turned(const Question& question, const Model& model) {
   if (!question.sums.empty() || splits_ <= 0) return {};
   way_ = "exhausted";

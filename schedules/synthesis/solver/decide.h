@@ -32,7 +32,7 @@ class Decider {
   Effort effort_;
   Prover* prover_;
   double left_ = 0;          // the prover's steps that may still be spent
-  std::int64_t splits_ = 0;  // of turns, likewise
+  std::int64_t splits_ = 0;  // the splits of turns that are left
   std::string way_;
 };
 

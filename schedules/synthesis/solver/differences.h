@@ -1,7 +1,8 @@
 // Bounds of the differences of whole numbers, closed: whatever follows from those that were added is known.
 //
-// The simple temporal network of Dechter, Meiri and Pearl (Artificial Intelligence 49, 1991). A bound that is added is carried
-// through all pairs at once, in at most n^2 steps. Rows that change are kept, so that a search finds its way back.
+// The simple temporal network of Dechter, Meiri and Pearl (Artificial Intelligence 49, 1991). A bound that is added is
+// carried through all pairs at once, in at most n^2 steps. Rows that change are kept, so that a search finds its way
+// back.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +21,11 @@ class Differences {
   Ticks most(std::size_t from, std::size_t to) const { return most_[from * count_ + to]; }
   Ticks least(std::size_t from, std::size_t to) const { return -most_[to * count_ + from]; }
 
-  // Adds that to - from is at most (at least) so much. Returns false if nothing keeps all bounds; then the way back is the only
-  // way.
+  // Adds that to - from is at most (at least) so much. Returns false if nothing keeps all bounds; then the way back is
+  // the only way.
   bool add_most(std::size_t from, std::size_t to, Ticks most);
   bool add_least(std::size_t from, std::size_t to, Ticks least) { return add_most(to, from, -least); }
-  // How many bounds were added that were tighter than what was known.
+  // How many of the added bounds were news.
   std::size_t changes() const { return changes_; }
 
   // Marks a place. go_back() leads to the last place that is marked, and takes its mark away.

@@ -5,10 +5,11 @@
 //   grid         first <= a - P k <= last, and on a step
 //   precedence, span           without turns
 //
-// x_j is the offset of a chain's activity, or a number of its own: the beginning of the instance on the way, modulo the stride S_j
-// (model.h). Rests of neighbours add up: between any two places i < j they are x_j - x_i - ready_i..j, modulo S_j or, where x_i and
-// x_j are offsets, gcd(T_i, T_j). Limits of sums and orders are left out, and chains whose periods do not divide each other have
-// their pairwise bound alone: so what the rules forbid is impossible, and what they allow is to be checked.
+// x_j is the offset of a chain's activity, or a number of its own: the beginning of the instance on the way, modulo the
+// stride S_j (model.h). Rests of neighbours add up: between any two places i < j they are x_j - x_i - ready_i..j,
+// modulo S_j or, where x_i and x_j are offsets, gcd(T_i, T_j). Limits of sums and orders are left out. Chains whose
+// periods do not divide each other have their pairwise bound alone. So the rules forbid nothing that is possible, and
+// offsets that they allow are to be checked.
 #pragma once
 
 #include <cstddef>

@@ -65,7 +65,7 @@ Turns::End Turns::descend(std::int64_t most_splits, std::uint64_t number) {
   }
 }
 
-// Of a grid, the middle is a place on it.
+// A grid is split between two of its places.
 bool Turns::choose(Split& split) const {
   double best = 0;
   const auto better = [&](Ticks choices, std::size_t rule) {

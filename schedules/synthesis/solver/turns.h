@@ -1,10 +1,11 @@
-// A search over whole turns: how often each rule (rules.h) goes around its circle, and where on its grid an activity lies.
+// A search over whole turns: how often each rule (rules.h) goes around its circle, and where on its grid an activity
+// lies.
 //
-// Offsets stay open: the search keeps all differences that the turns chosen so far allow (differences.h). A rule with one turn left
-// binds. The rests of a chain limit each other: what the others need at least is no longer there for one. So a branch ends as soon
-// as its turns contradict each other, and a branch with all turns chosen has offsets. The rule with the fewest turns left, of those
-// that failed most, is split next (dom/wdeg: Boussemart, Hemery, Lecoutre, Sais, ECAI 2004). What failed is remembered when the
-// search begins anew.
+// Offsets stay open: the search keeps all differences that the turns chosen so far allow (differences.h). A rule with
+// one turn left binds. The rests of a chain limit each other: what the others need at least is no longer there for one.
+// So a branch ends as soon as its turns contradict each other, and a branch with all turns chosen has offsets. The rule
+// with the fewest turns left, of those that failed most, is split next (dom/wdeg: Boussemart, Hemery, Lecoutre, Sais,
+// ECAI 2004). The search begins anew now and then, and remembers the failures.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +25,8 @@ class Turns {
   // `rules` outlive it.
   explicit Turns(const Rules& rules);
 
-  // Searches until it has offsets, has tried all turns, or has made so many splits. It begins anew after ever more of them. Only
-  // kExhausted is a proof.
+  // Searches until it has offsets, has tried all turns, or has made so many splits. It begins anew after ever more of
+  // them. Only kExhausted is a proof.
   End run(std::int64_t most_splits);
 
   // Returns the offsets found, by activity: they keep the rules.
