@@ -11,7 +11,7 @@ namespace {
 constexpr std::int64_t kTightChain = 16;
 constexpr std::int64_t kFirstSplits = 200;
 // Numbers kept for ways back: 64 MiB of them.
-constexpr std::size_t kMostKept = std::size_t{8} << 20;
+constexpr std::size_t kMostNumbersKept = std::size_t{8} << 20;
 
 Ticks floored(Ticks dividend, Ticks divisor) { return (dividend - modulo(dividend, divisor)) / divisor; }
 
@@ -49,7 +49,7 @@ Turns::End Turns::descend(std::int64_t most_splits, std::uint64_t number) {
       return End::kFound;
     }
     if (sound) {
-      if (made++ >= most_splits || differences_.kept() > kMostKept) return End::kGaveUp;
+      if (made++ >= most_splits || differences_.kept() > kMostNumbersKept) return End::kGaveUp;
       ++splits_;
       split.lower_first = number == 0 || draws.bits() % 2 == 0;
       differences_.mark();
