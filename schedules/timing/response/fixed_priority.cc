@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "schedules/timing/response/offsets.h"
 #include "schedules/timing/response/recurrence.h"
 #include "schedules/timing/response/simulation.h"
 
@@ -67,6 +68,11 @@ std::vector<Response> preemptive(std::span<const Task> by_priority) {
     if (!simulated) continue;
     for (std::size_t i = 0; i < known; ++i) responses[i] = {Quality::kExact, (*simulated)[i]};
     break;
+  }
+  for (std::size_t i = 0; i < by_priority.size(); ++i) {
+    if (responses[i].quality != Quality::kBound) continue;
+    const auto found = response_with_offsets(by_priority.first(i), by_priority[i]);
+    if (found) responses[i] = {Quality::kExact, *found};
   }
   return responses;
 }

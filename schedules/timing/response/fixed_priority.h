@@ -40,8 +40,9 @@ struct Task {
 // Each function takes tasks by priority, the highest first, and returns the responses in the same order.
 //
 // preemptive() is exact if no task of the same or a higher priority has an offset and B is zero. It is exact as well
-// if all of them have offsets, neither jitter nor blocking, and at most kMostSimulatedJobs jobs in two hyperperiods:
-// simulation.h. Otherwise it is a bound.
+// if all of them have offsets, neither jitter nor blocking, and at most kMostSimulatedJobs jobs in two hyperperiods
+// (simulation.h), and for a task with an offset and no more jitter than its period, below any others, where the
+// hyperperiod has not too many jobs (offsets.h). Otherwise it is a bound.
 std::vector<Response> preemptive(std::span<const Task> by_priority);
 
 // Exact if no task has an offset; a bound otherwise. Ignores Task::blocking, since lower priorities tell it.

@@ -191,7 +191,7 @@ TEST(PreemptiveTasks, DrawnMagnitudesHaveAnAnswer) {
   EXPECT_GT(bounded, 60);
 }
 
-// One of three tasks has no offset. The task above it is exact. The task below has a bound.
+// One of three tasks has no offset. It has a bound. The task below it meets either of the others.
 TEST(PreemptiveTasks, OffsetsOfSomeAreABoundForTheRest) {
   std::vector<Task> tasks{small_task(1, 4), small_task(1, 4), small_task(1, 4)};
   tasks[0].offset = 0;
@@ -199,7 +199,7 @@ TEST(PreemptiveTasks, OffsetsOfSomeAreABoundForTheRest) {
   const std::vector<Response> responses = preemptive(tasks);
   EXPECT_EQ(responses[0], (Response{Quality::kExact, 1}));
   EXPECT_EQ(responses[1], (Response{Quality::kBound, 2}));
-  EXPECT_EQ(responses[2], (Response{Quality::kBound, 3}));
+  EXPECT_EQ(responses[2], (Response{Quality::kExact, 2}));
   tasks[1].offset = 0;
   EXPECT_EQ(preemptive(tasks)[2], (Response{Quality::kExact, 1}));
 }
@@ -208,6 +208,8 @@ TEST(SimulatedTasks, TooManyJobsAreNotSimulated) {
   std::vector<Task> tasks{small_task(1, 3), small_task(1, 5'000'011)};
   for (Task& one : tasks) one.offset = 1;
   EXPECT_EQ(simulated_responses(tasks), std::nullopt);
+  EXPECT_EQ(preemptive(tasks)[1], (Response{Quality::kExact, 2})) << "offsets.h looks at three jobs alone";
+  tasks[1].blocking = 1;
   EXPECT_EQ(preemptive(tasks)[1].quality, Quality::kBound);
   EXPECT_EQ(preemptive(tasks)[0], (Response{Quality::kExact, 1}));
 }
