@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kUs = 1'000;
 
-std::string in_us(std::int64_t time) { return std::to_string(time / kUs) + " us"; }
+std::string us_text(std::int64_t time) { return std::to_string(time / kUs) + " us"; }
 
 // A drawn message, the same on every bus.
 struct DrawnMessage {
@@ -40,7 +40,7 @@ BusJobs drawn_jobs(RandomStream& stream, const std::vector<DrawnMessage>& messag
 
 std::string message_line(std::size_t m, const DrawnMessage& one, const std::string& worst, std::size_t priority,
                          const std::string& rest = "") {
-  return "message,m" + std::to_string(m) + ",bus," + in_us(one.period) + ",," + in_us(one.jitter) + ",," + worst +
+  return "message,m" + std::to_string(m) + ",bus," + us_text(one.period) + ",," + us_text(one.jitter) + ",," + worst +
          ",1 s," + (priority > 0 ? std::to_string(priority) : "") + ",implicit" + rest + "\n";
 }
 
@@ -59,8 +59,8 @@ TEST(DrawnBuses, Tdma) {
     const std::int64_t cycle = stream.integer(5, 20) * kUs, length = stream.integer(1, 4) * kUs;
     const DrawnMessage one{.period = stream.integer(10, 60) * kUs, .jitter = stream.integer(0, 1) * 7 * kUs};
     const std::int64_t work = stream.integer(1, 9) * kUs;
-    const response::Response found = responses_in("bus,bus,tdma,,," + in_us(cycle) + "\n" +
-                                                  message_line(0, one, in_us(work), 0, "," + in_us(length)))[0];
+    const response::Response found = responses_in("bus,bus,tdma,,," + us_text(cycle) + "\n" +
+                                                  message_line(0, one, us_text(work), 0, "," + us_text(length)))[0];
     ASSERT_EQ(found.bounded(), work * cycle <= one.period * length) << "set " << index;
     if (!found.bounded()) continue;
     EXPECT_EQ(found.quality, response::Quality::kExact);
@@ -138,7 +138,7 @@ TEST(DrawnBuses, CanWithErrors) {
                                     static_cast<std::size_t>(m + 1));
     }
     const std::string bus = "bus,bus,can,125000,";
-    const std::vector<response::Response> found = responses_in(bus + ",,,,," + in_us(apart) + "\n" + messages_text);
+    const std::vector<response::Response> found = responses_in(bus + ",,,,," + us_text(apart) + "\n" + messages_text);
     const std::vector<response::Response> without = responses_in(bus + "\n" + messages_text);
     for (int draw = 0; draw < 5; ++draw) {
       std::vector<std::int64_t> errors;
