@@ -236,7 +236,7 @@ void write_text(const std::string& text, const std::string& path) {
   say_written(path);
 }
 
-// Writes the whole cluster file, with what it inherits and derives.
+// Writes the whole cluster file, its inherited and derived values included.
 void write_whole(const ScheduleOptions& options) {
   const std::string name = std::filesystem::path(options.file).filename().string();
   write_text(schedules::exchange::cluster_yaml(consistent_cluster(options.file),
@@ -249,7 +249,8 @@ int show(const ScheduleOptions& options) {
     if (!is_cluster_file(options.file))
       throw InputError({"command line", 0, "--explicit", options.file, "goes with a cluster file only"});
     if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
-    refuse_other_format(options.out, "yaml", {{"yaml", {".yaml", ".yml"}}});
+    if (!options.out.empty() && !options.out.ends_with(".yaml") && !options.out.ends_with(".yml"))
+      throw InputError({"command line", 0, "--out", options.out, "must end in .yaml or .yml with --explicit"});
     write_whole(options);
     return 0;
   }

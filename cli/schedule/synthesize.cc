@@ -32,7 +32,7 @@ void add_synthesize(CLI::App& schedule, Action& action) {
       "synthesize", "Choose the instants and slots that a plan leaves out, or pack signals into the fewest slots");
   command->footer(
       "Examples: ttfusion schedule synthesize schedules/plans/paper.yaml -o paper_planned.yaml\n"
-      "          ttfusion schedule synthesize schedules/plans/paper_least_error.yaml -o least_error.yaml\n"
+      "          ttfusion schedule synthesize schedules/plans/paper_least_error.yaml -o out/least_error.yaml\n"
       "          ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o packing.csv\n"
       "          ttfusion schedule synthesize --signals examples/packing/grown_signals.csv --fixed packing.csv "
       "--payload 8byte -o grown.csv");

@@ -438,8 +438,9 @@ model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) 
   for (const model::CanBus& bus : cluster.can_buses)
     for (std::size_t m = 0; m < bus.messages.size(); ++m)
       if (bus.messages[m].shortest_period == Duration{})
-        findings.add(cluster.finding(bus.messages[m].line, fmt::format("can.{}.messages[{}].shortest_period", bus.name, m), "",
-                                     "must be in the file: the tasks of its sender do not bound the time between two lists"));
+        findings.add(
+            cluster.finding(bus.messages[m].line, fmt::format("can.{}.messages[{}].shortest_period", bus.name, m), "",
+                            "must be in the file: the tasks of its sender do not bound the time between two lists"));
   findings.throw_if_any();
   return cluster;
 }

@@ -16,7 +16,8 @@ constexpr Duration kGrain = Duration::microseconds(10);
 constexpr Duration kNever = Duration::milliseconds(10'000);
 
 // Returns the shortest true time between two lists of a message, as the tasks of its sender write them.
-std::optional<Duration> between_lists(const model::Cluster& cluster, std::size_t can, const model::CanMessage& message) {
+std::optional<Duration> between_lists(const model::Cluster& cluster, std::size_t can,
+                                      const model::CanMessage& message) {
   const model::Node& sender = cluster.node(message.sender);
   const auto responses = analysis::worst_responses(cluster, message.sender);
   if (!responses) return std::nullopt;
@@ -26,7 +27,8 @@ std::optional<Duration> between_lists(const model::Cluster& cluster, std::size_t
       if (out.pdu != message.pdu || out.medium != model::MediumId::can(can)) continue;
       if (shortest || !(*responses)[t].written) return std::nullopt;  // two writers, or no bound
       const std::int64_t fast = 1'000'000'000 - analysis::worst_drift_ppb(sender);
-      shortest = Duration{static_cast<std::int64_t>(static_cast<Int128>((*responses)[t].written->ns) * fast / 1'000'000'000)};
+      shortest =
+          Duration{static_cast<std::int64_t>(static_cast<Int128>((*responses)[t].written->ns) * fast / 1'000'000'000)};
     }
   return shortest;
 }

@@ -1,6 +1,6 @@
 // The cost of synthesis: drawn problems of 6 nodes, processors and static segment loaded to 70 %, half of the messages in chains.
-// The argument is the seed. Counters: the largest age [us], its bound, whether it is proven least, and the most memory that the
-// program has had so far [MiB]. A largest age of plain difference logic that its steps leave open is at most 1 s.
+// The argument is the seed. Counters are the largest age [us], its bound, and whether it is proven least. Memory [MiB] is the most
+// that the program has had so far. A largest age of plain difference logic that its steps leave open is at most 1 s.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 

@@ -41,7 +41,7 @@ expect 0 'note: .*Fatal = 4: must be 5..15: .* \(assumed: the file does not stat
 "$program" schedule check "$work/imported.yaml" --json | python3 -c '
 import json, sys
 s = json.load(sys.stdin)
-assert s["consistent"] and not s["describes_tasks"] and s["not_checked"] == ["tasks", "flow", "loops", "modes"], s
+assert s["consistent"] and not s["describes_tasks"] and s["not_checked"] == ["tasks", "flow", "loops", "modes", "round"], s
 ' || fail "--json does not say what was not checked"
 mutate scenarios/paper_scenario1.yaml "s,\(adva: \).*,\1$work/imported.yaml," "$work/no_tasks.yaml"
 expect 2 'imported.yaml:[0-9]+: nodes: must have tasks for a drive' \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The loop closed on vcans: commands on the bus drive the vehicle, and its processes compute the same way.
+# The loop closed on vcans. Commands on the bus drive the vehicle. Its processes compute the same way of it.
 #   node_set_closed_loop.sh TTFUSION      its logs stay in LOGS, if that is set; exit code 77, with the reason, without a vcan
 set -euo pipefail
 source "$(dirname "$0")/node_set.bash"

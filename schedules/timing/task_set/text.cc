@@ -31,11 +31,11 @@ std::string task_text(const TaskSet& set, const Verdict& verdict, std::size_t t)
   const Task& task = set.tasks[t];
   const TaskTiming& timing = verdict.responses.tasks[t];
   std::string longest = timing.bounded() ? milliseconds(Duration{timing.response.longest}) : "-";
-  std::string text = fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}  {}", task.name, milliseconds(set.period_of(t)),
-                                 milliseconds(timing.jitter), longest, milliseconds(task.deadline),
-                                 response::word(timing.response.quality));
-  if (set.resources[task.resource].errors_per_s > 0 && timing.bounded()) text += " without errors";
-  if (timing.miss_probability) text += fmt::format(", late at most {:.2g}", *timing.miss_probability);
+  const std::string quality = timing.miss_probability ? fmt::format("late at most {:.2g}", *timing.miss_probability)
+                                                      : std::string(response::word(timing.response.quality));
+  const std::string text =
+      fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}  {}", task.name, milliseconds(set.period_of(t)),
+                  milliseconds(timing.jitter), longest, milliseconds(task.deadline), quality);
   return text + (meets_deadline(set, verdict.responses, t) ? "\n" : ", missed\n");
 }
 

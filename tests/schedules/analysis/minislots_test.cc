@@ -111,7 +111,7 @@ TEST(Minislots, AListGoesOutBetweenItsTurns) {
 }
 
 // At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and the oscillators' rounding. At
-// worst it missed its turn by a nanosecond, and is sent in the next cycle behind all others.
+// worst it missed its turn by a nanosecond. Then it is sent in the next cycle, behind all others.
 TEST(Minislots, AgesCountTheWaitForATurn) {
   const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
   for (const AgePath& path : measurement_ages(cluster)) {
@@ -199,7 +199,7 @@ struct TheoryOfChannel {
   }
 };
 
-// With a frame in every slot, theory bounds those frames that are always in time, and has the same turns.
+// There is a frame in every slot. Theory bounds those that are always in time. It has the same turns.
 TEST(DynamicLoad, TurnsOfShippedClustersAreThoseOfTheory) {
   int judged = 0;
   for (const std::string name : {"flexray_demo", "paper_dynamic", "paper_free_flexray"}) {

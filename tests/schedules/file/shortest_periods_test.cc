@@ -60,8 +60,9 @@ TEST(ShortestPeriods, WithoutATaskThatWritesTheListTheFileMustHaveThem) {
     parse_cluster(text, "paper");
     FAIL() << "it loads";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("shortest_period: must be in the file: the tasks of its sender do not bound"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("shortest_period: must be in the file: the tasks of its sender do not bound"),
+        std::string::npos)
         << error.what();
   }
 }
