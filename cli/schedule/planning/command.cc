@@ -8,6 +8,7 @@
 
 #include "cli/output.h"
 #include "cli/schedule/planning/judges.h"
+#include "cli/schedule/planning/trade_off.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
@@ -17,6 +18,7 @@
 #include "schedules/synthesis/instants/synthesize.h"
 #include "schedules/synthesis/plan/loader.h"
 #include "schedules/synthesis/smt/z3_prover.h"
+#include "schedules/synthesis/trade/binding.h"
 
 namespace ttf::cli::schedule::planning {
 namespace {
@@ -122,14 +124,19 @@ int explain(const std::string& file, const Plan& plan, const Synthesis& made, bo
 
 }  // namespace
 
-int synthesize_plan(const std::string& typed, const std::string& out, bool json) {
+int synthesize_plan(const std::string& typed, const PlanOutputs& outputs) {
+  const std::string& out = outputs.cluster;
   const std::string file = file_named(typed, {kPlans});
   if (!out.empty()) refuse_overwriting(file, out, "--out");
+  if (!outputs.trade_off.empty()) {
+    refuse_overwriting(file, outputs.trade_off, "--trade-off");
+    check_trade_off_path(outputs.trade_off);
+  }
   const Plan plan = plans::load_plan(file);
   const PlanJudges judges(plan);
   schedules::synthesis::smt::Z3Prover z3;
   const Synthesis made = instants::synthesize(plan, z3.there() ? &z3 : nullptr, judges.by_goal());
-  if (!made.found) return explain(file, plan, made, json);
+  if (!made.found) return explain(file, plan, made, outputs.json);
   try {
     drives::check_steps(made.cluster);
   } catch (const InputError& error) {
@@ -144,10 +151,14 @@ int synthesize_plan(const std::string& typed, const std::string& out, bool json)
     write_file(out, yaml);
     say_written(out);
   }
-  if (json)
+  if (!outputs.trade_off.empty()) write_trade_off(plan, made, judges, outputs.trade_off);
+  if (outputs.json)
     fmt::print("{}\n", report_json(plan, made).dump(2));
   else
-    fmt::print("{}", text);
+    fmt::print("{}{}", text,
+               outputs.binding
+                   ? schedules::synthesis::trade::binding_text(schedules::synthesis::trade::what_binds(plan, made))
+                   : "");
   return 0;
 }
 

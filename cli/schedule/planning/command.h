@@ -5,8 +5,15 @@
 
 namespace ttf::cli::schedule::planning {
 
-// Writes the cluster to `out` (nothing, if it is empty) and prints the objectives' values with their bounds. A plan without a
-// solution is explained, statement by statement. Returns the exit code: 1 without a solution.
-int synthesize_plan(const std::string& plan, const std::string& out, bool json);
+struct PlanOutputs {
+  std::string cluster;    // the file to write; empty: none
+  std::string trade_off;  // likewise, a picture or a table (trade_off.h)
+  bool binding = false;   // prints what binds
+  bool json = false;
+};
+
+// Writes the files, and prints the objectives' values with their bounds. A plan without a solution is explained, statement by
+// statement. Returns the exit code: 1 without a solution.
+int synthesize_plan(const std::string& plan, const PlanOutputs& outputs);
 
 }  // namespace ttf::cli::schedule::planning
