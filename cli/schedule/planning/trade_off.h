@@ -1,4 +1,4 @@
-// What a plan trades for a smaller age, written as a picture or a table.
+// The price of a smaller age in a plan, written as a picture or a table.
 #pragma once
 
 #include <string>

@@ -32,7 +32,7 @@ using plan::task_at;
 using plan::way_to;
 namespace {
 
-// Work between the beginnings of two activities of a chain: that of the first one, or what follows it on its own.
+// Work between the beginnings of two activities of a chain: the first one's own, or a transfer or execution behind it.
 struct Work {
   std::string name;
   Duration time{};

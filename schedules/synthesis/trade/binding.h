@@ -1,6 +1,6 @@
-// What binds a schedule: each chain's way piece by piece. Data is worked at, or it rests, and rests have a cause.
+// The binding pieces of a schedule: each chain's way from its measurement to its use. Data is worked at, or it rests, and rests have a cause.
 //
-// Activities are placed as late as those who take their data allow. So data rests because its activity could be no later:
+// Each activity is placed as late as the next ones allow. So data rests because its activity could be no later:
 //
 //   slots       a list begins with a slot, not between two
 //   taken       the processor or the static segment works at something else then
@@ -27,9 +27,9 @@ namespace ttf::schedules::synthesis::trade {
 
 using instants::Synthesis;
 
-// What it would help if a piece of work were shorter: the best instants for the same cycle and rates, found anew.
+// The gain if a piece of work were shorter. The best instants for the same cycle and rates are found anew.
 struct Shorter {
-  Duration by{};         // 1 ms; whole slots of a list; less of what takes less
+  Duration by{};         // 1 ms, or all of a shorter piece; whole slots of a list
   Duration own_age{};    // by so much falls the chain's own age (negative: it grows for the sake of another chain's)
   Duration worst_age{};  // by so much falls the largest age of all chains
   bool proven = false;   // both searches ended with a proof
@@ -40,7 +40,7 @@ struct WayPiece {
   Kind kind{};
   std::string name;  // the work, or the rest's cause
   Duration time{};
-  std::optional<Shorter> shorter;  // of work that can be shorter
+  std::optional<Shorter> shorter;  // if it is work, and can be shorter
 };
 
 struct BindingWay {

@@ -89,7 +89,7 @@ void note_others(const Problem& problem, const std::vector<Ticks>& offsets, std:
   }
 }
 
-// The grid, and what stands on the resource, back from the latest beginning.
+// The grid and the others on the resource, back from the latest beginning.
 void note_places(const Reading& reading, const std::vector<Ticks>& offsets, std::size_t a, Ticks found,
                  Causes& causes) {
   const std::vector<Activity>& activities = reading.problem.activities;

@@ -1,4 +1,4 @@
-// What a plan can trade for a smaller age: the length of the cycle and the rates of its sensors, and the static slots in use.
+// The price of a smaller age in a plan: the length of the cycle and the rates of its sensors, and the static slots in use.
 //
 //   by candidate  the least worst age over the chains, its bound, and the fewest slots that allow it
 //   the front     over all candidates: the fewest slots in use, and the least worst age that so many slots allow. Fewer slots
@@ -31,7 +31,7 @@ struct TradeOffPoint {
   Duration worst_age{}, bound{};  // no instants of the same choice have a smaller worst age than the bound
   int slots = 0;                  // the last one in use
   bool fewest = false;            // proven: no fewer slots allow this age
-  int static_slots = 0;           // that the cycle has
+  int static_slots = 0;           // of the cycle
   std::optional<double> judged;
   bool proven() const { return worst_age == bound; }
 };

@@ -1,4 +1,4 @@
-// The front of ages and slots, and what binds, against independent counts.
+// The front of ages and slots, and the binding pieces, against independent counts.
 #include "schedules/synthesis/trade/trade_off.h"
 
 #include <gtest/gtest.h>
