@@ -31,7 +31,7 @@ struct TradeOffPoint {
   Duration worst_age{}, bound{};  // no instants of the same choice have a smaller worst age than the bound
   int slots = 0;                  // the last one in use
   bool fewest = false;            // proven: no fewer slots allow this age
-  int static_slots = 0;           // of the cycle
+  int static_slots = 0;           // the cycle's
   std::optional<double> judged;
   bool proven() const { return worst_age == bound; }
 };

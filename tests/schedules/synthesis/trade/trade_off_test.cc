@@ -47,7 +47,7 @@ TEST(TradeOff, EachStepHasFewerSlotsAndALargerAge) {
     EXPECT_GT(found.front[i].worst_age, found.front[i - 1].worst_age);
     EXPECT_LE(found.front[i].bound, found.front[i].worst_age);
   }
-  // One slot less than the last step is impossible for every candidate: a search of its own says so.
+  // One slot less than the last step is impossible for every candidate. A search of its own says so.
   for (const instants::Candidate& candidate : instants::candidates(planned)) {
     const auto read = instants::read_of(planned, candidate);
     if (!read) continue;
@@ -84,13 +84,13 @@ TEST(Binding, PiecesAddUpToTheWorstAge) {
     Duration sum{};
     for (const WayPiece& piece : ways[c].pieces) sum = sum + piece.time;
     EXPECT_EQ(sum, ways[c].worst_age);
-    // Clocks are microseconds; the rest is explained.
+    // Clocks take little. The rest is explained.
     EXPECT_EQ(ways[c].pieces.back().kind, WayPiece::Kind::kClocks);
     EXPECT_LT(std::abs(ways[c].pieces.back().time.ns), 500'000) << ways[c].chain;
   }
 }
 
-// The laser's preprocessing is on the longest way: 1 ms less of it is 1 ms less of the worst age, and of the camera's nothing.
+// The laser's preprocessing is on the longest way. 1 ms less of it is 1 ms less of the worst age. The camera's changes nothing.
 TEST(Binding, AShorterExecutionHelpsWhereItBinds) {
   const plan::Plan planned = paper();
   const instants::Synthesis made = instants::synthesize(planned);
