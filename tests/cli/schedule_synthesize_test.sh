@@ -67,6 +67,13 @@ expect 0 'wrote' schedule synthesize "$plans/paper_least_error.yaml" --trade-off
 grep -q '^front,8.835,4,4,54.916,54.916,80,proven,' "$work/trade_off.csv" || fail "the front has another least age"
 [[ $(grep -c '^candidate,.*,1\.0[0-9]*$' "$work/trade_off.csv") -eq 94 ]] || fail "the lengths with a schedule have no error"
 expect 2 'must end in|ends in|\.svg' schedule synthesize "$plans/paper.yaml" --trade-off "$work/trade_off.txt"
+# A round of sixty cycles, and a free payload.
+expect 0 '^paper_sixty_cycles: a cycle of 6.83 ms, chosen' schedule synthesize "$plans/paper_sixty_cycles.yaml" -o "$work/sixty.yaml"
+expect 0 '^paper_sixty_cycles: consistent$' schedule check "$work/sixty.yaml"
+expect 0 'a payload of 106 bytes, chosen among 1274 cycles, payloads and rates$' \
+  schedule synthesize "$plans/paper_payload.yaml" -o "$work/payload.yaml"
+expect 0 '^paper_payload: consistent$' schedule check "$work/payload.yaml"
+expect 0 '^slots ' schedule synthesize "$plans/paper_laser.yaml"
 
 # A plan without solution.
 sed '/ laser: {from/s/60 ms/50 ms/' "$plans/paper.yaml" >"$work/tight.yaml"

@@ -49,6 +49,9 @@ std::string report(const Plan& plan, const Synthesis& made) {
   const auto& cluster = made.cluster;
   std::string text = fmt::format("{}: a cycle of {:g} ms, chosen among {} cycles and rates\n", cluster.name,
                                  in_ms(cluster.cycle()), made.candidates);
+  if (plan.payload)
+    text = fmt::format("{}: a cycle of {:g} ms, a payload of {} bytes, chosen among {} cycles, payloads and rates\n",
+                       cluster.name, in_ms(cluster.cycle()), made.candidate.payload, made.candidates);
   text += fmt::format("{:<22}{:>12}{:>12}\n", "objective", "value", "bound");
   for (const instants::Reached& one : made.reached)
     text += fmt::format("{:<22}{:>12}{:>12}  {}\n{}", instants::name_of(one.goal), value_text(one, one.value),
@@ -69,6 +72,7 @@ nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
                               {"found", true},
                               {"cycle_ms", in_ms(made.cluster.cycle())},
                               {"candidates", made.candidates}};
+  if (plan.payload) json["payload_bytes"] = made.candidate.payload;
   for (const instants::Reached& one : made.reached) {
     json["objective"].push_back(
         {{"name", instants::name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
