@@ -1,5 +1,7 @@
 #include "core/decimal.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/int128.h"
@@ -28,6 +30,12 @@ std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t sca
   const Int128 value = negative ? -(scaled / denominator) : scaled / denominator;
   if (value < INT64_MIN || value > INT64_MAX) return std::nullopt;
   return static_cast<std::int64_t>(value);
+}
+
+std::string duration_text(Duration time) {
+  if (time.ns % 1'000'000 == 0) return fmt::format("{} ms", time.ns / 1'000'000);
+  if (time.ns % 1'000 == 0) return fmt::format("{} us", time.ns / 1'000);
+  return fmt::format("{} ns", time.ns);
 }
 
 std::string scaled_text(std::int64_t value, std::int64_t scale) {

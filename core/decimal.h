@@ -19,6 +19,9 @@ std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t sca
 // unless it is a whole number of nanoseconds.
 std::optional<Duration> parse_duration(std::string_view text);
 
+// Returns "40 ms": whole milliseconds, or else microseconds or nanoseconds. parse_duration reads it.
+std::string duration_text(Duration time);
+
 // Returns value / scale as a decimal without trailing zeros; scale is a power of ten up to 10^13. parse_scaled
 // returns every such value unchanged.
 std::string scaled_text(std::int64_t value, std::int64_t scale);

@@ -28,12 +28,6 @@ std::optional<Duration> spaced_duration(const std::string& text) {
   return text.find(' ') == std::string::npos ? std::nullopt : parse_duration(text);
 }
 
-std::string duration_text(Duration d) {
-  if (d.ns % 1'000'000 == 0) return fmt::format("{} ms", d.ns / 1'000'000);
-  if (d.ns % 1'000 == 0) return fmt::format("{} us", d.ns / 1'000);
-  return fmt::format("{} ns", d.ns);
-}
-
 template <class T> std::string range_text(const Range<T>& range, std::string_view unit, std::string_view what) {
   return fmt::format("must be {} {}..{}{}{}", what, range.low, range.high, unit.empty() ? "" : " ", unit);
 }

@@ -79,6 +79,12 @@ class YamlMap {
     }
     return choices[described_choice(key, names, true, otherwise)].second;
   }
+  template <class Enum> std::optional<Enum> choice_if(std::string_view key, const Choices<Enum>& choices) {
+    if (!is_described()) return has(key) ? std::optional(choice(key, choices)) : std::nullopt;
+    std::vector<std::string_view> names;
+    for (const auto& entry : choices) names.push_back(entry.first);
+    return choices[described_choice(key, names, true, std::nullopt)].second;
+  }
 
   YamlMap map(std::string_view key);  // a missing map is a finding and reads as empty
   std::optional<YamlMap> map_if(std::string_view key);

@@ -16,13 +16,6 @@
 namespace ttf::schedules::exchange {
 namespace {
 
-std::string duration_words(Duration duration) {
-  const bool whole_ms = duration.ns % 1'000'000 == 0;
-  if (whole_ms) return fmt::format("{} ms", duration.ns / 1'000'000);
-  if (duration.ns % 1'000 == 0) return fmt::format("{} us", duration.ns / 1'000);
-  return fmt::format("{} ns", duration.ns);
-}
-
 std::string_view word_of(model::SensorKind kind) {
   switch (kind) {
     case model::SensorKind::kLaser: return "laser";
@@ -71,7 +64,7 @@ class Writer {
     if (cluster_.topology == model::Topology::kStar) say("topology: star");
     if (cluster_.guardian) say("guardian: true");
     if (const auto& window = cluster_.arrival_window)
-      say("real_time: {{early: {}, late: {}}}", duration_words(window->early), duration_words(window->late));
+      say("real_time: {{early: {}, late: {}}}", duration_text(window->early), duration_text(window->late));
     flexray();
     shared_parameters();
     pdus();
@@ -150,10 +143,10 @@ class Writer {
         when = fmt::format("scheduled, {}", instant(sensor.at));
       else if (sensor.follows())
         when = fmt::format("completion, after: {}, shortest_period: {}, longest_period: {}", yaml_scalar(sensor.after),
-                           duration_words(sensor.period), duration_words(sensor.longest));
+                           duration_text(sensor.period), duration_text(sensor.longest));
       else
-        when = fmt::format("free, period: {}", duration_words(sensor.period));
-      if (sensor.phase) when += fmt::format(", phase: {}", duration_words(*sensor.phase));
+        when = fmt::format("free, period: {}", duration_text(sensor.period));
+      if (sensor.phase) when += fmt::format(", phase: {}", duration_text(*sensor.phase));
       say("  {}:\n    {{kind: {}, device: {}, host: {}, measurement: {}}}", yaml_scalar(sensor.name),
           word_of(sensor.kind), yaml_scalar(cluster_.node(sensor.device).name),
           yaml_scalar(cluster_.node(sensor.host).name), when);
@@ -197,11 +190,11 @@ class Writer {
     say("      {}:", yaml_scalar(task.name));
     say("        step: {}", yaml_scalar(task.step));
     say("        activation: {{{}}}", activation(task.activation));
-    say("        best_case: {}", duration_words(task.best_case));
-    say("        worst_case: {}", duration_words(task.worst_case));
+    say("        best_case: {}", duration_text(task.best_case));
+    say("        worst_case: {}", duration_text(task.worst_case));
     say("        draw: {}", task.draw == model::ExecutionDraw::kWorst ? "worst" : "uniform");
-    say("        deadline: {}", duration_words(task.deadline));
-    if (task.holds > Duration{}) say("        holds: {}", duration_words(task.holds));
+    say("        deadline: {}", duration_text(task.deadline));
+    if (task.holds > Duration{}) say("        holds: {}", duration_text(task.holds));
     if (!task.modes.empty()) write_modes(task);
     ports("reads", task.reads);
     ports("writes", task.writes);
@@ -216,7 +209,7 @@ class Writer {
       say("            detections:");
       for (const model::ModeInstant& one : mode.instants)
         say("              - {{cycle: {}, camera: {}, look: {}, lasts: {}}}", one.cycle,
-            yaml_scalar(cameras[one.camera]->port), one.secondary ? "secondary" : "primary", duration_words(one.lasts));
+            yaml_scalar(cameras[one.camera]->port), one.secondary ? "secondary" : "primary", duration_text(one.lasts));
     }
   }
 
@@ -275,7 +268,7 @@ class Writer {
       for (const model::CanMessage& message : bus.messages)
         say("      - {{pdu: {}, identifier: {}, sender: {}, shortest_period: {}}}",
             yaml_scalar(cluster_.pdu(message.pdu).name), message.identifier,
-            yaml_scalar(cluster_.node(message.sender).name), duration_words(message.shortest_period));
+            yaml_scalar(cluster_.node(message.sender).name), duration_text(message.shortest_period));
     }
   }
 

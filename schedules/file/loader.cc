@@ -11,10 +11,14 @@
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
 #include "schedules/file/completion.h"
+#include "schedules/file/fill_in.h"
 #include "schedules/file/inherit.h"
+#include "schedules/file/load_frames.h"
+#include "schedules/file/load_instants.h"
 #include "schedules/file/load_modes.h"
+#include "schedules/file/load_pdus.h"
+#include "schedules/file/names.h"
 #include "schedules/file/parameter_table.h"
-#include "schedules/file/shortest_periods.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/repetitions.h"
 #include "schedules/model/round.h"
@@ -26,13 +30,10 @@ constexpr Duration kLongest = Duration::milliseconds(10'000);
 constexpr Duration kWidestArrival = Duration::milliseconds(1'000);  // before or after an action point
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
 
-const Choices<model::Channels> kChannels{
-    {"A", model::Channels::kA}, {"B", model::Channels::kB}, {"AB", model::Channels::kAB}};
-
 class Loader {
  public:
   Loader(const StrictYaml& file, Findings& findings)
-      : root_(file.root(findings)), findings_(findings), completion_(cluster_, findings) {
+      : root_(file.root(findings)), findings_(findings), names_(cluster_), completion_(cluster_, findings) {
     cluster_.file = file.name();
     cluster_.text = file.text();
   }
@@ -64,38 +65,22 @@ class Loader {
     for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
     for (auto& [name, map] : pdus) cluster_.pdus.emplace_back().name = name;
     for (auto& [name, map] : cans) cluster_.can_buses.emplace_back().name = name;
-    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus[i].second, cluster_.pdus[i]);
+    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus[i].second, names_, cluster_.pdus[i]);
     for (std::size_t i = 0; i < sensors.size(); ++i) load_sensor(sensors[i].second, cluster_.sensors[i]);
     for (std::size_t i = 0; i < cans.size(); ++i) load_can(cans[i].second, cluster_.can_buses[i]);
     for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);
     shared.finish();
     std::vector<YamlMap> frames = root_.maps("frames");
-    for (std::size_t i = 0; i < frames.size(); ++i) load_frame(frames[i], static_cast<int>(i));
-    std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(),
-                     [](const model::FrameSlot& a, const model::FrameSlot& b) {
-                       return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
-                     });
+    load_frames(frames, names_, cluster_, left_out_.lists);
     completion_.finish();
     root_.finish();
     return std::move(cluster_);
   }
+  left_out::Parts& left_out() { return left_out_; }
 
  private:
   void limit(std::string_view key, std::size_t count, std::size_t most) {
     if (count > most) root_.fail(key, fmt::format("must have at most {} entries; it has {}", most, count));
-  }
-
-  template <class Id> Id reference(YamlMap& map, std::string_view key, std::optional<Id> found, std::string_view what) {
-    if (found) return *found;
-    if (map.has(key)) map.fail(key, fmt::format("is not the name of a {} in this file", what));
-    return Id{};
-  }
-  NodeId node(YamlMap& map, std::string_view key) {
-    return reference(map, key, cluster_.find_node(map.text(key)), "node");
-  }
-  PduId pdu(YamlMap& map, std::string_view key) { return reference(map, key, cluster_.find_pdu(map.text(key)), "PDU"); }
-  SensorId sensor(YamlMap& map, std::string_view key) {
-    return reference(map, key, cluster_.find_sensor(map.text(key)), "sensor");
   }
 
   void load_globals(YamlMap& map) {
@@ -142,7 +127,7 @@ class Loader {
     };
     for (const auto& p : kNodeIntegers) read_parameter(from(p.name), p, local, absent);
     for (const auto& p : kNodeScaled) read_parameter(from(p.name), p, local, absent);
-    local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
+    local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannelChoices);
     local.pWakeupChannel = from("pWakeupChannel")
                                .choice_or("pWakeupChannel", default_wakeup(local.pChannels),
                                           {{"A", model::Channel::kA}, {"B", model::Channel::kB}});
@@ -151,101 +136,23 @@ class Loader {
     return local;
   }
 
-  void load_signals(YamlMap& map, std::string_view key, std::vector<model::Signal>& signals, int& total_bits) {
-    int offset = 0;
-    for (YamlMap& entry : map.maps(key)) {
-      model::Signal signal;
-      signal.name = entry.text("name");
-      signal.unit = entry.text_or("unit", "");
-      signal.bits = static_cast<int>(entry.integer("bits", {1, model::kMostSignalBits}));
-      signal.resolution = entry.number_or("resolution", 1.0, {model::kFinestResolution, model::kCoarsestResolution});
-      signal.low = entry.number_or("low", 0.0, {-model::kLargestLow, model::kLargestLow});
-      const double top = signal.low + (std::ldexp(1.0, signal.bits) - 1.0) * signal.resolution;
-      signal.high = entry.number_or("high", top, {-model::kLargestLow, model::kLargestHigh});
-      if (signal.high <= signal.low || signal.high > top + 0.5 * signal.resolution)
-        entry.fail("high", fmt::format("must be above {} and at most {}: more does not fit {} bits", signal.low, top,
-                                       signal.bits));
-      signal.bit_offset = offset;
-      offset += signal.bits;
-      if (signal.name != "spare" && find_signal(signals, signal.name))
-        entry.fail("name", "is the name of an earlier signal");
-      entry.finish();
-      signals.push_back(std::move(signal));
-    }
-    total_bits = offset;
-  }
-
-  void load_pdu(YamlMap& map, model::PduLayout& layout) {
-    layout.line = map.line();
-    if (map.has("sensor")) layout.sensor = sensor(map, "sensor");
-    layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, model::kMostFragmentBytes}, "bytes"));
-    layout.max_elements = static_cast<int>(map.integer("max_elements", {1, 65535}));
-    layout.elements_per_fragment =
-        static_cast<int>(map.integer("elements_per_fragment", {1, 8 * model::kMostFragmentBytes}));
-    load_signals(map, "header", layout.header, layout.header_bits);
-    load_signals(map, "element", layout.element, layout.element_bits);
-    layout.header_bits = (layout.header_bits + 7) / 8 * 8;
-    if (layout.element.empty()) map.fail("element", "must have at least one signal");
-    const auto needs = [&](std::string_view name, std::int64_t largest) {
-      const auto found = find_signal(layout.header, name);
-      if (!found)
-        map.fail("header", fmt::format("must have a signal {}", name));
-      else if (largest >= std::int64_t{1} << layout.header[*found].bits)
-        map.fail("header", fmt::format("must give {} enough bits for {}", name, largest));
-    };
-    if (layout.max_fragments() > model::kMostFragments)
-      map.fail("max_elements", fmt::format("must be at most {}: {} fragments of {} elements",
-                                           model::kMostFragments * layout.elements_per_fragment, model::kMostFragments,
-                                           layout.elements_per_fragment));
-    // Sequence numbers are distinguishable only when they differ by less than half the range.
-    needs("sequence", 4);
-    needs("fragment", layout.max_fragments() - 1);
-    needs("count", layout.max_elements);
-    const int bits = layout.header_bits + layout.elements_per_fragment * layout.element_bits;
-    if (bits > 8 * layout.fragment_bytes)
-      map.fail("fragment_bytes", fmt::format("must be at least {}: header and {} elements take {} bits", (bits + 7) / 8,
-                                             layout.elements_per_fragment, bits));
-    map.finish();
-  }
-
-  model::CycleInstant load_instant(YamlMap& map) {
-    model::CycleInstant at;
-    load_multiplexing(map, repetitions(cluster_.flexray), at.base_cycle, at.repetition);
-    at.offset = {map.integer("offset", {0, std::max(cluster_.flexray.gMacroPerCycle - 1, 0)}, "macroticks")};
-    return at;
-  }
-
-  void load_multiplexing(YamlMap& map, const std::vector<int>& allowed, int& base_cycle, int& repetition) {
-    base_cycle = static_cast<int>(map.integer("base_cycle", {0, 63}));
-    repetition = static_cast<int>(map.integer("repetition", {1, 64}, "cycles"));
-    bool usable = true;
-    if (std::find(allowed.begin(), allowed.end(), repetition) == allowed.end()) {
-      map.fail("repetition", repetitions_text(cluster_.flexray, allowed));
-      usable = false;
-    }
-    if (base_cycle >= repetition) {
-      map.fail("base_cycle", fmt::format("must be below repetition, 0..{}", repetition - 1));
-      usable = false;
-    }
-    if (!usable) base_cycle = 0, repetition = 1;
-  }
-
   void load_sensor(YamlMap& map, model::Sensor& item) {
+    left_out::Instant& absent = left_out_.sensors.emplace_back();
     item.line = map.line();
     item.kind = map.choice<model::SensorKind>("kind", {{"laser", model::SensorKind::kLaser},
                                                        {"camera", model::SensorKind::kCamera},
                                                        {"radar", model::SensorKind::kRadar},
                                                        {"mono_camera", model::SensorKind::kMonoCamera},
                                                        {"odometry", model::SensorKind::kOdometry}});
-    item.device = node(map, "device");
-    item.host = node(map, "host");
+    item.device = names_.node(map, "device");
+    item.host = names_.node(map, "host");
     enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };
     const auto when = map.choice<Measures>(
         "measurement",
         {{"free", Measures::kFreely}, {"scheduled", Measures::kScheduled}, {"completion", Measures::kFollowing}});
     item.scheduled = when == Measures::kScheduled;
     if (item.scheduled) {
-      item.at = load_instant(map);
+      item.at = load_instant(map, cluster_.flexray, {true, false}, absent);
       item.period = cluster_.cycle() * item.at.repetition;
     } else {
       const bool follows = when == Measures::kFollowing;
@@ -261,6 +168,7 @@ class Loader {
   }
 
   void load_can(YamlMap& map, model::CanBus& bus) {
+    std::vector<bool>& absent = left_out_.shortest_periods.emplace_back();
     bus.line = map.line();
     bus.flexible_data_rate = map.boolean("flexible_data_rate");
     bus.nominal_bit_rate = map.integer("nominal_bit_rate", {model::kSlowestCan, model::kFastestNominal}, "bit/s");
@@ -271,11 +179,12 @@ class Loader {
     for (YamlMap& entry : map.maps("messages")) {
       model::CanMessage message;
       message.line = entry.line();
-      message.pdu = pdu(entry, "pdu");
+      message.pdu = names_.pdu(entry, "pdu");
       message.identifier = static_cast<std::uint32_t>(entry.integer("identifier", {0, 2047}));
-      message.sender = node(entry, "sender");
-      if (entry.has("shortest_period"))  // else zero until all senders are known
-        message.shortest_period = entry.duration("shortest_period", {Duration::microseconds(100), kLongest});
+      message.sender = names_.node(entry, "sender");
+      const auto period = entry.duration_if("shortest_period", {Duration::microseconds(100), kLongest});
+      message.shortest_period = period.value_or(Duration{});  // zero until all senders are known
+      absent.push_back(!period);
       entry.finish();
       bus.messages.push_back(message);
     }
@@ -309,7 +218,8 @@ class Loader {
     return bindings;
   }
 
-  model::Activation load_activation(YamlMap map) {
+  model::Activation load_activation(YamlMap map, left_out::Task& absent) {
+    absent.line = map.line();
     model::Activation activation;
     activation.kind = map.choice<model::ActivationKind>("kind", {{"time", model::ActivationKind::kTime},
                                                                  {"message", model::ActivationKind::kMessage},
@@ -318,9 +228,11 @@ class Loader {
                                                                  {"modes", model::ActivationKind::kModes}});
     switch (activation.kind) {
       case model::ActivationKind::kTime:
-      case model::ActivationKind::kModes: activation.at = load_instant(map); break;
+        activation.at = load_instant(map, cluster_.flexray, {true, true}, absent.at);
+        break;
+      case model::ActivationKind::kModes: activation.at = load_instant(map, cluster_.flexray, {}, absent.at); break;
       case model::ActivationKind::kMessage: activation.port = map.text("port"); break;
-      case model::ActivationKind::kSensor: activation.sensor = sensor(map, "sensor"); break;
+      case model::ActivationKind::kSensor: activation.sensor = names_.sensor(map, "sensor"); break;
       case model::ActivationKind::kCompletion: activation.after = map.text("after"); break;
     }
     for (const char* key : {"port", "sensor", "after"}) remember(map, key);
@@ -328,16 +240,18 @@ class Loader {
     return activation;
   }
 
-  void load_task(YamlMap& map, model::Task& task) {
+  void load_task(YamlMap& map, model::Task& task, left_out::Task& absent) {
     task.line = map.line();
     task.step = map.text("step");
-    task.activation = load_activation(map.map("activation"));
+    task.activation = load_activation(map.map("activation"), absent);
     task.best_case = map.duration("best_case", kExecution);
     task.worst_case = map.duration("worst_case", kExecution);
     if (task.worst_case < task.best_case) map.fail("worst_case", "must not be below best_case");
     task.draw = map.choice<model::ExecutionDraw>(
         "draw", {{"uniform", model::ExecutionDraw::kUniform}, {"worst", model::ExecutionDraw::kWorst}});
-    task.deadline = map.duration("deadline", kExecution);
+    const auto deadline = map.duration_if("deadline", kExecution);
+    task.deadline = deadline.value_or(kLongest);  // until all responses are known
+    absent.deadline = !deadline;
     task.holds = map.duration_or("holds", task.holds, kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
@@ -362,52 +276,19 @@ class Loader {
     auto tasks = map.named_maps("tasks");
     if (tasks.size() > model::kMostTasks)
       map.fail("tasks", fmt::format("must have at most {} entries", model::kMostTasks));
+    std::vector<left_out::Task>& absent = left_out_.tasks.emplace_back();
     for (auto& [name, entry] : tasks) {
       item.tasks.emplace_back().name = name;
-      load_task(entry, item.tasks.back());
+      load_task(entry, item.tasks.back(), absent.emplace_back());
     }
     map.finish();
-  }
-
-  void load_frame(YamlMap& map, int entry) {
-    model::FrameSlot frame;
-    frame.entry = entry;
-    frame.line = map.line();
-    frame.slot = static_cast<int>(map.integer("slot", {1, model::kLastSlot}));
-    frame.channels = map.choice("channels", kChannels);
-    frame.sender = node(map, "sender");
-    load_multiplexing(map, frame_repetitions(cluster_.flexray), frame.base_cycle, frame.repetition);
-    std::int64_t fragments = 1;
-    int step = 1;
-    if (map.has("pdu")) {
-      frame.pdu = pdu(map, "pdu");
-      fragments = map.integer("fragments", {1, model::kLastStaticSlot});
-      frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, model::kLastStaticSlot - 1}));
-      step = static_cast<int>(map.integer_or("fragment_step", step, {1, 2}));
-    } else {
-      frame.payload_bytes = static_cast<int>(map.integer_or("bytes", 0, {0, model::kMostFragmentBytes}, "bytes"));
-      if (frame.payload_bytes > 0 && !is_dynamic(cluster_.flexray, frame))
-        map.fail("bytes", "must not be given in a static slot: its payload has gPayloadLengthStatic words");
-    }
-    frame.network_management = map.boolean_or("network_management", false);
-    if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
-    const bool dynamic = is_dynamic(cluster_.flexray, frame);
-    if (const int last = dynamic ? model::kLastSlot : model::kLastStaticSlot; frame.slot + fragments - 1 > last) {
-      map.fail("fragments", fmt::format("must be at most {}: {} slots end at {}", last - frame.slot + 1,
-                                        dynamic ? "dynamic" : "static", last));
-      fragments = 1;
-    }
-    map.finish();
-    for (std::int64_t f = 0; f < fragments; ++f) {
-      cluster_.frames.push_back(frame);
-      ++frame.slot;
-      frame.fragment += step;
-    }
   }
 
   YamlMap root_;
   Findings& findings_;
   model::Cluster cluster_;
+  left_out::Parts left_out_;
+  Names names_;
   Completion completion_;
 };
 
@@ -425,7 +306,8 @@ model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) 
   expect_kind(file, FileKind::kCluster);
   refuse_plan(file);
   Findings met;
-  model::Cluster cluster = Loader(file, met).load();
+  Loader loader(file, met);
+  model::Cluster cluster = loader.load();
   cluster.origins = origins;
   // Shared parameters are read once per node; a mistake in them is reported once.
   Findings findings;
@@ -434,13 +316,7 @@ model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) 
     if (known.insert({finding.line, finding.sentence()}).second)
       findings.add(cluster.finding(finding.line, finding.key, finding.value, finding.expected));
   findings.throw_if_any();
-  derive_shortest_periods(cluster);
-  for (const model::CanBus& bus : cluster.can_buses)
-    for (std::size_t m = 0; m < bus.messages.size(); ++m)
-      if (bus.messages[m].shortest_period == Duration{})
-        findings.add(
-            cluster.finding(bus.messages[m].line, fmt::format("can.{}.messages[{}].shortest_period", bus.name, m), "",
-                            "must be in the file: the tasks of its sender do not bound the time between two lists"));
+  fill_in(cluster, loader.left_out(), findings);
   findings.throw_if_any();
   return cluster;
 }

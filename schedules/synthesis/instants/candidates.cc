@@ -4,8 +4,7 @@
 
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/parameter_bounds.h"
-#include "schedules/analysis/responses.h"
-#include "schedules/analysis/sensor_loop.h"
+#include "schedules/left_out/periods.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/repetitions.h"
 #include "schedules/synthesis/plan/ways.h"
@@ -13,12 +12,9 @@
 namespace ttf::schedules::synthesis::instants {
 
 using plan::by_time;
-using plan::fuses;
 using plan::LeftOutParameters;
 using plan::Plan;
 using plan::PlannedList;
-using plan::task_at;
-using plan::TaskId;
 namespace {
 
 constexpr int kCorrectionRoom = 100;  // macroticks behind gOffsetCorrectionStart
@@ -87,85 +83,6 @@ void set_controllers(const Plan& plan, model::Cluster& cluster) {
       p.pRateCorrectionOut = static_cast<int>(std::max<std::int64_t>(analysis::least_rate_correction(terms), 2));
     if (left.listen) p.pdListenTimeout = static_cast<int>(analysis::listen_timeout(terms));
   }
-}
-
-// Chooses the repetitions of tasks and lists by those of the sensors.
-class Periods {
- public:
-  Periods(const Plan& plan, Timed& timed) : plan_(plan), timed_(timed), cluster_(timed.cluster) {
-    for (const model::Node& node : cluster_.nodes) state_.emplace_back(node.tasks.size(), 0);
-  }
-
-  void set() {
-    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) (void)of({static_cast<NodeId>(n), t});
-    for (PlannedList& list : timed_.lists)
-      if (list.at.repetition) list.repetition = of_list(list.pdu, model::kFlexRay);
-  }
-
-  // Returns the repetition of a task in cycles.
-  int of(TaskId id) {
-    int& known = state_[index_of(id.node)][id.task];
-    if (known == kAsked) return seldom_;  // a ring: its other lists decide
-    if (known != 0) return known;
-    known = kAsked;
-    const int found = find(id);
-    model::Task& task = cluster_.nodes[index_of(id.node)].tasks[id.task];
-    if (by_time(task) && plan_.tasks[index_of(id.node)][id.task].at.repetition) task.activation.at.repetition = found;
-    return state_[index_of(id.node)][id.task] = found;
-  }
-
-  // Returns the repetition of the list's writer.
-  int of_list(PduId pdu, model::MediumId medium) {
-    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t)
-        for (const model::PortBinding& out : cluster_.nodes[n].tasks[t].writes)
-          if (out.pdu == pdu && out.medium == medium) return of({static_cast<NodeId>(n), t});
-    return seldom_;
-  }
-
- private:
-  static constexpr int kAsked = -1;
-
-  int find(TaskId id) {
-    const model::Task& task = task_at(cluster_, id);
-    if (task.activation.kind == model::ActivationKind::kSensor) {
-      const model::Sensor& sensor = cluster_.sensor(task.activation.sensor);
-      return sensor.scheduled ? sensor.at.repetition : seldom_;
-    }
-    if (by_time(task) && !plan_.tasks[index_of(id.node)][id.task].at.repetition) return task.activation.at.repetition;
-    int least = seldom_;
-    for (const model::PortBinding& in : task.reads)
-      if (task.activation.kind != model::ActivationKind::kMessage || activates(task, in))
-        least = std::min(least, of_list(in.pdu, in.medium));
-    if (!task.reads.empty()) return least;
-    for (std::size_t t = 0; t < cluster_.node(id.node).tasks.size(); ++t)
-      if (fuses(cluster_, {id.node, t})) least = std::min(least, of({id.node, t}));
-    return least;
-  }
-
-  const Plan& plan_;
-  Timed& timed_;
-  model::Cluster& cluster_;
-  const int seldom_ = model::frame_repetitions(cluster_.flexray).back();  // where nothing says how often
-  std::vector<std::vector<int>> state_;
-};
-
-// A bound from below of the time between two lists of a sensor's device: the checker proves it (check/responses.cc).
-void set_shortest_periods(const Plan& plan, model::Cluster& cluster, Periods& periods) {
-  const analysis::ClockBounds clocks = analysis::clock_bounds(cluster);
-  for (std::size_t c = 0; c < cluster.can_buses.size(); ++c)
-    for (std::size_t m = 0; m < cluster.can_buses[c].messages.size(); ++m) {
-      if (!plan.shortest_periods[c][m]) continue;
-      model::CanMessage& message = cluster.can_buses[c].messages[m];
-      const Duration period = cluster.cycle() * periods.of_list(message.pdu, model::MediumId::can(c));
-      Duration varies = Duration::microseconds(100);
-      for (const model::Task& task : cluster.node(message.sender).tasks)
-        for (const model::PortBinding& out : task.writes)
-          if (out.pdu == message.pdu) varies += task.worst_case - analysis::shortest_execution(task);
-      const std::int64_t least = period.ns - 2 * clocks.drift_ns(period.ns) - varies.ns;
-      message.shortest_period = {std::max<std::int64_t>(100'000, least / 10'000 * 10'000)};
-    }
 }
 
 bool fixed_instants_fit(const Plan& plan, const Timed& timed) {
@@ -238,9 +155,9 @@ std::optional<Timed> timed(const Plan& plan, const Candidate& candidate) {
     sensor.at.repetition = candidate.repetitions[s];
     sensor.period = made.cluster.cycle() * sensor.at.repetition;
   }
-  Periods periods(plan, made);
-  periods.set();
-  set_shortest_periods(plan, made.cluster, periods);
+  left_out::Periods periods(made.cluster, plan.tasks);
+  periods.set(made.lists);
+  left_out::set_shortest_periods(made.cluster, plan.shortest_periods, periods);
   if (!fixed_instants_fit(plan, made)) return std::nullopt;
   return made;
 }

@@ -1,8 +1,7 @@
 // The choices of a plan that are no instants: the length of the cycle, the payload of static slots, and how often each sensor
 // measures. Each makes a candidate, and all other periods follow.
 //
-//   A task has the shortest repetition of the lists that it reads; without lists, that of the tasks of its node that fuse.
-//   A list has its writer's.
+//   Tasks and lists have the repetitions that follow from those of sensors (schedules/left_out/periods.h).
 //   A fragment whose layout is left out has the payload's length, and as many elements as it holds.
 //
 // FlexRay's parameters that the plan leaves out follow from the length of the cycle (annex B, 2.1 Rev. A):

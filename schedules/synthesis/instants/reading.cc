@@ -8,11 +8,9 @@
 
 #include "core/check.h"
 #include "core/int128.h"
-#include "schedules/analysis/can_load.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/responses.h"
 #include "schedules/model/round.h"
-#include "schedules/model/wire_times.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::instants {
@@ -30,17 +28,11 @@ using plan::way_to;
 using plan::way_to_use;
 namespace {
 
-// Data of an activity, so long after its beginning at the latest.
-struct Source {
-  std::size_t activity = 0;
-  std::int64_t ns = 0;
-};
-
 class Reader {
  public:
   Reader(const Plan& plan, const Timed& timed)
       : plan_(plan), timed_(timed), cluster_(timed.cluster), g_(cluster_.flexray),
-        clocks_(analysis::clock_bounds(cluster_)) {}
+        clocks_(analysis::clock_bounds(cluster_)), sources_(cluster_) {}
 
   Reading read() {
     add_resources();
@@ -58,8 +50,6 @@ class Reader {
   Problem& problem() { return made_.problem; }
   Ticks cycle() const { return g_.gMacroPerCycle; }
   Ticks at(int base_cycle, Ticks offset) const { return base_cycle * cycle() + offset; }
-  // An execution or a transfer, as another clock may measure it (schedules/analysis/age_stages.cc).
-  std::int64_t span(Duration worst) const { return worst.ns + clocks_.drift_ns(worst.ns) + model::kGranularity_ns; }
 
   std::size_t add(Activity activity) {
     problem().activities.push_back(std::move(activity));
@@ -104,14 +94,6 @@ class Reader {
     }
   }
 
-  // The last slot that may be in use: late frames of real-time media arrive within the static segment
-  // (schedules/check/real_time_rules.h, W2).
-  Ticks last_slot() const {
-    if (!cluster_.arrival_window) return g_.gNumberOfStaticSlots;
-    const Ticks late = ticks(g_, cluster_.arrival_window->late.ns) + g_.gdActionPointOffset;
-    return g_.gNumberOfStaticSlots + 1 - (late + g_.gdStaticSlot - 1) / g_.gdStaticSlot;
-  }
-
   void add_planned_lists() {
     for (const PlannedList& list : timed_.lists) {
       const model::PduLayout& layout = cluster_.pdu(list.pdu);
@@ -120,7 +102,7 @@ class Reader {
       activity.period = list.repetition * cycle();
       activity.window = {0, activity.period - 1};
       activity.duration = fragments * g_.gdStaticSlot;
-      activity.grid = {cycle(), 0, (last_slot() - fragments) * g_.gdStaticSlot, g_.gdStaticSlot};
+      activity.grid = {cycle(), 0, (left_out::last_slot(cluster_) - fragments) * g_.gdStaticSlot, g_.gdStaticSlot};
       if (!list.at.instant) activity.fixed = at(list.base_cycle, (list.slot - 1) * Ticks{g_.gdStaticSlot});
       made_.lists.push_back(add(std::move(activity)));
       if (!slots_of_.contains(list.pdu)) slots_of_[list.pdu] = made_.lists.back();
@@ -147,68 +129,29 @@ class Reader {
     }
   }
 
-  // Returns the sources of a task's output, from their beginnings to its end.
-  std::vector<Source> ready(TaskId id, int hops = 0) {
-    const model::Task& task = task_at(cluster_, id);
-    if (hops > kMostHops) return {};
-    switch (task.activation.kind) {
-      case model::ActivationKind::kTime: return {{*made_.tasks[index_of(id.node)][id.task], span(task.worst_case)}};
-      case model::ActivationKind::kSensor: {
-        const auto sensor = made_.sensors[index_of(task.activation.sensor)];
-        if (!sensor) return {};
-        return {{*sensor, span(response(id))}};
-      }
-      case model::ActivationKind::kMessage: {
-        for (const model::PortBinding& in : task.reads)
-          if (activates(task, in)) return later(arrival(in, hops + 1), span(response(id)));
-        return {};
-      }
-      case model::ActivationKind::kModes: return {};  // its instants differ from frame to frame
-      case model::ActivationKind::kCompletion: {
-        const std::vector<model::Task>& tasks = cluster_.node(id.node).tasks;
-        for (std::size_t t = 0; t < tasks.size(); ++t)
-          if (tasks[t].name == task.activation.after)
-            return later(ready({id.node, t}, hops + 1), span(task.worst_case));
-        return {};
+  // Returns the activity of a place, if the plan knows its instant or chooses it.
+  std::optional<std::size_t> activity_of(const left_out::Place& place) const {
+    switch (place.kind) {
+      case left_out::Place::Kind::kMeasurement: return made_.sensors[index_of(place.sensor)];
+      case left_out::Place::Kind::kTask: return made_.tasks[index_of(place.task.node)][place.task.task];
+      case left_out::Place::Kind::kSlots: {
+        const auto slots = slots_of_.find(place.list);
+        return slots == slots_of_.end() ? std::nullopt : std::optional(slots->second);
       }
     }
-    return {};
-  }
-
-  // Returns the sources of a list, to its arrival at its readers.
-  std::vector<Source> arrival(const model::PortBinding& list, int hops = 0) {
-    if (list.medium.is_flexray()) {
-      const auto slots = slots_of_.find(list.pdu);
-      if (slots == slots_of_.end()) return {};
-      const std::int64_t ps = problem().activities[slots->second].duration * g_.gdMacrotick_ps;
-      return {{slots->second, (ps + 999) / 1'000}};
-    }
-    const model::CanBus& bus = cluster_.can(list.medium);
-    for (const model::CanMessage& message : bus.messages)
-      if (message.pdu == list.pdu)
-        if (const auto writer = writer_of(list))
-          if (const auto worst = analysis::can_worst_response(cluster_, bus, message))
-            return later(ready(*writer, hops + 1), span(*worst));
-    return {};
-  }
-
-  Duration response(TaskId id) const {
-    const auto responses = analysis::worst_responses(cluster_, id.node);
-    const Duration least = task_at(cluster_, id).worst_case;
-    return responses ? std::max(least, (*responses)[id.task].worst) : least;
-  }
-
-  std::optional<TaskId> writer_of(const model::PortBinding& list) const {
-    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t)
-        for (const model::PortBinding& out : cluster_.nodes[n].tasks[t].writes)
-          if (out.pdu == list.pdu && out.medium == list.medium) return TaskId{static_cast<NodeId>(n), t};
     return std::nullopt;
   }
 
-  static std::vector<Source> later(std::vector<Source> sources, std::int64_t ns) {
-    for (Source& source : sources) source.ns += ns;
-    return sources;
+  // `after` takes the data of all sources.
+  void follow(const std::vector<left_out::Source>& sources, std::size_t after, int line) {
+    for (const left_out::Source& source : sources) {
+      const auto before = activity_of(source.place);
+      if (!before) continue;
+      std::int64_t ns = source.ns;
+      if (source.place.kind == left_out::Place::Kind::kSlots)
+        ns += (problem().activities[*before].duration * g_.gdMacrotick_ps + 999) / 1'000;
+      follow(*before, after, ns, line);
+    }
   }
 
   // `after` takes data that is there `ns` behind the beginning of `before`, by another clock.
@@ -226,16 +169,15 @@ class Reader {
 
   void add_precedences() {
     for (const auto& [pdu, slots] : slots_of_)
-      if (const auto writer = writer_of({"", pdu, model::kFlexRay, 0}))
-        for (const Source& source : ready(*writer))
-          follow(source.activity, slots, source.ns, problem().activities[slots].line);
+      if (const auto writer = left_out::writer_of(cluster_, pdu, model::kFlexRay))
+        follow(sources_.ready(*writer), slots, problem().activities[slots].line);
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto node = static_cast<NodeId>(n);
       for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) {
         const auto activity = made_.tasks[n][t];
         if (!activity) continue;
         for (const model::PortBinding& in : cluster_.nodes[n].tasks[t].reads)
-          for (const Source& source : arrival(in)) follow(source.activity, *activity, source.ns, in.line);
+          follow(sources_.arrival(in.pdu, in.medium), *activity, in.line);
         if (fuses(cluster_, {node, t})) before_image(n, *activity);
       }
     }
@@ -244,9 +186,7 @@ class Reader {
   // The image is written behind the task that fuses.
   void before_image(std::size_t n, std::size_t fusing) {
     for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) {
-      const model::Task& task = cluster_.nodes[n].tasks[t];
-      const bool writes_image = std::any_of(task.writes.begin(), task.writes.end(),
-                                            [&](const auto& out) { return cluster_.pdu(out.pdu).sensor == kNoSensor; });
+      const bool writes_image = left_out::writes_image(cluster_, {static_cast<NodeId>(n), t});
       if (const auto publisher = made_.tasks[n][t]; publisher && writes_image && *publisher != fusing)
         follow_ticks(fusing, *publisher, 0, plan_.tasks[n][t].line);
     }
@@ -296,23 +236,18 @@ class Reader {
     }
   }
 
-  static constexpr int kMostHops = 64;
-
   const Plan& plan_;
   const Timed& timed_;
   const model::Cluster& cluster_;
   const model::GlobalParameters& g_;
   analysis::ClockBounds clocks_;
+  left_out::Sources sources_;
   std::map<PduId, std::size_t> slots_of_;
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> precedence_;
   Reading made_;
 };
 
 }  // namespace
-
-Ticks ticks(const model::GlobalParameters& flexray, std::int64_t ns) {
-  return model::ceil_div(static_cast<Int128>(ns) * 1'000, flexray.gdMacrotick_ps);
-}
 
 Reading reading(const Plan& plan, const Timed& timed) { return Reader(plan, timed).read(); }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "schedules/left_out/sources.h"
 #include "schedules/synthesis/instants/candidates.h"
 #include "schedules/synthesis/plan/plan.h"
 #include "schedules/synthesis/problem.h"
@@ -56,7 +57,6 @@ Ticks least_slots(const Read& read);
 // Returns the share of a round's static frames that are free.
 double free_share(const Read& read);
 
-// Returns a duration in ticks, rounded up.
-Ticks ticks(const model::GlobalParameters& flexray, std::int64_t ns);
+using left_out::ticks;
 
 }  // namespace ttf::schedules::synthesis::instants

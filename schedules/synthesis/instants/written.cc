@@ -5,7 +5,7 @@
 
 #include "core/check.h"
 #include "schedules/analysis/age_stages.h"
-#include "schedules/analysis/responses.h"
+#include "schedules/left_out/earliest.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::instants {
@@ -15,28 +15,9 @@ using plan::Hop;
 using plan::Plan;
 using plan::PlannedChain;
 using plan::PlannedList;
-using plan::PlannedTask;
 using plan::task_at;
 using plan::TaskId;
 using plan::way_to;
-namespace {
-
-void set_deadlines(const Plan& plan, model::Cluster& cluster) {
-  constexpr std::int64_t kGrain = 10'000;
-  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    const auto& planned = plan.tasks[n];
-    if (std::none_of(planned.begin(), planned.end(), [](const PlannedTask& task) { return task.deadline; })) continue;
-    const auto responses = analysis::worst_responses(cluster, static_cast<NodeId>(n));
-    for (std::size_t t = 0; t < planned.size(); ++t) {
-      model::Task& task = cluster.nodes[n].tasks[t];
-      if (!planned[t].deadline) continue;
-      const Duration worst = responses ? (*responses)[t].worst : task.worst_case;
-      task.deadline = {(worst.ns + kGrain - 1) / kGrain * kGrain};
-    }
-  }
-}
-
-}  // namespace
 
 model::Cluster with_instants(const Plan& plan, const Timed& timed, const Reading& reading, const Solution& solution) {
   model::Cluster cluster = timed.cluster;
@@ -67,7 +48,7 @@ model::Cluster with_instants(const Plan& plan, const Timed& timed, const Reading
   std::stable_sort(cluster.frames.begin(), cluster.frames.end(), [](const auto& a, const auto& b) {
     return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
   });
-  set_deadlines(plan, cluster);
+  left_out::set_deadlines(cluster, plan.tasks);
   return cluster;
 }
 

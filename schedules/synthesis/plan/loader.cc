@@ -31,7 +31,8 @@ void take_lists(Plan& plan, const std::vector<LeftOutValues::Frame>& entries) {
                           frame.repetition,
                           frame.slot,
                           {entries[entry].slot, entries[entry].repetition},
-                          frame.line});
+                          frame.line,
+                          frame.entry});
   }
   std::erase_if(plan.cluster.frames, [&](const model::FrameSlot& frame) {
     return frame.entry && taken[static_cast<std::size_t>(*frame.entry)];

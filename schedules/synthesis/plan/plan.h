@@ -17,32 +17,15 @@
 #include "core/ids.h"
 #include "core/text_place.h"
 #include "core/time.h"
+#include "schedules/left_out/parts.h"
 #include "schedules/model/cluster.h"
 #include "schedules/synthesis/plan/demands.h"
 
 namespace ttf::schedules::synthesis::plan {
 
-// The parts of a periodic instant that the plan leaves out.
-struct LeftOut {
-  bool instant = false;     // base cycle and offset, or base cycle and slot
-  bool repetition = false;  // it follows from the rates of sensors
-};
-
-struct PlannedTask {
-  LeftOut at;
-  bool deadline = false;  // left out
-  int line = 0;           // the activation's
-};
-
-// A list's static slots, all in one cycle and one behind the other.
-struct PlannedList {
-  PduId pdu{};
-  NodeId sender{};
-  model::Channels channels = model::Channels::kAB;
-  int base_cycle = 0, repetition = 1, slot = 1;  // placeholders where they are left out
-  LeftOut at;
-  int line = 0;
-};
+using LeftOut = left_out::Instant;
+using PlannedTask = left_out::Task;
+using PlannedList = left_out::List;  // slots of a list
 
 // How often a sensor may measure.
 struct Rate {

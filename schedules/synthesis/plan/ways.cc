@@ -4,8 +4,6 @@
 #include <functional>
 #include <set>
 
-#include "schedules/analysis/age_stages.h"
-
 namespace ttf::schedules::synthesis::plan {
 namespace {
 
@@ -59,9 +57,7 @@ class Walker {
     std::vector<TaskId> found;
     const std::vector<model::Task>& tasks = cluster_.node(node).tasks;
     for (std::size_t t = 0; t < tasks.size(); ++t)
-      if (std::any_of(tasks[t].writes.begin(), tasks[t].writes.end(),
-                      [&](const auto& out) { return cluster_.pdu(out.pdu).sensor == kNoSensor; }))
-        found.push_back({node, t});
+      if (left_out::writes_image(cluster_, {node, t})) found.push_back({node, t});
     return found;
   }
 
@@ -72,18 +68,6 @@ class Walker {
 };
 
 }  // namespace
-
-const model::Task& task_at(const model::Cluster& cluster, TaskId id) { return cluster.node(id.node).tasks[id.task]; }
-
-bool by_time(const model::Task& task) { return task.activation.kind == model::ActivationKind::kTime; }
-
-bool fuses(const model::Cluster& cluster, TaskId id) {
-  const model::Task& task = task_at(cluster, id);
-  const bool of_sensors = std::all_of(task.reads.begin(), task.reads.end(),
-                                      [&](const auto& in) { return cluster.pdu(in.pdu).sensor != kNoSensor; });
-  return of_sensors && !task.reads.empty() && task.writes.empty() &&
-         analysis::publisher_of(cluster, id.node).task != nullptr;
-}
 
 std::vector<Hop> way_to(const model::Cluster& cluster, SensorId sensor, TaskId to) {
   return Walker(cluster, sensor).walk([&](TaskId at) { return at == to; });

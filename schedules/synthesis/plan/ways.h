@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "schedules/left_out/tasks.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::schedules::synthesis::plan {
 
-struct TaskId {
-  NodeId node{};
-  std::size_t task = 0;
-  auto operator<=>(const TaskId&) const = default;
-};
+using left_out::by_time;
+using left_out::fuses;
+using left_out::task_at;
+using left_out::TaskId;
 
 // The task, and the list by which the data comes to it. No list leads from a task that fuses to the one of its node that
 // writes the image, nor to the first task.
@@ -29,11 +29,5 @@ std::vector<Hop> way_to(const model::Cluster& cluster, SensorId sensor, TaskId t
 // Returns the first task that begins by time at the end of the sensor's way: the reader of the image, or else the task that
 // fuses; none if neither begins by time.
 std::vector<Hop> way_to_use(const model::Cluster& cluster, SensorId sensor);
-
-// Returns whether the task fuses: it reads sensors' lists alone and writes none, and another task of its node writes the image.
-bool fuses(const model::Cluster& cluster, TaskId id);
-
-const model::Task& task_at(const model::Cluster& cluster, TaskId id);
-bool by_time(const model::Task& task);
 
 }  // namespace ttf::schedules::synthesis::plan

@@ -1,0 +1,14 @@
+// Fills in what a cluster file leaves out of its schedule: repetitions, instants and slots (schedules/left_out/earliest.h),
+// the shortest periods of CAN messages (shortest_periods.h), and deadlines.
+#pragma once
+
+#include "core/errors.h"
+#include "schedules/left_out/parts.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::schedules::file {
+
+// What was filled in stands in Cluster::derived. What does not follow is a finding. The cluster is otherwise whole.
+void fill_in(model::Cluster& cluster, left_out::Parts& parts, Findings& findings);
+
+}  // namespace ttf::schedules::file

@@ -1,0 +1,145 @@
+#include "schedules/file/load_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "schedules/file/load_instants.h"
+#include "schedules/model/limits.h"
+#include "schedules/model/repetitions.h"
+
+namespace ttf::schedules::file {
+namespace {
+
+class FrameLoader {
+ public:
+  FrameLoader(const Names& names, model::Cluster& cluster, std::vector<left_out::List>& lists)
+      : names_(names), cluster_(cluster), lists_(lists) {}
+
+  void load(YamlMap& map, int entry) {
+    model::FrameSlot frame;
+    frame.entry = entry;
+    frame.line = map.line();
+    frame.sender = names_.node(map, "sender");
+    const auto slot = map.integer_if("slot", {1, model::kLastSlot});
+    frame.slot = static_cast<int>(slot.value_or(1));
+    if (const auto channels = map.choice_if("channels", kChannelChoices))
+      frame.channels = *channels;
+    else
+      derive(frame, "channels", std::string(channels_text(frame.channels = channels_of(frame.sender))));
+    const bool is_static = !is_dynamic(cluster_.flexray, frame);
+    if (map.has("pdu"))
+      load_list(map, frame, is_static);
+    else
+      load_status(map, frame, slot.has_value(), is_static);
+  }
+
+  // Gives the lowest free slots to status frames without one.
+  void finish() {
+    for (model::FrameSlot& frame : waiting_) {
+      int slot = 1;
+      const auto taken = [&](const model::FrameSlot& other) { return other.slot == slot; };
+      while (std::any_of(cluster_.frames.begin(), cluster_.frames.end(), taken)) ++slot;
+      frame.slot = slot;
+      derive(frame, "slot", fmt::format("{}", slot));
+      cluster_.frames.push_back(frame);
+    }
+    std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(),
+                     [](const model::FrameSlot& a, const model::FrameSlot& b) {
+                       return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
+                     });
+  }
+
+ private:
+  void derive(const model::FrameSlot& frame, std::string_view key, std::string value) {
+    cluster_.derived.push_back({fmt::format("frames[{}].{}", *frame.entry, key), std::move(value)});
+  }
+
+  model::Channels channels_of(NodeId sender) const {
+    const bool known = index_of(sender) < cluster_.nodes.size() && cluster_.node(sender).flexray;
+    return known ? cluster_.node(sender).flexray->pChannels : model::Channels::kAB;
+  }
+
+  void load_status(YamlMap& map, model::FrameSlot& frame, bool has_slot, bool is_static) {
+    left_out::Instant absent;
+    const std::vector<int> allowed = frame_repetitions(cluster_.flexray);
+    // A static one is of every cycle.
+    load_multiplexing(map, cluster_.flexray, allowed, nullptr, {is_static, is_static}, absent, frame.base_cycle,
+                      frame.repetition);
+    if (absent.instant) derive(frame, "base_cycle", "0");
+    if (absent.repetition) derive(frame, "repetition", "1");
+    frame.payload_bytes = static_cast<int>(map.integer_or("bytes", 0, {0, model::kMostFragmentBytes}, "bytes"));
+    if (frame.payload_bytes > 0 && is_static)
+      map.fail("bytes", "must not be given in a static slot: its payload has gPayloadLengthStatic words");
+    load_preamble(map, frame);
+    map.finish();
+    if (has_slot)
+      cluster_.frames.push_back(frame);
+    else
+      waiting_.push_back(frame);
+  }
+
+  void load_list(YamlMap& map, model::FrameSlot& frame, bool is_static) {
+    frame.pdu = names_.pdu(map, "pdu");
+    left_out::Instant absent;
+    load_multiplexing(map, cluster_.flexray, frame_repetitions(cluster_.flexray), "slot", {is_static, is_static},
+                      absent, frame.base_cycle, frame.repetition);
+    auto fragments = map.integer_if("fragments", {1, model::kLastStaticSlot});
+    frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, model::kLastStaticSlot - 1}));
+    const int step = static_cast<int>(map.integer_or("fragment_step", 1, {1, 2}));
+    if (!fragments) {
+      const int all = index_of(frame.pdu) < cluster_.pdus.size() ? cluster_.pdu(frame.pdu).max_fragments() : 1;
+      fragments = std::max(1, (all - frame.fragment + step - 1) / step);
+      derive(frame, "fragments", fmt::format("{}", *fragments));
+    }
+    load_preamble(map, frame);
+    if (absent.instant || absent.repetition) {
+      refuse_parts(map);
+      map.finish();
+      lists_.push_back({frame.pdu, frame.sender, frame.channels, frame.base_cycle, frame.repetition, frame.slot, absent,
+                        frame.line, frame.entry});
+      return;
+    }
+    if (const int last = is_static ? model::kLastStaticSlot : model::kLastSlot; frame.slot + *fragments - 1 > last) {
+      map.fail("fragments", fmt::format("must be at most {}: {} slots end at {}", last - frame.slot + 1,
+                                        is_static ? "static" : "dynamic", last));
+      fragments = 1;
+    }
+    map.finish();
+    for (std::int64_t f = 0; f < *fragments; ++f) {
+      cluster_.frames.push_back(frame);
+      ++frame.slot;
+      frame.fragment += step;
+    }
+  }
+
+  static void load_preamble(YamlMap& map, model::FrameSlot& frame) {
+    frame.network_management = map.boolean_or("network_management", false);
+    if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
+  }
+
+  // Slots follow for whole lists alone.
+  static void refuse_parts(YamlMap& map) {
+    for (const char* key : {"fragments", "first_fragment", "fragment_step", "network_management", "message_id"})
+      if (!map.lacks(key) && map.has(key))
+        map.fail(key, "needs a slot, base_cycle and repetition: they follow for whole lists alone");
+  }
+
+  const Names& names_;
+  model::Cluster& cluster_;
+  std::vector<left_out::List>& lists_;
+  std::vector<model::FrameSlot> waiting_;  // status frames without a slot
+};
+
+}  // namespace
+
+void load_frames(std::vector<YamlMap>& entries, const Names& names, model::Cluster& cluster,
+                 std::vector<left_out::List>& lists) {
+  FrameLoader loader(names, cluster, lists);
+  for (std::size_t i = 0; i < entries.size(); ++i) loader.load(entries[i], static_cast<int>(i));
+  loader.finish();
+}
+
+}  // namespace ttf::schedules::file

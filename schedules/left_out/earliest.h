@@ -1,0 +1,29 @@
+// Puts what a cluster file leaves out of its schedule where it follows from the rest: each as early as may be.
+//
+//   sensor   measures at the beginning of the first cycle
+//   task     begins when all lists that it reads are certainly there, and its processor is free. The task that writes the image
+//            begins behind all tasks of its node that fuse
+//   list     has the first free static slots, one behind the other, that begin when its writer has certainly ended
+//
+// What can begin first is put first; of equals sensors, then tasks, then lists, each in the order of the file. "Certainly" is
+// by the bounds of schedules/analysis (sources.h). Time counts on from a measurement to its use: an instant is taken modulo its
+// period. What the file says never moves: it passes data on at its next instant.
+//
+// A slot is free for a list if its sender alone sends in it, in other cycles (2.1 Rev. A: a static slot has one owner).
+#pragma once
+
+#include "core/errors.h"
+#include "schedules/left_out/parts.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::schedules::left_out {
+
+// Sets instants, repetitions and the frames of lists. A value that does not follow is a finding: nothing leads to it, or there is no
+// room for it. The cluster must be whole otherwise; `parts.lists` get their values as well.
+void put_earliest(model::Cluster& cluster, Parts& parts, Findings& findings);
+
+// Sets the deadlines of tasks that are left out: the longest time from activation to end, rounded up to 10 us. Without a bound, the
+// longest execution.
+void set_deadlines(model::Cluster& cluster, const std::vector<std::vector<Task>>& tasks);
+
+}  // namespace ttf::schedules::left_out

@@ -1,0 +1,43 @@
+// Which instants, periods and deadlines a file leaves out. The model has placeholders in their place.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/ids.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::schedules::left_out {
+
+// The parts of a periodic instant that are left out.
+struct Instant {
+  bool instant = false;     // base cycle and offset, or base cycle and slot
+  bool repetition = false;  // it follows from other repetitions (periods.h)
+};
+
+struct Task {
+  Instant at;             // of a task that time activates
+  bool deadline = false;  // left out
+  int line = 0;           // the activation's
+};
+
+// A list's static slots, all in one cycle and one behind the other.
+struct List {
+  PduId pdu{};
+  NodeId sender{};
+  model::Channels channels = model::Channels::kAB;
+  int base_cycle = 0, repetition = 1, slot = 1;  // placeholders where they are left out
+  Instant at;
+  int line = 0;
+  std::optional<int> entry = std::nullopt;  // of the file's list `frames`
+};
+
+// All that a file leaves out.
+struct Parts {
+  std::vector<Instant> sensors;                     // by sensor
+  std::vector<std::vector<Task>> tasks;             // by node and task
+  std::vector<List> lists;                          // those with a value left out; the model has no frames of them
+  std::vector<std::vector<bool>> shortest_periods;  // by CAN and message
+};
+
+}  // namespace ttf::schedules::left_out
