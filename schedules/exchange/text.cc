@@ -179,10 +179,22 @@ std::string modes_text(const model::Task& task, const std::string& indent) {
   return text;
 }
 
+// A row for each mapping of the file, in the order in which they are met; a long one goes on below itself.
 void show_derived(const model::Cluster& cluster, std::string& text) {
   if (cluster.derived.empty()) return;
   text += "\nderived, as the file leaves them out\n";
-  for (const model::DerivedValue& one : cluster.derived) text += fmt::format("  {} = {}\n", one.path, one.value);
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const model::DerivedValue& one : cluster.derived) {
+    const std::size_t dot = one.path.rfind('.');
+    const std::string of = one.path.substr(0, dot), value = one.path.substr(dot + 1) + " = " + one.value;
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& known) { return known.first == of; });
+    if (row == rows.end()) row = rows.insert(row, {of, fmt::format("  {}:", of)});
+    const std::size_t line = row->second.rfind('\n') + 1;
+    const bool full = row->second.size() - line + 2 + value.size() > kWidest;
+    if (!row->second.ends_with(':')) row->second += ',';
+    row->second += (full ? "\n      " : " ") + value;
+  }
+  for (const auto& row : rows) text += row.second + '\n';
 }
 
 // A time on the cycle's own grid goes below a row that it would make too wide.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/decimal.h"
 #include "core/time.h"
@@ -31,6 +32,8 @@ class Filler {
 
   void fill() {
     if (any_instant(parts_)) {
+      for (const left_out::List& list : parts_.lists) absent_of_lists_.push_back(list.at);
+      left_out::use_key_slots(cluster_, parts_.lists);
       left_out::put_earliest(cluster_, parts_, findings_);
       check_base_cycles();
       for_absent_periods([](model::CanMessage& message, const std::string&) { message.shortest_period = {}; });
@@ -112,13 +115,16 @@ class Filler {
                     at.offset.value);
         if (parts_.tasks[n][t].deadline) say(task_path(n, t) + ".deadline", duration_text(task.deadline));
       }
-    for (const left_out::List& list : parts_.lists)
-      say_instant(list.at, frame_path(list), list.base_cycle, list.repetition, "slot", list.slot);
+    for (std::size_t l = 0; l < parts_.lists.size(); ++l) {
+      const left_out::List& list = parts_.lists[l];
+      say_instant(absent_of_lists_[l], frame_path(list), list.base_cycle, list.repetition, "slot", list.slot);
+    }
   }
 
   model::Cluster& cluster_;
   left_out::Parts& parts_;
   Findings& findings_;
+  std::vector<left_out::Instant> absent_of_lists_;  // a list in a key slot leaves nothing out any more
 };
 
 }  // namespace

@@ -36,14 +36,12 @@ class FrameLoader {
       load_status(map, frame, slot.has_value(), is_static);
   }
 
-  // Gives the lowest free slots to status frames without one.
+  // Gives slots to the status frames without one.
   void finish() {
     for (model::FrameSlot& frame : waiting_) {
-      int slot = 1;
-      const auto taken = [&](const model::FrameSlot& other) { return other.slot == slot; };
-      while (std::any_of(cluster_.frames.begin(), cluster_.frames.end(), taken)) ++slot;
-      frame.slot = slot;
-      derive(frame, "slot", fmt::format("{}", slot));
+      frame.slot = key_slot(frame.sender);
+      if (frame.slot == 0 || is_taken(frame.slot, frame.sender)) frame.slot = lowest_free(frame.sender);
+      derive(frame, "slot", fmt::format("{}", frame.slot));
       cluster_.frames.push_back(frame);
     }
     std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(),
@@ -60,6 +58,25 @@ class FrameLoader {
   model::Channels channels_of(NodeId sender) const {
     const bool known = index_of(sender) < cluster_.nodes.size() && cluster_.node(sender).flexray;
     return known ? cluster_.node(sender).flexray->pChannels : model::Channels::kAB;
+  }
+
+  // Returns the key slot that the file says; else 0.
+  int key_slot(NodeId sender) const {
+    const bool known = index_of(sender) < cluster_.nodes.size() && cluster_.node(sender).flexray;
+    return known ? cluster_.node(sender).flexray->pKeySlotId : 0;
+  }
+
+  // A slot is taken by a frame, and by another node whose key slot it is.
+  bool is_taken(int slot, NodeId sender) const {
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      if (static_cast<NodeId>(n) != sender && key_slot(static_cast<NodeId>(n)) == slot) return true;
+    return std::any_of(cluster_.frames.begin(), cluster_.frames.end(),
+                       [&](const model::FrameSlot& frame) { return frame.slot == slot; });
+  }
+  int lowest_free(NodeId sender) const {
+    int slot = 1;
+    while (is_taken(slot, sender)) ++slot;
+    return slot;
   }
 
   void load_status(YamlMap& map, model::FrameSlot& frame, bool has_slot, bool is_static) {
@@ -89,14 +106,17 @@ class FrameLoader {
     auto fragments = map.integer_if("fragments", {1, model::kLastStaticSlot});
     frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, model::kLastStaticSlot - 1}));
     const int step = static_cast<int>(map.integer_or("fragment_step", 1, {1, 2}));
+    const int all = index_of(frame.pdu) < cluster_.pdus.size() ? cluster_.pdu(frame.pdu).max_fragments() : 1;
     if (!fragments) {
-      const int all = index_of(frame.pdu) < cluster_.pdus.size() ? cluster_.pdu(frame.pdu).max_fragments() : 1;
       fragments = std::max(1, (all - frame.fragment + step - 1) / step);
       derive(frame, "fragments", fmt::format("{}", *fragments));
     }
     load_preamble(map, frame);
     if (absent.instant || absent.repetition) {
       refuse_parts(map);
+      if (step == 1 && *fragments != all)
+        map.fail("fragments",
+                 fmt::format("must be {}, all of the list, where slot, base_cycle or repetition follow", all));
       map.finish();
       lists_.push_back({frame.pdu, frame.sender, frame.channels, frame.base_cycle, frame.repetition, frame.slot, absent,
                         frame.line, frame.entry});
@@ -120,11 +140,10 @@ class FrameLoader {
     if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
   }
 
-  // Slots follow for whole lists alone.
+  // Slots follow for whole lists alone, one behind the other.
   static void refuse_parts(YamlMap& map) {
-    for (const char* key : {"fragments", "first_fragment", "fragment_step", "network_management", "message_id"})
-      if (!map.lacks(key) && map.has(key))
-        map.fail(key, "needs a slot, base_cycle and repetition: they follow for whole lists alone");
+    for (const char* key : {"first_fragment", "fragment_step", "network_management", "message_id"})
+      if (map.has(key)) map.fail(key, "needs a slot, base_cycle and repetition: they follow for whole lists alone");
   }
 
   const Names& names_;

@@ -1,7 +1,7 @@
 // The list `frames` of a cluster file. An entry is a status frame, or consecutive slots of a list.
 //
-// A status frame without `slot` has the lowest static slot that no entry names and no status frame before it has. It is of every
-// cycle. `channels` that are absent are the sender's, and `fragments` that are absent are all of the PDU. Slots, base cycle and
+// A status frame without `slot` has its sender's pKeySlotId, if the file says it and the slot is free. Else it has the lowest slot that
+// no entry, no other node's pKeySlotId and no status frame before it has. It is of every cycle. `channels` that are absent are the sender's, and `fragments` that are absent are all of the PDU. Slots, base cycle and
 // repetition of a list may be absent: schedules/left_out/earliest.h puts them.
 #pragma once
 

@@ -65,7 +65,7 @@ class Loader {
     for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
     for (auto& [name, map] : pdus) cluster_.pdus.emplace_back().name = name;
     for (auto& [name, map] : cans) cluster_.can_buses.emplace_back().name = name;
-    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus[i].second, names_, cluster_.pdus[i]);
+    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus, i, names_, cluster_.pdus[i]);
     for (std::size_t i = 0; i < sensors.size(); ++i) load_sensor(sensors[i].second, cluster_.sensors[i]);
     for (std::size_t i = 0; i < cans.size(); ++i) load_can(cans[i].second, cluster_.can_buses[i]);
     for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);

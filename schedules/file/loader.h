@@ -1,6 +1,7 @@
 // Reads a cluster file. Every parameter of the FlexRay specification is required, under its own name and within
-// its range of annex B (2.1 Rev. A), unless others determine it (schedules/file/derive.h). Unknown, missing, duplicate
-// and out-of-range keys are findings, all reported at once.
+// its range of annex B (2.1 Rev. A), unless others determine it (schedules/file/derive.h). So are instants, slots, periods and
+// deadlines, unless they follow (schedules/file/fill_in.h). Unknown, missing, duplicate and out-of-range keys are findings, all
+// reported at once.
 //
 //   extends: OTHER.yaml                         the keys that this file does not have (schedules/file/inherit.h); optional
 //   name: paper_synchronised
@@ -11,7 +12,7 @@
 //   flexray: {gColdStartAttempts: 8, ...}       global parameters; times in us, gdMaxMicrotick in ns
 //             pChannels (A, B or AB) and pWakeupChannel may be absent: AB, and A where the node is attached to it
 //   node_parameters: {pSamplesPerMicrotick: 2, ...}   defaults for all nodes
-//   pdus:   {NAME: {sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
+//   pdus:   {NAME: {like, sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
 //   sensors: {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
 //         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}

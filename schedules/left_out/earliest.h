@@ -9,7 +9,7 @@
 // by the bounds of schedules/analysis (sources.h). Time counts on from a measurement to its use: an instant is taken modulo its
 // period. What the file says never moves: it passes data on at its next instant.
 //
-// A slot is free for a list if its sender alone sends in it, in other cycles (2.1 Rev. A: a static slot has one owner).
+// A list of one frame may stand in its sender's key slot, in every cycle (use_key_slots).
 #pragma once
 
 #include "core/errors.h"
@@ -17,6 +17,10 @@
 #include "schedules/model/cluster.h"
 
 namespace ttf::schedules::left_out {
+
+// Gives a list of one frame its sender's key slot, in every cycle, if no frame stands there: without a status frame the list keeps
+// the clocks together. A list whose repetition the file says is of every cycle only if that is 1.
+void use_key_slots(const model::Cluster& cluster, std::vector<List>& lists);
 
 // Sets instants, repetitions and the frames of lists. A value that does not follow is a finding: nothing leads to it, or there is no
 // room for it. The cluster must be whole otherwise; `parts.lists` get their values as well.

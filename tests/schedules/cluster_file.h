@@ -19,6 +19,7 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "paper_free_flexray",
                                                "paper_fitted",
                                                "paper_planned",
+                                               "paper_earliest",
                                                "paper_dynamic",
                                                "laser_radar",
                                                "laser_radar_synchronised",

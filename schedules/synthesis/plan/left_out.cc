@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -129,8 +130,15 @@ class Filler {
   }
 
   void pdus() {
+    std::vector<std::string> names, like;  // the PDU whose layout another one has; else empty
     for (auto& [name, map] : root_.named_maps("pdus")) {
       const Path path{"pdus", name};
+      names.push_back(name);
+      like.push_back(map.has("like") ? map.text("like") : "");
+      if (!like.back().empty()) {
+        found_.layouts.push_back(!map.has("fragment_bytes") && !map.has("elements_per_fragment"));
+        continue;
+      }
       const bool bytes = payload_ && leave(map, path, "fragment_bytes", fmt::format("{}", payload_->longest));
       const bool elements = payload_ && !map.has("elements_per_fragment");
       if (elements) {
@@ -143,6 +151,10 @@ class Filler {
         findings_.add({map.file(), map.line(),
                        fmt::format("{}.{}", map.path(), bytes ? "fragment_bytes" : "elements_per_fragment"), "",
                        "is missing: a plan leaves out both fragment_bytes and elements_per_fragment, or none of them"});
+    }
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      const auto other = static_cast<std::size_t>(std::find(names.begin(), names.end(), like[p]) - names.begin());
+      if (!like[p].empty()) found_.layouts[p] = found_.layouts[p] && other < names.size() && found_.layouts[other];
     }
   }
 

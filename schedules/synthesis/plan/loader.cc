@@ -10,6 +10,7 @@
 #include "core/strict_yaml.h"
 #include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
+#include "schedules/left_out/earliest.h"
 #include "schedules/synthesis/plan/left_out.h"
 #include "schedules/synthesis/plan/section.h"
 
@@ -38,26 +39,6 @@ void take_lists(Plan& plan, const std::vector<LeftOutValues::Frame>& entries) {
     return frame.entry && taken[static_cast<std::size_t>(*frame.entry)];
   });
   std::stable_sort(plan.lists.begin(), plan.lists.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
-}
-
-// A node without another frame in its key slot sends a list of one frame there, in every cycle.
-void use_key_slots(Plan& plan) {
-  for (PlannedList& list : plan.lists) {
-    const auto& flexray = plan.cluster.node(list.sender).flexray;
-    const bool every_cycle = list.at.repetition || list.repetition == 1;
-    if (!list.at.instant || !flexray || !every_cycle || plan.cluster.pdu(list.pdu).max_fragments() > 1) continue;
-    const int slot = flexray->pKeySlotId;
-    const auto taken = [&](const model::FrameSlot& frame) { return frame.slot == slot; };
-    if (std::any_of(plan.cluster.frames.begin(), plan.cluster.frames.end(), taken)) continue;
-    const bool promised = std::any_of(plan.lists.begin(), plan.lists.end(), [&](const PlannedList& other) {
-      return !other.at.instant && other.slot == slot;
-    });
-    if (promised) continue;
-    list.base_cycle = 0;
-    list.repetition = 1;
-    list.slot = slot;
-    list.at = {};
-  }
 }
 
 // Returns the lengths of the cycle, or the one length that the cluster says.
@@ -148,7 +129,7 @@ Plan read(StrictYaml file, TextOrigins origins) {
   plan.free_layouts = std::move(left.layouts);
   for (const LeftOut& at : left.sensors) plan.sensors.push_back({at, std::nullopt, std::nullopt});
   take_lists(plan, left.frames);
-  use_key_slots(plan);
+  left_out::use_key_slots(plan.cluster, plan.lists);
   refuse_layouts(plan, findings);
   plan.origins = std::move(origins);
   read_section(section, plan);
