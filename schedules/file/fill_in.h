@@ -1,4 +1,4 @@
-// Fills in what a cluster file leaves out of its schedule: repetitions, instants and slots (schedules/left_out/earliest.h),
+// Completes the schedule of a cluster file that leaves values out: repetitions, instants and slots (schedules/left_out/earliest.h),
 // the shortest periods of CAN messages (shortest_periods.h), and deadlines.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace ttf::schedules::file {
 
-// What was filled in stands in Cluster::derived. What does not follow is a finding. The cluster is otherwise whole.
+// Cluster::derived lists the values. A value that does not follow is a finding. The cluster is otherwise whole.
 void fill_in(model::Cluster& cluster, left_out::Parts& parts, Findings& findings);
 
 }  // namespace ttf::schedules::file

@@ -9,12 +9,12 @@
 
 namespace ttf::schedules::file {
 
-// Which parts may be absent.
+// The parts that may be absent.
 struct MayLack {
   bool instant = false, repetition = false;
 };
 
-// Reads base cycle and repetition. What may be absent, and is, is noted in `absent`, and has a placeholder. With an absent
+// Reads base cycle and repetition. An absent part is noted in `absent`, and has a placeholder. With an absent
 // repetition the base cycle has no bound yet. A base cycle is absent with the instant's other key alone (`within`: an offset or a slot;
 // null: with any).
 void load_multiplexing(YamlMap& map, const model::GlobalParameters& flexray, const std::vector<int>& allowed,

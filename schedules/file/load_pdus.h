@@ -15,7 +15,7 @@ namespace ttf::schedules::file {
 
 using NamedMaps = std::vector<std::pair<std::string, YamlMap>>;
 
-// Reads all of pdus[own] but the name. What does not fit a fragment, or cannot number its fragments, is a finding.
+// Reads all of pdus[own] but the name. A layout that does not fit a fragment, or cannot number its fragments, is a finding.
 void load_pdu(NamedMaps& pdus, std::size_t own, const Names& names, model::PduLayout& layout);
 
 }  // namespace ttf::schedules::file

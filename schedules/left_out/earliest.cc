@@ -29,7 +29,7 @@ void add_frames(model::Cluster& cluster, const List& list) {
   });
 }
 
-// What an item waits for, and how long from the beginning of that.
+// An item before another one, and the time from its beginning to the earliest of the other.
 struct Wait {
   std::size_t item = 0;
   Ticks gap = 0;
@@ -167,7 +167,7 @@ class Putting {
     at.offset = Macroticks{offset};
   }
 
-  // What is left waits for itself.
+  // All that is left waits for itself.
   void report_ring() {
     const auto left = std::find_if(items_.all.begin(), items_.all.end(), [](const Item& item) { return !item.at; });
     if (left == items_.all.end()) return;

@@ -5,9 +5,9 @@
 //            begins behind all tasks of its node that fuse
 //   list     has the first free static slots, one behind the other, that begin when its writer has certainly ended
 //
-// What can begin first is put first; of equals sensors, then tasks, then lists, each in the order of the file. "Certainly" is
+// The first that can begin is placed first. Sensors come before tasks, and tasks before lists, each in the order of the file, where all can. "Certainly" is
 // by the bounds of schedules/analysis (sources.h). Time counts on from a measurement to its use: an instant is taken modulo its
-// period. What the file says never moves: it passes data on at its next instant.
+// period. Written instants never move: data passes on at the next of them.
 //
 // A list of one frame may stand in its sender's key slot, in every cycle (use_key_slots).
 #pragma once

@@ -1,4 +1,4 @@
-// The places of a schedule, each with its period: what the file says, and what it leaves out.
+// The places of a schedule, each with its period: those that the file says, and those that it leaves out.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ struct Item {
   int line = 0;
   Ticks period = 0, duration = 0;
   std::optional<Ticks> fixed;       // within the period, where the file says it
-  std::optional<std::size_t> list;  // of Parts::lists
+  std::optional<std::size_t> list;  // its number in Parts::lists
   std::optional<Ticks> at;          // once it is put: counted on from the beginning of the round
 };
 
 struct Items {
   std::vector<Item> all;                // sensors, tasks, lists, in the order of the file
-  std::map<Place, std::size_t> places;  // of the slots of a list the first
+  std::map<Place, std::size_t> places;  // a list's first slots
 };
 
 // Returns the scheduled measurements, the tasks that time activates, and the lists in static slots. Repetitions are known.

@@ -1,4 +1,4 @@
-// Which instants, periods and deadlines a file leaves out. The model has placeholders in their place.
+// The instants, periods and deadlines that a file leaves out. The model has placeholders in their place.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct Instant {
 };
 
 struct Task {
-  Instant at;             // of a task that time activates
+  Instant at;             // for a task that time activates
   bool deadline = false;  // left out
   int line = 0;           // the activation's
 };
@@ -29,7 +29,7 @@ struct List {
   int base_cycle = 0, repetition = 1, slot = 1;  // placeholders where they are left out
   Instant at;
   int line = 0;
-  std::optional<int> entry = std::nullopt;  // of the file's list `frames`
+  std::optional<int> entry = std::nullopt;  // its number in the file's list `frames`
 };
 
 // All that a file leaves out.

@@ -1,4 +1,4 @@
-// What a list or a task's output rests on: instants of the schedule, and how long behind them it is there at the latest.
+// The instants of the schedule on which a list or a task's output rests, and the longest time from each of them until it is there.
 // Between the instants are executions that lists activate and transfers on CANs, with the bounds of schedules/analysis.
 #pragma once
 

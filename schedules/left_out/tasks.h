@@ -1,4 +1,4 @@
-// The tasks of a cluster by node and number, and what they do with lists.
+// The tasks of a cluster by node and number, and their lists.
 #pragma once
 
 #include <compare>

@@ -44,7 +44,7 @@ expect_full schedule show "$schedule"
 # A file that extends another: its findings name the file of a value. The derived values are shown and exported.
 printf 'extends: paper_synchronised.yaml\nname: heir\nflexray: {gdNIT: ~}\n' >"$work/schedules/heir.yaml"
 expect 0 '^heir: consistent$' schedule check "$work/schedules/heir.yaml"
-expect 0 '^  flexray.gdNIT = 386$' schedule show "$work/schedules/heir.yaml"
+expect 0 '^  flexray: gdNIT = 386$' schedule show "$work/schedules/heir.yaml"
 expect 0 '^wrote .*/whole.yaml$' schedule export "$work/schedules/heir.yaml" --format yaml -o "$work/whole.yaml"
 grep -q '^  gdNIT: 386$' "$work/whole.yaml" || fail "the whole file lacks the derived gdNIT"
 grep -q '^# heir.yaml with all that it inherits and derives.$' "$work/whole.yaml" || fail "the whole file lacks its origin"

@@ -14,6 +14,8 @@
 namespace ttf::schedules::file {
 namespace {
 
+using left_out::without_derived;
+
 // Their instants follow from the measurements.
 const std::vector<std::string> kScheduled{
     "paper_synchronised",       "paper_planned",       "two_lasers_synchronised",      "surround_synchronised",
@@ -37,7 +39,7 @@ TEST_P(LeftOut, TheWholeFileIsTheSameCluster) {
   EXPECT_EQ(exchange::cluster_yaml(again, ""), whole);
 }
 
-// Any part of what follows may be written or left out: it is the same cluster.
+// Any of these values may be written or left out: it is the same cluster.
 TEST_P(LeftOut, AnyPartOfItMayBeWritten) {
   const std::string whole = exchange::cluster_yaml(parse_cluster(without_derived(GetParam()), "cluster.yaml"), "");
   RandomStream draws({11});

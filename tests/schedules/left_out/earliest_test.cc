@@ -53,7 +53,7 @@ TEST(EarliestInstants, FollowTheDataFromTheMeasurementToTheUse) {
   // The slot ends at 1092, and 7.85 us later by any clock.
   EXPECT_EQ(one.at(1, 0).base_cycle, 0);
   EXPECT_EQ(one.at(1, 0).offset.value, 1100);
-  // Fusion takes 2 ms of the node's clock; an exact one runs as long by the global time, but for a correction.
+  // Fusion takes 2 ms of the node's clock; corrections make a difference of a few macroticks.
   EXPECT_EQ(one.at(1, 1).base_cycle, 0);
   EXPECT_GE(one.at(1, 1).offset.value, 3100);
   EXPECT_LE(one.at(1, 1).offset.value, 3120);

@@ -9,7 +9,7 @@
 #include "schedules/file/loader.h"
 #include "tests/schedules/cluster_file.h"
 
-namespace ttf::schedules {
+namespace ttf::schedules::left_out {
 
 // Returns a whole cluster's text (exchange/cluster_yaml.h) without what follows, where `leave()` says so.
 inline std::string without_derived(const std::string& whole, const std::function<bool()>& leave) {
@@ -49,4 +49,4 @@ inline std::string without_derived(const std::string& name) {
   return without_derived(exchange::cluster_yaml(file::load_cluster(shipped_path(name)), ""), [] { return true; });
 }
 
-}  // namespace ttf::schedules
+}  // namespace ttf::schedules::left_out
