@@ -177,15 +177,10 @@ class Filler {
   void frame(YamlMap map, const Path& path) {
     LeftOutValues::Frame& left = found_.frames.emplace_back();
     left.is_list = map.has("pdu");
-    leave(map, path, "channels", "AB");
-    if (!left.is_list) {  // a status frame is of every cycle
-      leave(map, path, "base_cycle", kNone);
-      leave(map, path, "repetition", kOnce);
-      return;
-    }
+    if (!left.is_list) return;  // its values follow (schedules/file/load_frames.h)
     left.slot = left.base_cycle = leave_instant(map, path, "slot", kOnce);
     left.repetition = leave(map, path, "repetition", left.slot ? kOnce : longest_of_frames_);
-    leave(map, path, "fragments", kOnce);
+    if (left.slot || left.repetition) leave(map, path, "fragments", kOnce);
     for (const char* key : {"first_fragment", "fragment_step", "network_management", "message_id"})
       if (map.has(key) && (left.slot || left.repetition))
         findings_.add({map.file(), map.line(key), fmt::format("{}.{}", map.path(), key), "",

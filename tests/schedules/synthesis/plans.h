@@ -36,7 +36,8 @@ inline std::string without_instants(std::string text) {
   const std::pair<const char*, const char*> left_out[] = {
       {"(kind: time), base_cycle: \\d+, (repetition: \\d+), offset: \\d+", "$1, $2"},
       {"(measurement: scheduled,)\\s+base_cycle: \\d+, (repetition: \\d+), offset: \\d+", "$1 $2"},
-      {"slot: \\d+, (channels: \\w+, sender: \\w+), base_cycle: \\d+, (repetition: \\d+, pdu: \\w+), fragments: \\d+",
+      {"slot: \\d+, ((?:channels: \\w+, )?sender: \\w+), base_cycle: \\d+, (repetition: \\d+, pdu: \\w+)(?:, "
+       "fragments: \\d+)?",
        "$1, $2"}};
   for (const auto& [pattern, replacement] : left_out) text = std::regex_replace(text, std::regex(pattern), replacement);
   return text;
