@@ -189,7 +189,8 @@ schedules::file::ClusterText SweepDrives::edited(const std::vector<Edit>& edits,
         finding.file = std::move(from.file), finding.line = from.line;
         throw InputError(std::move(finding));
       }
-      if (is && schedules::file::leaves_out(text, key)) {
+      // The file as it is: other edits may have left half an instant so far.
+      if (is && schedules::file::leaves_out({texts_.at(name), name, origins_of(name)}, key)) {
         text = schedules::file::with_key(std::move(text), key, edit.value);
         continue;
       }

@@ -243,6 +243,27 @@ TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
                     HasSubstr("synchronised.yaml: only its written keys can be varied (with t, one 42 ms)")));
 }
 
+// Both keys of an instant that the cluster leaves out.
+TEST(SweepFile, AnAbsentInstantMayBeVaried) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  use:\n"
+      "    settings:\n"
+      "      earliest: {t/cluster: ../schedules/paper_earliest.yaml}\n"
+      "      later:\n"
+      "        t/cluster: ../schedules/paper_earliest.yaml\n"
+      "        t/cluster.nodes.feature.tasks.use.activation.base_cycle: 3\n"
+      "        t/cluster.nodes.feature.tasks.use.activation.offset: 2000\n");
+  const SweepDrives drives(sweep);
+  const auto use = [&](std::uint32_t point) {
+    const PreparedDrive drive = drives.prepare({point, 0, 1});
+    return drive.cluster.node(*drive.cluster.find_node("feature")).tasks[0].activation.at;
+  };
+  EXPECT_EQ(use(0).base_cycle, 2);
+  EXPECT_EQ(use(1).base_cycle, 3);
+  EXPECT_EQ(use(1).offset.value, 2000);
+}
+
 TEST(SweepFile, FilesAreValues) {
   const SweepFile sweep = file(
       "axes:\n"
