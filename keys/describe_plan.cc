@@ -46,6 +46,7 @@ constexpr Description kPlan[] = {
     {"plan.gap_error.memory", "The speed of the vehicle ahead returns to its mean in this time."},
     {"plan.gap_error.density", "The spectral density of the acceleration of the vehicle ahead."},
     {"plan.gap_error.delay", "A command acts so long after the chain's end."},
+    {"plan.one_channel", "Each of these lists is sent on one channel, which the plan chooses.", "[image]"},
     {"plan.in_order", "Lists are fused in the order of their measurements; otherwise they may wait for older ones."},
 };
 

@@ -157,8 +157,7 @@ std::vector<std::pair<std::size_t, std::size_t>> overlaps(const Problem& problem
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t a = 0; a < all.size(); ++a)
     for (std::size_t b = a + 1; b < all.size(); ++b)
-      if (all[a].resource && all[a].resource == all[b].resource &&
-          overlap(all[a], solution.offsets[a], all[b], solution.offsets[b]))
+      if (share_a_lane(all[a], all[b]) && overlap(all[a], solution.offsets[a], all[b], solution.offsets[b]))
         found.emplace_back(a, b);
   return found;
 }

@@ -36,9 +36,19 @@ struct Activity {
   Window window;
   Grid grid;
   std::optional<Ticks> fixed;  // it stands there and never moves; window and grid do not bind it
+  // The lanes of the resource that it takes, as bits. Activities without a common lane do not disturb each other: lists on the two
+  // channels of a static segment.
+  std::uint8_t lanes = 3;
 };
 
-// At most one activity at a time: a processor, a static segment, a CAN.
+inline constexpr std::uint8_t kLanes[] = {1, 2};
+
+// Whether the two must take turns.
+constexpr bool share_a_lane(const Activity& a, const Activity& b) {
+  return a.resource && a.resource == b.resource && (a.lanes & b.lanes) != 0;
+}
+
+// At most one activity at a time in each lane: a processor, a static segment, a CAN.
 struct Resource {
   std::string name;
 };

@@ -10,6 +10,7 @@
 #include "cli/schedule/planning/judges.h"
 #include "cli/schedule/planning/trade_off.h"
 #include "cli/shipped.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "drives/step_catalog.h"
 #include "schedules/exchange/cluster_yaml.h"
@@ -47,11 +48,12 @@ std::string proof_text(const instants::Reached& one) {
 
 std::string report(const Plan& plan, const Synthesis& made) {
   const auto& cluster = made.cluster;
-  std::string text = fmt::format("{}: a cycle of {:g} ms, chosen among {} cycles and rates\n", cluster.name,
-                                 in_ms(cluster.cycle()), made.candidates);
-  if (plan.payload)
-    text = fmt::format("{}: a cycle of {:g} ms, a payload of {} bytes, chosen among {} cycles, payloads and rates\n",
-                       cluster.name, in_ms(cluster.cycle()), made.candidate.payload, made.candidates);
+  std::vector<std::string> choices{"cycles", "rates"};
+  if (plan.payload) choices.insert(choices.begin() + 1, "payloads");
+  if (!plan.one_channel.empty()) choices.emplace_back("channels");
+  const std::string payload = plan.payload ? fmt::format(" a payload of {} bytes,", made.candidate.payload) : "";
+  std::string text = fmt::format("{}: a cycle of {:g} ms,{} chosen among {} {}\n", cluster.name, in_ms(cluster.cycle()),
+                                 payload, made.candidates, joined(choices, " and "));
   text += fmt::format("{:<22}{:>12}{:>12}\n", "objective", "value", "bound");
   for (const instants::Reached& one : made.reached)
     text += fmt::format("{:<22}{:>12}{:>12}  {}\n{}", instants::name_of(one.goal), value_text(one, one.value),

@@ -78,13 +78,15 @@ Ticks least_worst_age(const Problem& problem, const std::vector<Ticks>& beyond) 
       ends.push_back(chain.activities.back());
   for (const std::size_t end : ends) {
     const auto tails = ways_to(graph, end);
-    std::map<std::size_t, std::vector<Piece>> machines;
+    std::map<std::pair<std::size_t, std::uint8_t>, std::vector<Piece>> machines;  // each lane of a resource
     for (const auto& [a, head] : heads_of(problem, end, beyond)) {
       const Activity& one = problem.activities[a];
       if (!one.resource || !tails[a] || one.period != problem.activities[end].period) continue;
-      machines[*one.resource].push_back({*tails[a] - one.duration, one.duration, head});
+      for (const std::uint8_t lane : kLanes)
+        if ((one.lanes & lane) != 0)
+          machines[{*one.resource, lane}].push_back({*tails[a] - one.duration, one.duration, head});
     }
-    for (const auto& [resource, pieces] : machines) worst = std::max(worst, jackson(pieces));
+    for (const auto& [lane, pieces] : machines) worst = std::max(worst, jackson(pieces));
   }
   return worst;
 }

@@ -121,13 +121,61 @@ std::vector<int> payloads(const Plan& plan) {
   return found;
 }
 
+// Returns the channels that a list on one channel may have: those of its sender and of all its readers.
+std::vector<model::Channels> one_of(const Plan& plan, std::size_t list) {
+  const model::Cluster& cluster = plan.cluster;
+  const PlannedList& planned = plan.lists[list];
+  const auto attached = [](const model::Node& node, model::Channels channel) {
+    return node.flexray && share_a_channel(node.flexray->pChannels, channel);
+  };
+  std::vector<model::Channels> found;
+  for (const model::Channels channel : {model::Channels::kA, model::Channels::kB}) {
+    bool all = attached(cluster.node(planned.sender), channel);
+    for (const model::Node& node : cluster.nodes)
+      for (const model::Task& task : node.tasks)
+        for (const model::PortBinding& in : task.reads)
+          all = all && (in.pdu != planned.pdu || !in.medium.is_flexray() || attached(node, channel));
+    if (all) found.push_back(channel);
+  }
+  return found;
+}
+
+// Whether the channels may change places: nothing else is on one of them alone.
+bool channels_are_alike(const Plan& plan) {
+  const auto on_both = [](const auto& sent) { return sent.channels == model::Channels::kAB; };
+  return std::all_of(plan.cluster.frames.begin(), plan.cluster.frames.end(), on_both) &&
+         std::all_of(plan.lists.begin(), plan.lists.end(), on_both);
+}
+
+// Returns all choices of channels; of two that are alike the one whose first list is on A.
+std::vector<std::vector<model::Channels>> channel_choices(const Plan& plan) {
+  std::vector<std::vector<model::Channels>> found{{}};
+  bool alike = channels_are_alike(plan);
+  for (const std::size_t list : plan.one_channel) {
+    std::vector<std::vector<model::Channels>> longer;
+    const std::vector<model::Channels> possible = one_of(plan, list);
+    alike = alike && possible.size() == 2;
+    for (const auto& choice : found)
+      for (const model::Channels channel : possible) {
+        longer.push_back(choice);
+        longer.back().push_back(channel);
+        if (longer.size() > kMostCandidates) return longer;
+      }
+    found = std::move(longer);
+  }
+  if (alike) found.resize((found.size() + 1) / 2);  // A comes first
+  return found;
+}
+
 }  // namespace
 
 std::vector<Candidate> candidates(const Plan& plan) {
   std::vector<Candidate> found;
+  const std::vector<std::vector<model::Channels>> choices = channel_choices(plan);
   for (Duration cycle = plan.cycle.shortest; cycle <= plan.cycle.longest; cycle += plan.cycle.step) {
     std::vector<Candidate> of_length;
-    for (const int payload : payloads(plan)) of_length.push_back({cycle, {}, payload});
+    for (const int payload : payloads(plan))
+      for (const auto& choice : choices) of_length.push_back({cycle, {}, payload, choice});
     for (std::size_t s = 0; s < plan.sensors.size(); ++s) {
       std::vector<Candidate> longer;
       for (const Candidate& one : of_length)
@@ -146,6 +194,8 @@ std::vector<Candidate> candidates(const Plan& plan) {
 
 std::optional<Timed> timed(const Plan& plan, const Candidate& candidate) {
   Timed made{plan.cluster, plan.lists};
+  for (std::size_t i = 0; i < candidate.channels.size(); ++i)
+    made.lists[plan.one_channel[i]].channels = candidate.channels[i];
   if (candidate.payload > 0 && !set_payload(plan, candidate.payload, made)) return std::nullopt;
   if (!set_parameters(plan, candidate.cycle, made.cluster)) return std::nullopt;
   set_controllers(plan, made.cluster);

@@ -1,5 +1,5 @@
-// The choices of a plan that are no instants: the length of the cycle, the payload of static slots, and how often each sensor
-// measures. Each makes a candidate, and all other periods follow.
+// The choices of a plan that are no instants: the length of the cycle, the payload of static slots, how often each sensor
+// measures, and the channel of lists that have one. Each makes a candidate, and all other periods follow.
 //
 //   Tasks and lists have the repetitions that follow from those of sensors (schedules/left_out/periods.h).
 //   A fragment whose layout is left out has the payload's length, and as many elements as it holds.
@@ -25,6 +25,8 @@ struct Candidate {
   Duration cycle{};
   std::vector<int> repetitions;  // by sensor; that of the file where it says one
   int payload = 0;               // bytes; 0: that of the file
+  // Of the lists of Plan::one_channel, in this order; without any, lists have their own channels.
+  std::vector<model::Channels> channels;
 };
 
 // Returns all candidates within the plan's lengths, payloads and rates, short cycles first, then short payloads; at most kMostCandidates + 1.

@@ -83,7 +83,7 @@ class Engine {
         return false;
       for (std::size_t b = 0; b < a; ++b) {
         const Activity& other = problem_.activities[b];
-        if (one.fixed && other.fixed && one.resource && one.resource == other.resource &&
+        if (one.fixed && other.fixed && share_a_lane(one, other) &&
             in_the_way(one, *one.fixed, other, *other.fixed, true) != 0)
           return false;
       }
@@ -157,7 +157,9 @@ class Engine {
       const Ticks furthest = before ? activity.period : 2 * activity.period;
       const auto& standing = standing_[*activity.resource];
       for (std::size_t i = 0; i < standing.size();) {
-        const Ticks way = in_the_way(activity, at, problem_.activities[standing[i].first], standing[i].second, before);
+        const Activity& other = problem_.activities[standing[i].first];
+        const Ticks way =
+            share_a_lane(activity, other) ? in_the_way(activity, at, other, standing[i].second, before) : 0;
         if (way == 0) {
           ++i;
           continue;
@@ -209,7 +211,7 @@ class Engine {
     if (!one.resource || one.fixed) return false;
     for (std::size_t b = 0; b < problem_.activities.size(); ++b) {
       const Activity& other = problem_.activities[b];
-      if (b != a && !other.fixed && other.resource == one.resource) return true;
+      if (b != a && !other.fixed && share_a_lane(one, other)) return true;
     }
     return false;
   }

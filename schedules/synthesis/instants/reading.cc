@@ -103,6 +103,7 @@ class Reader {
       activity.window = {0, activity.period - 1};
       activity.duration = fragments * g_.gdStaticSlot;
       activity.grid = {cycle(), 0, (left_out::last_slot(cluster_) - fragments) * g_.gdStaticSlot, g_.gdStaticSlot};
+      activity.lanes = static_cast<std::uint8_t>(list.channels);
       if (!list.at.instant) activity.fixed = at(list.base_cycle, (list.slot - 1) * Ticks{g_.gdStaticSlot});
       made_.lists.push_back(add(std::move(activity)));
       if (!slots_of_.contains(list.pdu)) slots_of_[list.pdu] = made_.lists.back();
@@ -115,15 +116,19 @@ class Reader {
       const model::FrameSlot& frame = cluster_.frames[f];
       if (is_dynamic(g_, frame) || (frame.pdu != kNoPdu && frame.fragment != 0)) continue;
       Ticks slots = 1;
+      auto lanes = static_cast<std::uint8_t>(frame.channels);
       for (const model::FrameSlot& other : cluster_.frames)
         if (frame.pdu != kNoPdu && other.pdu == frame.pdu && other.base_cycle == frame.base_cycle &&
-            other.repetition == frame.repetition)
+            other.repetition == frame.repetition) {
           slots = std::max<Ticks>(slots, other.slot - frame.slot + 1);
+          lanes |= static_cast<std::uint8_t>(other.channels);
+        }
       Activity activity{fmt::format("slot {}", frame.slot), frame.line, 0, {}, 0, {}, {}, std::nullopt};
       activity.period = frame.repetition * cycle();
       activity.window = {0, activity.period - 1};
       activity.duration = slots * g_.gdStaticSlot;
       activity.fixed = at(frame.base_cycle, (frame.slot - 1) * Ticks{g_.gdStaticSlot});
+      activity.lanes = lanes;
       const std::size_t made = add(std::move(activity));
       if (frame.pdu != kNoPdu && !slots_of_.contains(frame.pdu)) slots_of_[frame.pdu] = made;
     }
@@ -271,23 +276,27 @@ Ticks last_slot_of(const Read& read, const Solution& solution) {
 Ticks least_slots(const Read& read) {
   const model::GlobalParameters& g = read.timed.cluster.flexray;
   Ticks least = 0;
-  double load = 0;
-  for (const Activity& one : read.reading.problem.activities) {
-    if (one.resource != kStaticSegment) continue;
-    least = std::max(least, (one.fixed.value_or(0) % g.gMacroPerCycle + one.duration) / g.gdStaticSlot);
-    load += static_cast<double>(one.duration / g.gdStaticSlot) * g.gMacroPerCycle / static_cast<double>(one.period);
+  for (const std::uint8_t lane : kLanes) {
+    double load = 0;
+    for (const Activity& one : read.reading.problem.activities) {
+      if (one.resource != kStaticSegment || (one.lanes & lane) == 0) continue;
+      least = std::max(least, (one.fixed.value_or(0) % g.gMacroPerCycle + one.duration) / g.gdStaticSlot);
+      load += static_cast<double>(one.duration / g.gdStaticSlot) * g.gMacroPerCycle / static_cast<double>(one.period);
+    }
+    least = std::max(least, static_cast<Ticks>(load - 1e-9) + 1);
   }
-  return std::max(least, static_cast<Ticks>(load - 1e-9) + 1);
+  return least;
 }
 
 double free_share(const Read& read) {
   const model::GlobalParameters& g = read.timed.cluster.flexray;
   double used = 0;
-  for (const Activity& activity : read.reading.problem.activities)
-    if (activity.resource == kStaticSegment)
-      used += static_cast<double>(activity.duration) / g.gdStaticSlot * g.gMacroPerCycle /
-              static_cast<double>(activity.period);
-  return 1.0 - used / g.gNumberOfStaticSlots;
+  for (const std::uint8_t lane : kLanes)
+    for (const Activity& activity : read.reading.problem.activities)
+      if (activity.resource == kStaticSegment && (activity.lanes & lane) != 0)
+        used += static_cast<double>(activity.duration) / g.gdStaticSlot * g.gMacroPerCycle /
+                static_cast<double>(activity.period);
+  return 1.0 - used / std::size(kLanes) / g.gNumberOfStaticSlots;
 }
 
 }  // namespace ttf::schedules::synthesis::instants

@@ -54,7 +54,7 @@ Ticks last_slot_of(const Read& read, const Solution& solution);
 // Returns a number of slots that no offsets fall below: what stands, and all frames one after another.
 Ticks least_slots(const Read& read);
 
-// Returns the share of a round's static frames that are free.
+// Returns the share of a round's static frames that are free, on both channels together.
 double free_share(const Read& read);
 
 using left_out::ticks;

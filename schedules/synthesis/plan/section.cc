@@ -124,6 +124,33 @@ void read_objective(YamlMap& section, Plan& plan) {
   }
 }
 
+bool leaves_out_channels(const Plan& plan, const PlannedList& list) {
+  const std::string key = fmt::format("frames[{}].channels", list.entry.value_or(0));
+  return std::any_of(plan.cluster.derived.begin(), plan.cluster.derived.end(),
+                     [&](const model::DerivedValue& one) { return one.path == key; });
+}
+
+void read_one_channel(YamlMap& section, Plan& plan) {
+  if (!section.has("one_channel")) return;
+  for (const std::string& name : section.texts("one_channel")) {
+    const auto pdu = plan.cluster.find_pdu(name);
+    const std::size_t before = plan.one_channel.size();
+    for (std::size_t l = 0; pdu && l < plan.lists.size(); ++l) {
+      if (plan.lists[l].pdu != *pdu || !plan.lists[l].at.instant) continue;
+      if (!leaves_out_channels(plan, plan.lists[l]))
+        section.fail("one_channel", fmt::format("must name lists whose channels are left out; {} (line {}) says them",
+                                                name, plan.lists[l].line));
+      plan.one_channel.push_back(l);
+    }
+    if (plan.one_channel.size() == before)
+      section.fail("one_channel", fmt::format("must name lists whose slots are left out; {} is none", name));
+  }
+  std::vector<std::size_t> once = plan.one_channel;
+  std::sort(once.begin(), once.end());
+  if (std::adjacent_find(once.begin(), once.end()) != once.end())
+    section.fail("one_channel", "must name each list once");
+}
+
 }  // namespace
 
 std::optional<CycleLengths> read_cycle(YamlMap& section) {
@@ -165,6 +192,7 @@ void read_section(YamlMap& section, Plan& plan) {
   read_chains(section, plan);
   read_objective(section, plan);
   read_demands(section, plan);
+  read_one_channel(section, plan);
   plan.in_order = section.boolean_or("in_order", true);
   section.finish();
 }

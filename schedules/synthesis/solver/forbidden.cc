@@ -57,6 +57,10 @@ bool Tree::by_resource(std::size_t activity, Ticks offset, bool upwards, Interva
   for (std::size_t next = 0; free < others.size() && at >= window.first && at <= window.last;
        next = (next + 1) % others.size()) {
     const std::size_t other = others[next];
+    if (!share_a_lane(own, model_.problem.activities[other])) {
+      ++free;
+      continue;
+    }
     const Ticks common = model_.common(activity, other), duration = model_.problem.activities[other].duration;
     Ticks behind = modulo(at - offsets_[other], common);
     if (behind >= duration && behind <= common - own.duration) {

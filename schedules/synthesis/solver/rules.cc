@@ -32,8 +32,7 @@ void Rules::add_resources() {
   const std::vector<Activity>& all = model.problem.activities;
   for (std::size_t a = 0; a < all.size(); ++a)
     for (std::size_t b = a + 1; b < all.size(); ++b) {
-      if (!all[a].resource || all[a].resource != all[b].resource || all[a].duration == 0 || all[b].duration == 0)
-        continue;
+      if (!share_a_lane(all[a], all[b]) || all[a].duration == 0 || all[b].duration == 0) continue;
       const Ticks common = model.common(a, b);
       rules.push_back({a + 1, b + 1, common, all[a].duration, common - all[b].duration});
       contradictory |= all[a].duration + all[b].duration > common;

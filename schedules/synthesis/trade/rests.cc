@@ -100,7 +100,7 @@ void note_places(const Reading& reading, const std::vector<Ticks>& offsets, std:
   };
   to_grid();
   for (std::size_t b = 0; one.resource && b < activities.size();) {
-    const bool shares = b != a && activities[b].resource == one.resource;
+    const bool shares = b != a && share_a_lane(one, activities[b]);
     const Ticks way = shares ? in_the_way(one, found + causes.left(), activities[b], offsets[b], true) : 0;
     if (way == 0 || causes.left() == 0) {
       ++b;

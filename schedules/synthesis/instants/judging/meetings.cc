@@ -202,7 +202,7 @@ std::vector<Ticks> offsets_of(const Read& read, const model::Cluster& cluster) {
 }
 
 std::vector<Meeting> meetings(const plan::Plan& plan, const model::Cluster& cluster) {
-  Candidate candidate{cluster.cycle(), {}};
+  Candidate candidate{cluster.cycle(), {}, 0, {}};
   for (const model::Sensor& sensor : cluster.sensors) candidate.repetitions.push_back(sensor.at.repetition);
   const auto read = read_of(plan, candidate);
   TTF_CHECK(read.has_value(), "a cluster of another plan");

@@ -19,19 +19,19 @@ inline Ticks hyperperiod(const Problem& problem) {
   return common;
 }
 
-// Marks every tick of a resource over the hyperperiod.
+// Marks every tick of each lane of a resource over the hyperperiod.
 inline bool overlaps(const Problem& problem, const std::vector<Ticks>& offsets) {
   const Ticks common = hyperperiod(problem);
   for (std::size_t resource = 0; resource < problem.resources.size(); ++resource) {
-    std::vector<char> busy(static_cast<std::size_t>(common), 0);
+    std::vector<int> busy(static_cast<std::size_t>(common), 0);
     for (std::size_t at = 0; at < offsets.size(); ++at) {
       const Activity& activity = problem.activities[at];
       if (activity.resource != resource) continue;
       for (Ticks begin = offsets[at]; begin < offsets[at] + common; begin += activity.period)
         for (Ticks tick = begin; tick < begin + activity.duration; ++tick) {
-          char& mark = busy[static_cast<std::size_t>(((tick % common) + common) % common)];
-          if (mark) return true;
-          mark = 1;
+          int& mark = busy[static_cast<std::size_t>(((tick % common) + common) % common)];
+          if ((mark & activity.lanes) != 0) return true;
+          mark |= activity.lanes;
         }
     }
   }
@@ -160,7 +160,7 @@ inline bool feasible(const Problem& problem) {
   return place(0);
 }
 
-// A small problem with all that a problem may have. `harmonic`: periods divide each other.
+// A small problem with all that a problem may have. `harmonic`: periods divide each other. One in three has resources of two lanes.
 inline Problem drawn(std::uint64_t seed, bool harmonic) {
   RandomStream draws({.seed = seed, .purpose = Purpose::kTest});
   const auto one_of = [&](const std::vector<Ticks>& values) {
@@ -200,6 +200,9 @@ inline Problem drawn(std::uint64_t seed, bool harmonic) {
     if (draws.uniform() < 0.7) made.largest_age = draws.integer(3, 24);
     problem.chains.push_back(made);
   }
+  RandomStream lanes({.seed = seed, .purpose = Purpose::kTest, .index = 3});
+  for (Activity& activity : problem.activities)
+    if (seed % 3 == 0) activity.lanes = static_cast<std::uint8_t>(lanes.integer(1, 3));
   return problem;
 }
 

@@ -27,6 +27,8 @@ Reading drawn(int seed) {
   problem.resources = {{"segment"}, {"processor"}};
   const auto add = [&](std::optional<std::size_t> resource, Ticks duration, Grid grid) {
     problem.activities.push_back({"", 0, resource, kCycle, duration, {0, kCycle - 1}, grid, std::nullopt});
+    if (resource == std::size_t{0} && seed % 3 == 0)  // channels: lists that are on both, or on one
+      problem.activities.back().lanes = static_cast<std::uint8_t>(1 + (seed / 3 + problem.activities.size()) % 3);
     return problem.activities.size() - 1;
   };
   const auto follow = [&](std::size_t before, std::size_t after, Ticks gap) {
@@ -53,7 +55,8 @@ bool apart(const Problem& problem, const std::vector<Ticks>& offsets) {
   for (std::size_t a = 0; a < offsets.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const Activity &one = problem.activities[a], &other = problem.activities[b];
-      if (one.resource && one.resource == other.resource && in_the_way(one, offsets[a], other, offsets[b], true) != 0)
+      if (one.resource && one.resource == other.resource && (one.lanes & other.lanes) != 0 &&
+          in_the_way(one, offsets[a], other, offsets[b], true) != 0)
         return false;
     }
   return true;
@@ -98,7 +101,8 @@ Ticks exhausted(const Reading& reading) {
       bool free = true;
       for (std::size_t d = 0; d < depth && free; ++d) {
         const Activity &one = problem.activities[moving[depth]], &other = problem.activities[moving[d]];
-        free = one.resource != other.resource || in_the_way(one, at, other, offsets[moving[d]], true) == 0;
+        free = one.resource != other.resource || (one.lanes & other.lanes) == 0 ||
+               in_the_way(one, at, other, offsets[moving[d]], true) == 0;
       }
       if (free) self(self, depth + 1);
     }

@@ -13,7 +13,7 @@ namespace ttf::schedules::synthesis::instants {
 namespace {
 
 Reading reading_of(const plan::Plan& plan, Duration cycle) {
-  return read_of(plan, {cycle, std::vector<int>(plan.sensors.size(), 4)})->reading;
+  return read_of(plan, {cycle, std::vector<int>(plan.sensors.size(), 4), 0, {}})->reading;
 }
 
 // The paper's plan, where the search ends with a proof of its own.

@@ -214,6 +214,37 @@ INSTANTIATE_TEST_SUITE_P(Clusters, Shipped,
                                          "laser_and_radar_synchronised", "four_kinds_synchronised"),
                          [](const auto& parameter) { return parameter.param; });
 
+// Camera and laser measure at once and differ in nothing: on one channel their lists have to take turns.
+TEST(SynthesizeChannels, ListsOnOneChannelEachAreSentAtOnce) {
+  std::string text = changed(plan_text("paper"), "objective: \\[[^\\]]*\\]", "objective: [room, slots, worst_age]");
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
+  const Synthesis both = synthesize(plan::parse_plan(text, "plan.yaml"));
+  const Synthesis one = synthesize(plan::parse_plan(
+      changed(text, "plan:\n", "plan:\n  one_channel: [laser_objects, camera_objects, image]\n"), "plan.yaml"));
+  ASSERT_TRUE(both.found && one.found);
+  EXPECT_EQ(one.candidates, 4U * both.candidates);  // of eight choices half are alike
+  // 29 frames in four cycles, each on one channel of two.
+  const double slots = both.cluster.flexray.gNumberOfStaticSlots;
+  EXPECT_NEAR(both.reached[0].value, 1.0 - (5.0 + 29.0 / 4.0) / slots, 1e-9);
+  EXPECT_NEAR(one.reached[0].value, 1.0 - (5.0 + 29.0 / 8.0) / slots, 1e-9);
+  EXPECT_TRUE(check::check(one.cluster).empty());
+  for (const model::FrameSlot& frame : one.cluster.frames)
+    EXPECT_EQ(frame.channels == model::Channels::kAB, frame.pdu == kNoPdu);
+  EXPECT_LE(one.reached[1].value, both.reached[1].value);
+}
+
+TEST(SynthesizeChannels, NodesMustHearThem) {
+  std::string text =
+      changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
+  text = changed(text, "plan:\n", "plan:\n  one_channel: [image]\n");
+  const Synthesis made = synthesize(plan::parse_plan(
+      changed(text, "flexray: \\{pKeySlotId: 5\\}", "flexray: {pKeySlotId: 5, pChannels: B}"), "plan.yaml"));
+  ASSERT_TRUE(made.found);
+  const PduId image = *made.cluster.find_pdu("image");
+  for (const model::FrameSlot& frame : made.cluster.frames)
+    EXPECT_TRUE(frame.pdu != image || frame.channels == model::Channels::kB);
+}
+
 // The slots that a plan needs are found from both sides: fewer do not suffice.
 // Clocks make jitter, too, in proportion to the age. So no jitter above 0 is proven.
 TEST(SynthesizeJitter, HasNoBetterBoundThanZero) {

@@ -36,6 +36,9 @@ TEST(PlanLoader, NamesEachMistake) {
       {"no section", "plan:\n", "plans:\n", "plan", "is missing"},
       {"cycle twice", "  gdMacrotick: 1 ", "  gdCycle: 5000\n  gdMacrotick: 1 ", "flexray.gdCycle", "must be left out"},
       {"no macrotick", "  gdMacrotick: 1 [^\n]*\n", "", "flexray.gdMacrotick", "is missing"},
+      {"one channel of nothing", "plan:\n", "plan:\n  one_channel: [laser_scan]\n", "plan.one_channel",
+       "laser_scan is none"},
+      {"one channel twice", "plan:\n", "plan:\n  one_channel: [image, image]\n", "plan.one_channel", "once"},
       {"cycle backwards", "longest: 9 ms, step", "longest: 8 ms, step", "plan.cycle.longest", "8500 us"},
       {"no step", ", step: [^}]*", "", "plan.cycle.step", "is missing"},
       {"tiny step", "longest: 9 ms, step: [^}]*", "longest: 16 ms, step: 100 ns", "plan.cycle.step", "must be"},
@@ -203,6 +206,15 @@ TEST(PlanLoader, AFurtherSensorsKeySlotIsFreeOfLists) {
   const auto host = plan.cluster.find_node("rear_pre");
   ASSERT_TRUE(host);
   EXPECT_EQ(plan.cluster.node(*host).flexray->pKeySlotId, 6);
+}
+
+TEST(PlanLoader, AListWithChannelsIsNotOnOneThatThePlanChooses) {
+  const std::string text = changed(changed(plan_text("paper"), "plan:\n", "plan:\n  one_channel: [image]\n"),
+                                   "sender: fusion, pdu: image", "sender: fusion, pdu: image, channels: AB");
+  const auto findings = plan_findings(text);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].key, "plan.one_channel");
+  EXPECT_NE(findings[0].expected.find("whose channels are left out"), std::string::npos);
 }
 
 }  // namespace
