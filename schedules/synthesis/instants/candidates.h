@@ -25,7 +25,7 @@ struct Candidate {
   Duration cycle{};
   std::vector<int> repetitions;  // by sensor; that of the file where it says one
   int payload = 0;               // bytes; 0: that of the file
-  // Of the lists of Plan::one_channel, in this order; without any, lists have their own channels.
+  // The channels of the lists in Plan::one_channel, in this order; without any, lists have their own.
   std::vector<model::Channels> channels;
 };
 

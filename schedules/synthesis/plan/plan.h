@@ -98,7 +98,7 @@ struct Plan {
   std::vector<std::vector<PlannedTask>> tasks;      // by node and task
   std::vector<PlannedSensor> sensors;               // by sensor
   std::vector<PlannedList> lists;                   // those with a value left out
-  std::vector<std::size_t> one_channel;             // of `lists`: the plan chooses on which channel, A or B
+  std::vector<std::size_t> one_channel;             // numbers of lists on A or B, as the plan chooses
   std::vector<std::vector<bool>> shortest_periods;  // by CAN and message: left out
   std::vector<PlannedChain> chains;                 // in the plan's order
   std::vector<Goal> objective;                      // the most important first

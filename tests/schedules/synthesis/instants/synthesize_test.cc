@@ -222,7 +222,7 @@ TEST(SynthesizeChannels, ListsOnOneChannelEachAreSentAtOnce) {
   const Synthesis one = synthesize(plan::parse_plan(
       changed(text, "plan:\n", "plan:\n  one_channel: [laser_objects, camera_objects, image]\n"), "plan.yaml"));
   ASSERT_TRUE(both.found && one.found);
-  EXPECT_EQ(one.candidates, 4U * both.candidates);  // of eight choices half are alike
+  EXPECT_EQ(one.candidates, 4U * both.candidates);  // eight choices, alike in pairs
   // 29 frames in four cycles, each on one channel of two.
   const double slots = both.cluster.flexray.gNumberOfStaticSlots;
   EXPECT_NEAR(both.reached[0].value, 1.0 - (5.0 + 29.0 / 4.0) / slots, 1e-9);
