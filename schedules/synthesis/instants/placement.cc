@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "schedules/synthesis/instants/bounds.h"
@@ -108,23 +109,27 @@ class Engine {
                        [&](const Activity& one) { return one.fixed && one.period > cycle(); });
   }
 
-  // Returns the beginnings of the anchor to try.
+  // Returns the beginnings of the anchor to try. It can be no earlier there: a list's data comes then, or a fixed
+  // activity on its resource ends. A task before it may hold it up at any other tick.
   std::vector<Ticks> positions() {
     const Activity& anchor = problem_.activities[anchor_];
     if (anchor.fixed) return {*anchor.fixed};
     std::set<Ticks> found;
     for (const Edge& edge : graph_.before[anchor_]) {
-      const Activity& list = problem_.activities[edge.other];
-      if (list.fixed) found.insert(*list.fixed + edge.gap);
-      if (list.fixed || !is_list(list)) continue;
-      const Grid& grid = grids_[edge.other];
-      for (Ticks position = grid.first; position <= grid.last; position += grid.step) found.insert(position + edge.gap);
+      const Activity& before = problem_.activities[edge.other];
+      if (before.fixed) found.insert(*before.fixed + edge.gap);
+      all_positions_ = all_positions_ && (before.fixed || is_list(before) || !before.resource);
+      if (before.fixed || !is_list(before)) continue;
+      for (Ticks at = grids_[edge.other].first; at <= grids_[edge.other].last; at += grids_[edge.other].step)
+        found.insert(at + edge.gap);
     }
-    if (found.empty()) {  // a raster; what it finds is not exact
-      raster_ = true;
-      for (Ticks position = 0; position < cycle(); position += std::max<Ticks>(1, cycle() / 128))
-        found.insert(position);
+    if (found.empty()) {
+      all_positions_ = false;
+      for (Ticks at = 0; at < cycle(); at += std::max<Ticks>(1, cycle() / 128)) found.insert(at);
     }
+    for (const Activity& other : problem_.activities)
+      if (other.fixed && anchor.resource && other.resource == anchor.resource)
+        found.insert(modulo(*other.fixed + other.duration, cycle()));
     std::vector<Ticks> all;
     for (Ticks start = 0; start < (bound_to_cycles() ? anchor.period : 1); start += cycle())
       for (const Ticks position : found) all.push_back(start + position);
@@ -257,22 +262,18 @@ class Engine {
     return at;
   }
 
-  Ticks longest_head(std::size_t a) const {
-    Ticks longest = 0;
+  // The longest head, also as its chain counts; none if the activity is on no chain.
+  std::optional<Ticks> longest_head(std::size_t a, bool counted) const {
+    std::optional<Ticks> longest;
     for (std::size_t c = 0; c < problem_.chains.size(); ++c)
       for (std::size_t i = 0; i < heads_[c].size(); ++i)
-        if (problem_.chains[c].activities[i] == a) longest = std::max(longest, heads_[c][i]);
+        if (problem_.chains[c].activities[i] == a)
+          longest = std::max(longest.value_or(0), heads_[c][i] + (counted ? beyond(c) : 0));
     return longest;
   }
 
-  // The longest head, as its chain counts: those come next to the use first.
-  Ticks urgency(std::size_t a) const {
-    Ticks longest = std::numeric_limits<Ticks>::min();
-    for (std::size_t c = 0; c < problem_.chains.size(); ++c)
-      for (std::size_t i = 0; i < heads_[c].size(); ++i)
-        if (problem_.chains[c].activities[i] == a) longest = std::max(longest, heads_[c][i] + beyond(c));
-    return std::max<Ticks>(longest, 0);
-  }
+  // Those with the longest heads come next to the use first.
+  Ticks urgency(std::size_t a) const { return longest_head(a, true).value_or(0); }
 
   // Tries every order of those that may be placed next.
   void descend() {
@@ -314,34 +315,36 @@ class Engine {
 
   void finish() {
     const auto [before, count] = std::pair{at_, trail_.size()};
-    if (place_rest() && measure_in_order(reading_, placed_, at_)) take();
+    if (!place_rest() || !measure_in_order(reading_, placed_, at_) || !take()) dropped_ = true;
     undo(count);
     at_ = before;
   }
 
-  void take() {
+  // Takes the placement if it is the best so far. Returns false if its lists would be fused out of order.
+  bool take() {
     Placed placed;
     const Ticks shift = bound_to_cycles() ? 0 : at_[anchor_] - modulo(at_[anchor_], cycle());
     for (std::size_t a = 0; a < at_.size(); ++a)
       placed.solution.offsets.push_back(
           problem_.activities[a].fixed.value_or(modulo(at_[a] - shift, problem_.activities[a].period)));
+    if (fused_in_order(reading_, placed.solution.offsets) == false) return false;
     for (std::size_t c = 0; c < problem_.chains.size(); ++c) {
       const Ways found = ways(problem_, problem_.chains[c], placed.solution.offsets);
-      if (found.longest > limit_of(c)) return;
+      if (found.longest > limit_of(c)) return true;
       placed.ages.push_back(found.longest);
       placed.least.push_back(found.shortest);
     }
-    const Ticks worst = placed.worst_age(limits_.beyond), sum = placed.sum_of_ages();
-    if (limits_.sum_of_ages && sum > *limits_.sum_of_ages) return;
-    if (found_.best && std::pair{best_worst_, best_sum_} <= std::pair{worst, sum}) return;
-    best_worst_ = worst;
-    best_sum_ = sum;
+    const std::pair reached{placed.worst_age(limits_.beyond), placed.sum_of_ages()};
+    if (limits_.sum_of_ages && reached.second > *limits_.sum_of_ages) return true;
+    if (found_.best && std::pair{best_worst_, best_sum_} <= reached) return true;
+    std::tie(best_worst_, best_sum_) = reached;
     found_.best = std::move(placed);
+    return true;
   }
 
   bool exact() const {
     if (found_.best && best_worst_ == least_worst_) return true;
-    if (cut_ || !one_anchor_ || raster_) return false;
+    if (cut_ || !one_anchor_ || !all_positions_ || dropped_ || !all_orders_meet(reading_, graph_, main_)) return false;
     const Ticks period = problem_.activities[anchor_].period;
     const Ticks most = largest_possible();
     for (const Chain& chain : problem_.chains)
@@ -351,8 +354,10 @@ class Engine {
       Ticks longest = 0;
       for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
         const Activity& one = problem_.activities[a];
-        if (!one.fixed && one.resource == r && main_[a] && contended(a))
-          longest = std::max(longest, most - longest_head(a) + one.duration);
+        if (one.fixed || one.resource != r || !main_[a] || !contended(a)) continue;
+        const auto head = longest_head(a, false);
+        if (!head) return false;  // no age says how early it may be
+        longest = std::max(longest, most - *head + one.duration);
       }
       if (longest > period) return false;
     }
@@ -382,7 +387,7 @@ class Engine {
   Ticks least_worst_ = 0;
   std::vector<std::size_t> trail_;
   std::size_t anchor_ = 0;
-  bool one_anchor_ = true, raster_ = false, ok_ = true, cut_ = false;
+  bool one_anchor_ = true, all_positions_ = true, dropped_ = false, ok_ = true, cut_ = false;
   std::int64_t until_ = 0;  // steps of the position that is tried
   Ticks best_worst_ = 0, best_sum_ = 0;
   Search found_;

@@ -5,7 +5,9 @@
 // activity is placed when all that take its data are placed. Where several wait for one resource, every order is tried: a
 // depth-first search with bounds (chains' longest ways to their sensors, without any wait for resources). Serial placement in
 // every order finds a best solution of regular objectives (Kolisch, EJOR 90, 1996, section 2), if no activity meets a shifted
-// copy of another one. A test shows it where all activities of a resource lie within one period. The answer is then exact.
+// copy of another one. A test shows it where all activities of a resource lie within one period. The answer is then exact,
+// unless an order of fusions may be missing (order.h), a task may hold up the anchor, or a placement was dropped because
+// the rest of the activities had no room.
 //
 // A search ends by a count of placements, never by a clock.
 #pragma once

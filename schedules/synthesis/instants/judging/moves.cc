@@ -7,45 +7,6 @@
 #include "schedules/synthesis/instants/order.h"
 
 namespace ttf::schedules::synthesis::instants::judging {
-namespace {
-
-// Returns the part of a chain up to an activity; none if it is not on its way from `first`.
-std::optional<Chain> part_of(const Chain& chain, std::size_t first, std::size_t last) {
-  const auto end = std::find(chain.activities.begin(), chain.activities.end(), last);
-  if (chain.activities.front() != first || end == chain.activities.end()) return std::nullopt;
-  Chain part;
-  part.activities.assign(chain.activities.begin(), end + 1);
-  part.gaps.assign(chain.gaps.begin(), chain.gaps.begin() + (end - chain.activities.begin()));
-  return part;
-}
-
-// Counts the beginnings of measurements and fusions in one count of ticks over all rounds. Returns false if no chain
-// tells how.
-bool unwrap(const Reading& reading, std::vector<Ticks>& at) {
-  for (const Fused& one : reading.fused) {
-    bool known = false;
-    for (const Chain& chain : reading.problem.chains) {
-      const auto part = part_of(chain, one.measuring, one.fusing);
-      if (!part) continue;
-      const Ticks age = read_at(reading.problem, *part, at, at[one.measuring]) - at[one.measuring];
-      at[one.measuring] = at[one.fusing] - age;
-      known = true;
-      break;
-    }
-    if (!known) return false;
-  }
-  return true;
-}
-
-bool in_order(const Reading& reading, const std::vector<Ticks>& offsets) {
-  if (reading.fused.size() < 2) return true;
-  std::vector<Ticks> at = offsets;
-  if (!unwrap(reading, at)) return false;
-  const std::vector<Ticks> before = at;
-  return measure_in_order(reading, std::vector<bool>(at.size(), true), at) && at == before;
-}
-
-}  // namespace
 
 std::optional<Placed> placed_within(const Reading& reading, const Limits& limits, std::vector<Ticks> offsets) {
   const Problem& problem = reading.problem;
@@ -56,7 +17,7 @@ std::optional<Placed> placed_within(const Reading& reading, const Limits& limits
     placed.ages.push_back(found.longest);
     placed.least.push_back(found.shortest);
   }
-  if (!in_order(reading, offsets)) return std::nullopt;
+  if (fused_in_order(reading, offsets) != true) return std::nullopt;
   placed.solution.offsets = std::move(offsets);
   return placed;
 }
