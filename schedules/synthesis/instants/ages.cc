@@ -13,6 +13,11 @@ Ticks Placed::worst_age(const std::vector<Ticks>& beyond) const {
   for (std::size_t c = 0; c < ages.size(); ++c) worst = std::max(worst, ages[c] + (beyond.empty() ? 0 : beyond[c]));
   return worst;
 }
+Ticks Placed::jitter() const {
+  Ticks most = 0;
+  for (std::size_t c = 0; c < ages.size(); ++c) most = std::max(most, ages[c] - least[c]);
+  return most;
+}
 Ticks Placed::sum_of_ages() const { return std::accumulate(ages.begin(), ages.end(), Ticks{0}); }
 
 Ticks limit_of(const Problem& problem, const Limits& limits, std::size_t chain) {

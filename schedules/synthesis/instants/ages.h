@@ -15,6 +15,7 @@ struct Limits {
   std::vector<Ticks> beyond;        // by chain: so much longer counts an age (none: nothing)
   std::optional<Ticks> worst_age;   // every chain's, so counted
   std::optional<Ticks> sum_of_ages;
+  std::optional<Ticks> jitter;     // the largest difference between a chain's longest and shortest way
   std::optional<Ticks> last_slot;  // end of the last slot in use within the cycle [ticks]
 };
 
@@ -27,6 +28,7 @@ struct Placed {
   std::vector<Ticks> least;  // the shortest way
   Ticks worst_age(const std::vector<Ticks>& beyond) const;
   Ticks sum_of_ages() const;
+  Ticks jitter() const;
 };
 
 // Returns for every chain the age that no offsets can fall below: its longest way without any wait for resources.

@@ -320,7 +320,7 @@ class Engine {
     at_ = before;
   }
 
-  // Takes the placement if it is the best so far. Returns false if its lists would be fused out of order.
+  // Takes the placement if it is the best so far. Returns false if it breaks the order of lists or the limit of jitter.
   bool take() {
     Placed placed;
     const Ticks shift = bound_to_cycles() ? 0 : at_[anchor_] - modulo(at_[anchor_], cycle());
@@ -334,6 +334,7 @@ class Engine {
       placed.ages.push_back(found.longest);
       placed.least.push_back(found.shortest);
     }
+    if (limits_.jitter && placed.jitter() > *limits_.jitter) return false;
     const std::pair reached{placed.worst_age(limits_.beyond), placed.sum_of_ages()};
     if (limits_.sum_of_ages && reached.second > *limits_.sum_of_ages) return true;
     if (found_.best && std::pair{best_worst_, best_sum_} <= reached) return true;
@@ -345,8 +346,7 @@ class Engine {
   bool exact() const {
     if (found_.best && best_worst_ == least_worst_) return true;
     if (cut_ || !one_anchor_ || !all_positions_ || dropped_ || !all_orders_meet(reading_, graph_, main_)) return false;
-    const Ticks period = problem_.activities[anchor_].period;
-    const Ticks most = largest_possible();
+    const Ticks period = problem_.activities[anchor_].period, most = largest_possible();
     for (const Chain& chain : problem_.chains)
       for (const std::size_t a : chain.activities)
         if (problem_.activities[a].period != period) return false;

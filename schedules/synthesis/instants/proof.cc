@@ -112,6 +112,7 @@ std::optional<Placed> placed(const Reading& reading, const Limits& limits, const
   }
   made.solution = std::move(solution);
   if (limits.sum_of_ages && made.sum_of_ages() > *limits.sum_of_ages) return std::nullopt;
+  if (limits.jitter && made.jitter() > *limits.jitter) return std::nullopt;
   return made;
 }
 

@@ -17,7 +17,8 @@ std::optional<Placed> placed_within(const Reading& reading, const Limits& limits
     placed.ages.push_back(found.longest);
     placed.least.push_back(found.shortest);
   }
-  if (fused_in_order(reading, offsets) != true) return std::nullopt;
+  if (fused_in_order(reading, offsets) != true || (limits.jitter && placed.jitter() > *limits.jitter))
+    return std::nullopt;
   placed.solution.offsets = std::move(offsets);
   return placed;
 }

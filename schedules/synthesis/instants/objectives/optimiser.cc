@@ -75,7 +75,7 @@ void Optimiser::worst_age(Goal goal) {
     if (trial.placed) best = std::min(best, trial.placed->worst_age(trial.limits.beyond));
   }
   if (best > least_of_all) way_ = "all orders tried";
-  const Ticks settled = settle_open(std::move(open), best);
+  const Ticks settled = settle_open(open, best);
   const Ticks bound = std::min(best, settled);
   for (Trial& trial : trials_) {
     if (trial.out) continue;
@@ -83,12 +83,14 @@ void Optimiser::worst_age(Goal goal) {
     hold(trial.limits, best, trial.placed->ages.size());
   }
   note(goal, static_cast<double>(best), static_cast<double>(bound));
+  for (const Open& one : open)
+    if (trials_[one.trial].out && one.least <= best) doubtful_.insert(one.trial);
 }
 
-Ticks Optimiser::settle_open(std::vector<Open> open, Ticks& best) {
+Ticks Optimiser::settle_open(std::vector<Open>& open, Ticks& best) {
   std::stable_sort(open.begin(), open.end(), [](const Open& a, const Open& b) { return a.least < b.least; });
   Ticks bound = kNoAge;
-  for (const Open& one : open) {
+  for (Open& one : open) {
     const Ticks most = one.nothing || best == kNoAge ? best : best - 1;
     if (one.least > most) continue;
     Trial& trial = trials_[one.trial];
@@ -101,7 +103,8 @@ Ticks Optimiser::settle_open(std::vector<Open> open, Ticks& best) {
       best = std::min(best, settled.best->worst_age(trial.limits.beyond));
     }
     exact_ = exact_ && (!one.nothing || settled.none || settled.best);
-    if (!settled.none) bound = std::min(bound, std::max(one.least, settled.bound));
+    one.least = std::max(one.least, !settled.none ? settled.bound : most == kNoAge ? kNoAge : most + 1);
+    if (!settled.none) bound = std::min(bound, one.least);
   }
   return bound;
 }
@@ -115,12 +118,14 @@ Settled Optimiser::ask(const Reading& reading, const Limits& limits, bool any) {
 }
 
 void Optimiser::place_all() {
-  for (Trial& trial : trials_) {
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    Trial& trial = trials_[i];
     if (trial.out || trial.placed) continue;
     const auto read = read_of(plan_, trial);
     if (read) {
       const Search found = place(read->reading, trial.limits);
       exact_ = exact_ && (found.exact || found.best);
+      if (!found.exact && !found.best) doubtful_.insert(i);
       trial.placed = found.best;
     }
     trial.out = !trial.placed;
@@ -130,16 +135,15 @@ void Optimiser::place_all() {
 void Optimiser::jitter() {
   place_all();
   Ticks best = kNoAge;
-  const auto of = [](const Trial& trial) {
-    Ticks most = 0;
-    for (std::size_t c = 0; c < trial.placed->ages.size(); ++c)
-      most = std::max(most, trial.placed->ages[c] - trial.placed->least[c]);
-    return most;
-  };
   for (const Trial& trial : trials_)
-    if (!trial.out) best = std::min(best, of(trial));
-  for (Trial& trial : trials_) trial.out = trial.out || of(trial) > best;
+    if (!trial.out) best = std::min(best, trial.placed->jitter());
   note(Goal::kJitter, static_cast<double>(best), 0);
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
+    if (trials_[i].out) continue;
+    trials_[i].limits.jitter = best;
+    trials_[i].out = trials_[i].placed->jitter() > best;
+    if (trials_[i].out) doubtful_.insert(i);
+  }
 }
 
 void Optimiser::room() {
@@ -177,22 +181,23 @@ std::optional<std::size_t> Optimiser::least_sum() {
 void Optimiser::judge(Goal goal) {
   const auto found = judges_.find(goal);
   TTF_CHECK(found != judges_.end(), "nobody judges {}", name_of(goal));
-  const bool first = possible_.empty();
-  if (first)
-    for (std::size_t i = 0; i < trials_.size(); ++i)
-      if (!trials_[i].out) possible_.push_back(i);
+  const bool bounded = doubtful_.empty();
+  for (std::size_t i = 0; i < trials_.size(); ++i)
+    if (!trials_[i].out) doubtful_.insert(i);
+  judged_ = true;
   judging::Judged judged = judging::least_judged(plan_, *found->second, trials_);
   exact_ = exact_ && judged.exact;
   // Behind another judge measurements and uses stand already. Other ones might be better, so there is no bound.
-  note(goal, judged.value, first ? judged.bound : 0.0);
+  // Trials that were dropped without a proof have none either.
+  note(goal, judged.value, bounded ? judged.bound : 0.0);
   reached_.back().weights = std::move(judged.weights);
   reached_.back().supposes = found->second->supposes();
   reached_.back().proven = reached_.back().proven && reached_.back().supposes.empty();
 }
 
-double Optimiser::without_pins(Goal goal) const {
+double Optimiser::bound_of_doubtful(Goal goal) const {
   double best = goal == Goal::kRoom ? 0.0 : std::numeric_limits<double>::infinity();
-  for (const std::size_t i : possible_) {
+  for (const std::size_t i : doubtful_) {
     const auto read = read_of(plan_, trials_[i], false);
     if (!read) continue;
     const Problem& problem = read->reading.problem;
@@ -206,10 +211,10 @@ double Optimiser::without_pins(Goal goal) const {
 }
 
 void Optimiser::note(Goal goal, double value, double bound) {
-  const bool own = !judges_.contains(goal);
-  if (own && !possible_.empty()) {
-    bound = without_pins(goal);
-    way_ = "bound";
+  if (!judges_.contains(goal) && !doubtful_.empty()) {
+    const double others = bound_of_doubtful(goal);
+    bound = goal == Goal::kRoom ? std::max(bound, others) : std::min(bound, others);
+    if (judged_) way_ = "bound";
   }
   reached_.push_back({goal, value, bound, value == bound, way_, {}, {}});
 }

@@ -45,8 +45,8 @@ class Optimiser {
 
   void worst_age(plan::Goal goal);
   // Asks the solver about candidates whose search was cut, those with the least bounds first, until one stays open.
-  // Returns a bound for all of them.
-  Ticks settle_open(std::vector<Open> open, Ticks& best);
+  // Returns a bound for all of them, and raises that of each one.
+  Ticks settle_open(std::vector<Open>& open, Ticks& best);
   // Asks nothing more behind a question that stayed open: the answers would prove nothing.
   Settled ask(const Reading& reading, const Limits& limits, bool any);
   void slots();
@@ -62,8 +62,8 @@ class Optimiser {
   void judge(plan::Goal goal);
   std::optional<std::size_t> least_sum();
   void note(plan::Goal goal, double value, double bound);
-  // Returns a bound of an objective behind a judge. Other instants may be as good for the judge as those that it left.
-  double without_pins(plan::Goal goal) const;
+  // Returns an objective's bound over the doubtful trials, whatever their instants.
+  double bound_of_doubtful(plan::Goal goal) const;
 
   static constexpr int kMostAsks = 16;  // by objective
 
@@ -73,7 +73,10 @@ class Optimiser {
   int asks_left_ = 0;
   std::string way_;  // to the proof of this objective
   std::vector<Trial> trials_;
-  std::vector<std::size_t> possible_;  // from the first judge on: trials that it might have left
+  // Trials that might be as good as those that are left, with other instants: they were dropped without a proof of the
+  // contrary, or a judge has chosen their measurements and uses.
+  std::set<std::size_t> doubtful_;
+  bool judged_ = false;
   std::vector<Reached> reached_;
   bool exact_ = true;
 };

@@ -19,6 +19,7 @@ constexpr Ticks kNoSlots = std::numeric_limits<Ticks>::max();
 void Optimiser::slots() {
   Ticks best = kNoSlots, bound = kNoSlots, least = kNoSlots;
   std::map<std::size_t, Ticks> by_trial;
+  std::map<std::size_t, Ticks> unproven;  // their bounds
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     Trial& trial = trials_[i];
     if (trial.out) continue;
@@ -27,7 +28,7 @@ void Optimiser::slots() {
     if (trial.out) continue;
     least = std::min(least, least_slots(*read));
     const auto [few, proven_few] = fewest(*read, trial);
-    if (!proven_few) bound = std::min(bound, least_slots(*read));
+    if (!proven_few) unproven[i] = least_slots(*read);
     trial.out = !few;
     if (!few) continue;
     by_trial[i] = *few;
@@ -35,8 +36,11 @@ void Optimiser::slots() {
   }
   for (const auto& [i, few] : by_trial) trials_[i].out = few > best;
   if (best > least && way_ == "bound") way_ = "all orders tried";
+  for (const auto& [i, few] : unproven) bound = std::min(bound, few);
   bound = std::min(bound, best);
   note(Goal::kSlots, static_cast<double>(best), static_cast<double>(bound));
+  for (const auto& [i, few] : unproven)
+    if (trials_[i].out && few <= best) doubtful_.insert(i);
 }
 
 std::pair<std::optional<Ticks>, bool> Optimiser::fewest(const Read& read, Trial& trial) {

@@ -14,6 +14,7 @@
 #include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
 #include "schedules/synthesis/instants/candidates.h"
+#include "schedules/synthesis/instants/placement.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/synthesis/plans.h"
 
@@ -109,6 +110,45 @@ TEST(SynthesizePaper, SensorsOfDifferentPeriodsMeetInARound) {
   EXPECT_TRUE(check::check(made.cluster).empty());
   EXPECT_GE(made.reached[0].value, made.reached[0].bound);
   EXPECT_DOUBLE_EQ(made.reached[0].value, worst_use_ms(made.cluster));
+}
+
+// The paper's plan in a cycle of 9 ms and a round of 40 cycles, with a range of periods for each sensor.
+plan::Plan with_periods(const std::string& laser, const std::string& camera, const std::string& objective) {
+  std::string text = changed(plan_text("paper"), "gCycleCountMax: 63", "gCycleCountMax: 39");
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 9 ms, longest: 9 ms, step: 1 ms}");
+  text = changed(text, "laser: \\{shortest: [^}]*\\}", "laser: {" + laser + "}");
+  text = changed(text, "camera: \\{shortest: [^}]*\\}", "camera: {" + camera + "}");
+  text = changed(text, "objective: \\[[^\\]]*\\]", "objective: [" + objective + "]");
+  for (int i = 0; i < 2; ++i) text = changed(text, ", largest_age: 60 ms", "");
+  return plan::parse_plan(text, "plan.yaml");
+}
+
+// Periods that differ make jitter. The search proves no least one, so those that it drops may still have the most room.
+TEST(SynthesizePaper, ACandidateThatIsDroppedWithoutAProofBoundsLaterObjectives) {
+  const auto made = [](const std::string& objective) {
+    return synthesize(with_periods("shortest: 36 ms, longest: 72 ms", "shortest: 36 ms, longest: 90 ms", objective));
+  };
+  const Synthesis room = made("room"), behind = made("jitter, room");
+  ASSERT_TRUE(room.found && behind.found);
+  EXPECT_TRUE(room.reached[0].proven);
+  EXPECT_LT(behind.reached[1].value, room.reached[0].value);
+  EXPECT_EQ(behind.reached[1].bound, room.reached[0].value);
+  EXPECT_FALSE(behind.reached[1].proven);
+}
+
+// A limit of jitter is kept, as an objective before others.
+TEST(SynthesizeJitter, ALimitIsKept) {
+  const plan::Plan plan = with_periods("shortest: 36 ms, longest: 36 ms", "shortest: 45 ms, longest: 45 ms", "jitter");
+  const auto read = read_of(plan, candidates(plan).front());
+  const Search free = place(read->reading, {});
+  ASSERT_TRUE(free.best);
+  Limits limits;
+  for (limits.jitter = free.best->jitter(); *limits.jitter > 0; limits.jitter = *limits.jitter / 2) {
+    const Search found = place(read->reading, limits);
+    EXPECT_LE(found.best ? found.best->jitter() : 0, *limits.jitter);
+    EXPECT_FALSE(found.exact);
+    EXPECT_TRUE(found.best || limits.jitter < free.best->jitter());
+  }
 }
 
 TEST(SynthesizePaper, WrittenAndReadAgainItIsTheSame) {
