@@ -32,6 +32,7 @@ std::vector<double> error_weights(const Plan& plan, const instants::Synthesis& m
 
 std::string csv_row(const Plan& plan, const char* kind, const trade::TradeOffPoint& point) {
   std::string row = fmt::format("{},{:g}", kind, in_ms(point.candidate.cycle));
+  if (plan.payload) row += fmt::format(",{}", point.candidate.payload);
   for (std::size_t s = 0; s < plan.cluster.sensors.size(); ++s)
     row += fmt::format(",{}", point.candidate.repetitions[s]);
   row += fmt::format(",{:.3f},{:.3f},{},{},{},", in_ms(point.worst_age), in_ms(point.bound), point.slots,
@@ -40,7 +41,7 @@ std::string csv_row(const Plan& plan, const char* kind, const trade::TradeOffPoi
 }
 
 std::string csv(const Plan& plan, const trade::TradeOff& made) {
-  std::string text = "row,cycle_ms";
+  std::string text = plan.payload ? "row,cycle_ms,payload_bytes" : "row,cycle_ms";
   for (const auto& sensor : plan.cluster.sensors) text += fmt::format(",{}_repetition", sensor.name);
   text += ",worst_age_ms,bound_ms,slots,fewest,static_slots,error\n";
   for (const trade::TradeOffPoint& point : made.candidates) text += csv_row(plan, "candidate", point);
@@ -63,6 +64,8 @@ void write_trade_off(const Plan& plan, const instants::Synthesis& made, const Pl
       return instants::judging::judged(*judges.by_goal().at(Goal::kError), weights, plan, cluster);
     };
   trade::TradeOff found = trade::trade_off(plan, judge);
+  if (!found.complete)
+    fmt::print(stderr, "note: the trade-off ends after {} placements: fewer slots may be possible\n", found.steps);
   if (path.ends_with(".csv")) {
     write_file(path, csv(plan, found));
   } else {

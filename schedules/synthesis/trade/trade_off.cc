@@ -51,6 +51,7 @@ class Trader {
 
   TradeOff run() {
     const std::vector<Candidate> all = candidates(plan_);
+    searches_ = kSearchesInAStep * static_cast<std::int64_t>(all.size());
     for (const Candidate& candidate : all) add(candidate);
     made_.without = all.size() - made_.candidates.size();
     front();
@@ -58,8 +59,10 @@ class Trader {
   }
 
  private:
+  // Each search has a share of the steps that are left, so that the front has some, and ends at last.
   Search ask(const Traded& traded, Ticks worst, Ticks slots, bool any = false) {
-    Search found = place(traded.read.reading, limits_of(traded, worst, slots), any);
+    const std::int64_t share = std::clamp((most_steps_ - made_.steps) / searches_, kLeastShare, instants::kMostSteps);
+    Search found = place(traded.read.reading, limits_of(traded, worst, slots), any, share);
     made_.steps += found.steps;
     return found;
   }
@@ -134,7 +137,8 @@ class Trader {
       if (refused.contains(i) || traded.least >= best.worst) continue;
       if (made_.steps >= most_steps_) {
         made_.complete = false;
-        return std::nullopt;
+        best.bound = std::min(best.bound, traded.least);
+        continue;
       }
       Search found = ask(traded, best.worst == kUnlimited ? kUnlimited : best.worst - 1, slots);
       const Ticks reached = found.best ? found.best->worst_age({}) : best.worst;
@@ -168,9 +172,12 @@ class Trader {
     }
   }
 
+  static constexpr std::int64_t kSearchesInAStep = 4;  // of each candidate
+  static constexpr std::int64_t kLeastShare = 1'000;
+
   const Plan& plan_;
   const Judge& judge_;
-  std::int64_t most_steps_;
+  std::int64_t most_steps_, searches_ = 1;
   std::vector<Traded> traded_;
   TradeOff made_;
 };

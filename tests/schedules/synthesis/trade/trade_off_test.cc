@@ -73,6 +73,21 @@ TEST(TradeOff, EndsByACountOfSteps) {
   EXPECT_FALSE(found.complete);
 }
 
+// Four sensors take the search many steps. Each search has a share of them, so the front gets some, too. Its first step
+// is no older than the best of the candidates.
+TEST(TradeOff, AFrontHasStepsLeftBehindLongSearches) {
+  plan::Plan planned = plan::load_plan(plan_path("paper_two_lasers_radar"));
+  planned.cycle.longest = planned.cycle.shortest + planned.cycle.step * 8;
+  const TradeOff found = trade_off(planned, {}, 200'000);
+  ASSERT_FALSE(found.candidates.empty());
+  ASSERT_GT(found.front.size(), 1u);
+  EXPECT_LT(found.steps, 400'000);
+  Duration least = found.candidates.front().worst_age;
+  for (const TradeOffPoint& point : found.candidates) least = std::min(least, point.worst_age);
+  EXPECT_LE(found.front.front().worst_age, least);
+  for (const TradeOffPoint& point : found.front) EXPECT_LE(point.bound, point.worst_age);
+}
+
 TEST(Binding, PiecesAddUpToTheWorstAge) {
   const plan::Plan planned = paper();
   const instants::Synthesis made = instants::synthesize(planned);
