@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/decimal.h"
 #include "report/drawing/axes.h"
 #include "report/drawing/names.h"
 #include "schedules/analysis/dynamic_load.h"
@@ -98,8 +99,8 @@ class SchedulePainter {
   std::string title_text() const {
     const auto& g = c_.flexray;
     return fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT", c_.name,
-                       drawing::number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
-                       g.gdStaticSlot, g.gNumberOfMinislots,
+                       scaled_text(g.cycle_ps(), 1'000'000'000), g.gNumberOfStaticSlots, g.gdStaticSlot,
+                       g.gNumberOfMinislots,
                        g.gdSymbolWindow > 0 ? fmt::format(", symbol window {} MT", g.gdSymbolWindow) : "", g.gdNIT);
   }
   std::string matrix_text() const {

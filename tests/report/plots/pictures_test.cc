@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 #include "core/random.h"
 #include "report/drawing/render.h"
@@ -17,6 +18,12 @@
 
 namespace ttf::report::plots {
 namespace {
+
+// Neither 8.54 nor 8.535000000000001.
+TEST(Pictures, AScheduleHasItsExactCycleInTheTitle) {
+  const std::string svg = schedule_svg(schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_planned.yaml"));
+  EXPECT_NE(svg.find("paper_planned: cycle 8.535 ms, 88 static slots"), std::string::npos);
+}
 
 TEST(Pictures, ForLookingAt) {
   const char* dir = std::getenv("TTF_PICTURES");
