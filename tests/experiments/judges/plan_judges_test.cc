@@ -13,6 +13,8 @@
 #include "schedules/check/checker.h"
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/synthesis/instants/judging/meetings.h"
+#include "schedules/synthesis/instants/judging/moves.h"
+#include "schedules/synthesis/instants/placement.h"
 #include "schedules/synthesis/instants/synthesize.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/synthesis/plans.h"
@@ -199,7 +201,47 @@ TEST(ErrorOfAPlan, ObjectivesBehindItKeepIt) {
   }
   // Fewer slots are possible, with another error. So nothing is proven about slots.
   EXPECT_FALSE(made.reached[1].proven);
-  EXPECT_EQ(made.reached[5].bound, 0.0);  // and nothing about the gap error
+}
+
+// The bound of a second judge is that of the plan without the first one. The least gap error is known there.
+TEST(SecondJudge, HasTheBoundOfThePlanWithoutTheFirst) {
+  const std::string section = error_of("process_noise: 1");
+  const Synthesis alone = made_of(paper("gap_error", section, "8560 us"));
+  const Synthesis behind = made_of(paper("error, gap_error", section, "8560 us"));
+  EXPECT_DOUBLE_EQ(behind.reached[1].bound, alone.reached[0].value);
+  EXPECT_GT(behind.reached[1].value, 1.001 * behind.reached[1].bound);
+  EXPECT_LT(behind.reached[1].value, 1.01 * behind.reached[1].bound);
+  EXPECT_FALSE(behind.reached[1].supposes.empty());
+  // Ages that are held before both judges hold for the bound, too: nothing is given away there.
+  const Synthesis aged = made_of(paper("data_age, worst_age, error, gap_error", section, "8560 us"));
+  EXPECT_EQ(aged.reached[3].bound, aged.reached[3].value);
+}
+
+// All measurements, moved on a grid: none of the schedules is below the bound of the second judge, whether or not the
+// first one would have it.
+TEST(SecondJudge, BoundsAllMovesOfMeasurements) {
+  const Plan plan = paper("gap_error, error", error_of("process_noise: 5"));
+  const Synthesis made = made_of(plan);
+  const auto read = instants::read_of(plan, made.candidate);
+  const instants::Search found = instants::place(read->reading, {});
+  ASSERT_TRUE(found.best);
+  const ErrorJudge error(plan);
+  double least = 1e9;
+  const auto& sensors = read->reading.sensors;
+  for (schedules::synthesis::Ticks laser = 0; laser < 34'140; laser += 500)
+    for (schedules::synthesis::Ticks camera = 0; camera < 34'140; camera += 500) {
+      auto offsets = found.best->solution.offsets;
+      offsets[*sensors[0]] = (offsets[*sensors[0]] + laser) % 34'140;
+      offsets[*sensors[1]] = (offsets[*sensors[1]] + camera) % 34'140;
+      const auto placed = judging::placed_within(read->reading, {}, offsets);
+      if (placed)
+        least = std::min(
+            least,
+            error.of(judging::meetings(plan, read->reading.problem, 1'000'000, placed->solution.offsets), {1.0}));
+    }
+  EXPECT_LE(made.reached[1].bound, least);
+  EXPECT_LE(made.reached[1].bound, made.reached[1].value);
+  EXPECT_GT(made.reached[1].bound, 0.95 * made.reached[1].value);
 }
 
 // The regret is 1 only if one schedule is the best for all densities, and each part is weighed by its own least error.

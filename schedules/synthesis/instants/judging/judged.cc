@@ -22,8 +22,17 @@ class JudgedSearch {
       auto read = read_of(plan, trials[i]);
       trials[i].out = !read;
       if (read)
-        contenders_.push_back(
-            {i, std::move(read->reading), read->timed.cluster.flexray.gdMacrotick_ps, {}, false, false, 0, 0, 0, {}});
+        contenders_.push_back({i,
+                               std::move(read->reading),
+                               read->timed.cluster.flexray.gdMacrotick_ps,
+                               {},
+                               false,
+                               false,
+                               false,
+                               0,
+                               0,
+                               0,
+                               {}});
     }
   }
 
@@ -44,6 +53,14 @@ class JudgedSearch {
     return judged;
   }
 
+  double bound_of_all(const std::vector<double>& weights, double value) {
+    for (Contender& one : contenders_) {
+      one.bound = bound(one, weights, value, kLeastEffort);
+      one.effort = kLeastEffort;
+    }
+    return raised_bound(weights, value);
+  }
+
  private:
   // A trial and its proposals.
   struct Contender {
@@ -51,7 +68,7 @@ class JudgedSearch {
     Reading reading;
     std::int64_t tick_ps = 0;
     std::vector<Placed> proposals;
-    bool proposed = false, impossible = false;
+    bool searched = false, proposed = false, impossible = false;
     Ticks least_worst_age = 0;  // if it is proven
     // With the weights of the last search:
     double bound = 0;
@@ -94,6 +111,11 @@ class JudgedSearch {
       const auto lowest = std::min_element(contenders_.begin(), contenders_.end(),
                                            [](const Contender& a, const Contender& b) { return a.bound < b.bound; });
       if (lowest == contenders_.end() || lowest->bound >= value) return value;
+      if (!lowest->searched) {
+        search(*lowest);
+        lowest->bound = lowest->impossible ? kWithoutValue : bound(*lowest, weights, value, lowest->effort);
+        continue;
+      }
       left -= lowest->effort *= 2;
       if (left < 0) return lowest->bound;
       lowest->bound = std::max(lowest->bound, bound(*lowest, weights, value, lowest->effort));
@@ -111,9 +133,10 @@ class JudgedSearch {
     for (Trial& trial : trials_) trial.out = trial.out || !trial.placed;
   }
 
-  void propose(Contender& one) {
-    if (std::exchange(one.proposed, true)) return;
-    Trial& trial = trials_[one.trial];
+  // Proposes the least worst age.
+  void search(Contender& one) {
+    if (std::exchange(one.searched, true)) return;
+    const Trial& trial = trials_[one.trial];
     if (trial.placed) one.proposals.push_back(*trial.placed);
     Search first = place(one.reading, trial.limits, false, kProposalSteps);
     if (!first.best && !first.exact) first = place(one.reading, trial.limits);
@@ -121,7 +144,13 @@ class JudgedSearch {
     if (first.best && first.exact) one.least_worst_age = first.best->worst_age({});
     one.impossible = first.exact && one.proposals.empty();
     exact_ = exact_ && (one.impossible || !one.proposals.empty());
+  }
+
+  void propose(Contender& one) {
+    if (std::exchange(one.proposed, true)) return;
+    search(one);
     if (one.proposals.empty()) return;
+    const Trial& trial = trials_[one.trial];
     const std::vector<Ticks> least = least_ages(one.reading.problem);
     const Ticks oldest = *std::max_element(least.begin(), least.end());
     Limits limits = trial.limits;
@@ -172,6 +201,11 @@ class JudgedSearch {
 
 Judged least_judged(const plan::Plan& plan, const Judge& judge, std::vector<Trial>& trials) {
   return JudgedSearch(plan, judge, trials).run();
+}
+
+double least_bound(const plan::Plan& plan, const Judge& judge, std::vector<Trial> trials,
+                   const std::vector<double>& weights, double value) {
+  return JudgedSearch(plan, judge, trials).bound_of_all(weights, value);
 }
 
 }  // namespace ttf::schedules::synthesis::instants::judging

@@ -27,6 +27,12 @@ struct Judged {
 // left.
 Judged least_judged(const plan::Plan& plan, const Judge& judge, std::vector<Trial>& trials);
 
+// Returns a bound of the judge's value, with these weights, over the trials as they are. It is at most `value`. Behind
+// another judge these are the trials before it: their least value over all instants is not above that over the
+// instants that the other judge left.
+double least_bound(const plan::Plan& plan, const Judge& judge, std::vector<Trial> trials,
+                   const std::vector<double>& weights, double value);
+
 inline constexpr std::int64_t kProposalSteps = 20'000;  // placements for a proposal
 inline constexpr int kMostMoves = 400;                  // the most for one trial
 inline constexpr int kLeastEffort = 128;                // for a trial's first bound

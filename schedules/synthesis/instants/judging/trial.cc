@@ -4,9 +4,9 @@
 
 namespace ttf::schedules::synthesis::instants::judging {
 
-std::optional<Read> read_of(const plan::Plan& plan, const Trial& trial, bool pinned) {
+std::optional<Read> read_of(const plan::Plan& plan, const Trial& trial) {
   auto read = read_of(plan, trial.candidate);
-  if (read && pinned)
+  if (read)
     for (const Trial::Pin& pin : trial.pins) read->reading.problem.activities[pin.activity].fixed = pin.at;
   return read;
 }

@@ -24,8 +24,8 @@ struct Trial {
   std::vector<Pin> pins;
 };
 
-// Returns the trial's problem; none where parameters leave their range. `pinned` false: without its pins.
-std::optional<Read> read_of(const plan::Plan& plan, const Trial& trial, bool pinned = true);
+// Returns the trial's problem with its pins; none where parameters leave their range.
+std::optional<Read> read_of(const plan::Plan& plan, const Trial& trial);
 
 // Keeps all ages of the placement, and the beginnings of the first and the last activities of chains.
 void pin(const Problem& problem, Trial& trial);

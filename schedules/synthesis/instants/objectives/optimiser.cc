@@ -1,6 +1,7 @@
 #include "schedules/synthesis/instants/objectives/optimiser.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "core/check.h"
@@ -182,14 +183,23 @@ void Optimiser::judge(Goal goal) {
   const auto found = judges_.find(goal);
   TTF_CHECK(found != judges_.end(), "nobody judges {}", name_of(goal));
   const bool bounded = doubtful_.empty();
+  for (std::size_t i = 0; i < trials_.size() && !judged_; ++i) {
+    if (trials_[i].out && !doubtful_.contains(i)) continue;
+    possible_.push_back(trials_[i]);
+    possible_.back().out = false;
+  }
   for (std::size_t i = 0; i < trials_.size(); ++i)
     if (!trials_[i].out) doubtful_.insert(i);
   judged_ = true;
   judging::Judged judged = judging::least_judged(plan_, *found->second, trials_);
   exact_ = exact_ && judged.exact;
-  // Behind another judge measurements and uses stand already. Other ones might be better, so there is no bound.
-  // Trials that were dropped without a proof have none either.
-  note(goal, judged.value, bounded ? judged.bound : 0.0);
+  // Behind another judge measurements and uses stand already, and trials may have been dropped without a proof. Other instants
+  // might be as good, so the bound is that of all trials before the first judge.
+  if (!bounded) {
+    judged.bound = judging::least_bound(plan_, *found->second, possible_, judged.weights, judged.value);
+    way_ = "bound";
+  }
+  note(goal, judged.value, judged.bound);
   reached_.back().weights = std::move(judged.weights);
   reached_.back().supposes = found->second->supposes();
   reached_.back().proven = reached_.back().proven && reached_.back().supposes.empty();
@@ -198,7 +208,7 @@ void Optimiser::judge(Goal goal) {
 double Optimiser::bound_of_doubtful(Goal goal) const {
   double best = goal == Goal::kRoom ? 0.0 : std::numeric_limits<double>::infinity();
   for (const std::size_t i : doubtful_) {
-    const auto read = read_of(plan_, trials_[i], false);
+    const auto read = read_of(plan_, trials_[i].candidate);
     if (!read) continue;
     const Problem& problem = read->reading.problem;
     if (goal == Goal::kRoom) best = std::max(best, free_share(*read));

@@ -77,6 +77,7 @@ class Optimiser {
   // contrary, or a judge has chosen their measurements and uses.
   std::set<std::size_t> doubtful_;
   bool judged_ = false;
+  std::vector<Trial> possible_;  // before the first judge: those that were left, and the doubtful ones
   std::vector<Reached> reached_;
   bool exact_ = true;
 };
