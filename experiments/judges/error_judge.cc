@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "experiments/judges/least_error.h"
+#include "experiments/judges/trial_path.h"
 
 namespace ttf::experiments::judges {
 

@@ -1,7 +1,6 @@
 #include "experiments/judges/least_error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <queue>
@@ -39,8 +38,7 @@ class PhaseSearch {
     while (!open_.empty()) {
       if (open_.top().bound > enough || made_ >= most_boxes) return open_.top().bound;
       Box box = open_.top();
-      Side& longest = *std::max_element(box.sides.begin(), box.sides.end(),
-                                        [](const Side& a, const Side& b) { return a.length < b.length; });
+      Side& longest = box.sides[widest(box)];
       if (longest.length < 2 * kShortest) return box.bound;
       open_.pop();
       const std::int64_t half = longest.length / 2, end = longest.from + longest.length;
@@ -49,49 +47,99 @@ class PhaseSearch {
       longest = {longest.from + half, end - longest.from - half};
       add(std::move(box));
     }
-    return std::numeric_limits<double>::infinity();
+    return kNone;
   }
 
  private:
   static constexpr std::int64_t kShortest = 1'000;  // [ns]
-  static constexpr std::size_t kNoStream = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t kMostLate = 4;
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
   static constexpr Duration kAnyAge = Duration::milliseconds(1'000'000);
+
+  // Returns the side that matters most: its length by the information of its stream.
+  std::size_t widest(const Box& box) const {
+    std::size_t at = 0;
+    double most = -1.0;
+    for (std::size_t s = 0; s < box.sides.size(); ++s) {
+      const double weight = box.sides[s].length < 2 * kShortest
+                                ? 0.0
+                                : static_cast<double>(box.sides[s].length) / possible_.streams[s].variance;
+      if (weight <= most) continue;
+      at = s;
+      most = weight;
+    }
+    return at;
+  }
 
   void add(Box box) {
     ++made_;
     const double bound = least_of(box);
-    if (bound == std::numeric_limits<double>::infinity()) return;
+    if (bound == kNone) return;
     box.bound = std::max(box.bound, bound);
     box.number = made_;
     open_.push(std::move(box));
   }
 
-  // Where no instants have these ages, at least one stream is used later than its least age allows.
+  // Returns the least bound over the streams that are late: the smallest sets of them with which there are instants.
+  // With more late streams a filter knows less.
   double least_of(const Box& box) const {
-    if (attainable(box, kNoStream)) return bound_of(box, kNoStream);
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t late = 0; late < box.sides.size(); ++late)
-      if (attainable(box, late)) least = std::min(least, bound_of(box, late));
+    double least = kNone;
+    std::vector<std::vector<bool>> sets{std::vector<bool>(box.sides.size(), false)}, found;
+    for (std::size_t size = 0; size <= box.sides.size(); ++size) {
+      std::vector<std::vector<bool>> larger;
+      const bool last = size >= kMostLate;
+      for (const std::vector<bool>& late : sets) {
+        if (attainable(box, late, last)) {
+          found.push_back(late);
+          least = std::min(least, bound_of(box, late));
+          continue;
+        }
+        for (std::size_t s = 0; !last && s < late.size(); ++s)
+          if (!late[s] && known(box, s)) larger.push_back(with(late, s));
+      }
+      std::sort(larger.begin(), larger.end());
+      larger.erase(std::unique(larger.begin(), larger.end()), larger.end());
+      std::erase_if(larger, [&](const auto& late) {
+        return std::any_of(found.begin(), found.end(), [&](const auto& smaller) { return holds(late, smaller); });
+      });
+      sets = std::move(larger);
+    }
     return least;
   }
 
-  // With a late stream, any of the others may be late, too.
-  bool attainable(const Box& box, std::size_t late) const {
-    if (!possible_.attainable) return late == kNoStream;
+  static std::vector<bool> with(std::vector<bool> late, std::size_t s) {
+    late[s] = true;
+    return late;
+  }
+  static bool holds(const std::vector<bool>& late, const std::vector<bool>& smaller) {
+    for (std::size_t s = 0; s < late.size(); ++s)
+      if (smaller[s] && !late[s]) return false;
+    return true;
+  }
+
+  // A box over several uses says nothing about an age, nor does a sensor that measures more often than it is used.
+  bool known(const Box& box, std::size_t s) const {
+    const std::int64_t every = possible_.every.ns;
+    return possible_.streams[s].period.ns >= every && box.sides[s].from % every + box.sides[s].length <= every;
+  }
+
+  // Whether instants have the box's ages, and those of late streams by one use more, or by several. `any`: other
+  // streams may be late as well.
+  bool attainable(const Box& box, const std::vector<bool>& late, bool any) const {
+    const bool all = std::none_of(late.begin(), late.end(), [](bool one) { return one; });
+    if (!possible_.attainable) return all;
     std::vector<Duration> youngest, oldest;
     for (std::size_t s = 0; s < box.sides.size(); ++s) {
-      const Stream& stream = possible_.streams[s];
-      const Side& side = box.sides[s];
-      // A box over several uses says nothing, nor does a sensor that measures more often than it is used.
-      const std::int64_t every = possible_.every.ns, within = side.from % every;
-      const bool known = stream.period.ns >= every && within + side.length <= every;
-      youngest.push_back(stream.least_age + Duration{known ? within + (s == late ? every : 0) : 0});
-      oldest.push_back(known && late == kNoStream ? stream.least_age + Duration{within + side.length} : kAnyAge);
+      const Duration least = possible_.streams[s].least_age;
+      const std::int64_t every = possible_.every.ns, within = box.sides[s].from % every;
+      const bool is_known = known(box, s);
+      youngest.push_back(least + Duration{is_known ? within + (late[s] ? every : 0) : 0});
+      oldest.push_back(is_known && !late[s] && !any ? least + Duration{within + box.sides[s].length} : kAnyAge);
     }
     return possible_.attainable(youngest, oldest);
   }
 
-  double bound_of(const Box& box, std::size_t late) const {
+  double bound_of(const Box& box, const std::vector<bool>& late) const {
     Round round;
     round.length = {length_};
     round.held = possible_.held;
@@ -99,12 +147,10 @@ class PhaseSearch {
     for (std::size_t s = 0; s < box.sides.size(); ++s) {
       const Stream& stream = possible_.streams[s];
       const Side& side = box.sides[s];
-      // Its middle must not lie behind the first use.
-      if (side.length > 2 * stream.least_age.ns) return 0.0;
       for (std::int64_t start = 0; start < length_; start += stream.period.ns) {
-        const Duration measured{start - stream.least_age.ns - side.from - side.length};
-        const Duration soonest = stream.least_age + Duration{s == late ? possible_.every.ns : 0};
-        round.sightings.push_back({measured, stream.variance, measured + soonest + Duration{1}, Duration{side.length}});
+        const Duration measured{start - stream.least_age.ns - side.from - side.length + 1};
+        const Duration soonest = stream.least_age + Duration{late[s] ? possible_.every.ns : 0};
+        round.sightings.push_back({measured, stream.variance, measured + soonest, Duration{side.length - 1}});
       }
     }
     return bounded_(round);
@@ -122,20 +168,6 @@ class PhaseSearch {
 double least_over_phases(const Possible& possible, const std::function<double(const Round&)>& bounded, double enough,
                          int most_boxes) {
   return PhaseSearch(possible, bounded).run(enough, most_boxes);
-}
-
-double bounded_mean_error(const Round& round, Motion motion, double density) {
-  Duration longest{};
-  double information = 0.0;  // per second
-  for (const Sighting& one : round.sightings) {
-    longest = std::max(longest, one.within);
-    information += 1.0 / (one.variance * round.length.seconds());
-  }
-  if (motion == Motion::kRandomWalk) return mean_error(round, motion, density);
-  // A settled filter looks back over this time (docs/results/rate_and_age.md). The box moves a measurement by a share
-  // of it.
-  const double back = std::pow(1.0 / (information * density), 0.25);
-  return mean_error(round, motion, density, std::max(1e-9, longest.seconds() / back));
 }
 
 }  // namespace ttf::experiments::judges

@@ -2,11 +2,12 @@
 //
 // A measurement is at best `least_age` old at its first use. Let each one be known that early: a filter that knows more
 // has no larger error. So the error of any instants is not below that of their phases alone. A box of phases has a
-// bound of its own (Sighting::within). The box with the least bound is halved at its longest side, a counted number of
-// times. The least bound that is left holds for all phases.
+// bound of its own (trial_path.h). The box with the least bound is halved, a counted number of times, at the side whose
+// length matters most: by the information of its stream. The least bound that is left holds for all phases.
 //
-// No instants have the ages of some boxes at first use. In their phases at least one measurement is used later than its
-// least age allows, by one use or more. The bound of such a box is the least one over the measurement that is late.
+// No instants have the ages of some boxes at first use. In their phases some measurements are used later than their
+// least ages allow, by one use or more. The bound of such a box is the least one over the sets of measurements that may
+// be late.
 #pragma once
 
 #include <functional>
@@ -33,9 +34,5 @@ struct Possible {
 // `bounded` returns a bound for a round whose sightings are boxes. Ends when the bound is above `enough`.
 double least_over_phases(const Possible& possible, const std::function<double(const Round&)>& bounded, double enough,
                          int most_boxes);
-
-// Returns a bound of the mean error at uses for a round whose sightings are boxes. The spread follows from the longest
-// box.
-double bounded_mean_error(const Round& round, Motion motion, double density);
 
 }  // namespace ttf::experiments::judges

@@ -1,69 +1,27 @@
 #include "experiments/judges/periodic_error.h"
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "core/check.h"
+#include "experiments/judges/riccati_steps.h"
 
 namespace ttf::experiments::judges {
 namespace {
 
 std::int64_t within_round(std::int64_t ns, std::int64_t round) { return (ns % round + round) % round; }
 
-template <int K> using Square = Eigen::Matrix<double, K, K>;
-
-// The map P -> h + a P (I + g P)^-1 a'.
-template <int K> struct Steps {
-  Square<K> a = Square<K>::Identity(), g = Square<K>::Zero(), h = Square<K>::Zero();
-
-  // Returns this map, and then the next one.
-  Steps then(const Steps& next) const {
-    const Square<K> w = (Square<K>::Identity() + h * next.g).inverse();
-    return {next.a * w * a, g + a.transpose() * next.g * w * a, next.h + next.a * w * h * next.a.transpose()};
-  }
-  Square<K> of(const Square<K>& p) const {
-    return h + a * p * (Square<K>::Identity() + g * p).inverse() * a.transpose();
-  }
-};
-
-template <int K> Steps<K> moved(double dt, double density) {
-  Steps<K> step;
-  if constexpr (K == 1) {
-    step.h(0, 0) = density * dt;
-  } else {
-    step.a(0, 1) = dt;
-    step.h << dt * dt * dt / 3.0, dt * dt / 2.0, dt * dt / 2.0, dt;
-    step.h *= density;
-  }
-  return step;
-}
-
-template <int K> Steps<K> informed(const Sighting& by, double spread) {
-  Steps<K> step;
-  step.g(0, 0) = 1.0 / by.variance;
-  if constexpr (K == 2) {
-    if (by.within > Duration{}) {
-      const double half = static_cast<double>((by.within.ns + 1) / 2) * 1e-9;
-      step.g(0, 0) = (1.0 + spread) / by.variance;
-      step.g(1, 1) = (1.0 + 1.0 / spread) * half * half / by.variance;
-    }
-  }
-  return step;
-}
-
 template <int K> class Recursion {
  public:
-  Recursion(const Round& round, double density, double spread) : round_(round), length_(round.length.ns) {
+  Recursion(const Round& round, double density) : round_(round), length_(round.length.ns) {
     for (const Sighting& sighting : round.sightings) {
-      middles_.push_back(sighting.measured.ns + sighting.within.ns / 2);
-      updates_.push_back(informed<K>(sighting, spread));
+      measured_.push_back(sighting.measured.ns);
+      updates_.push_back(informed<K>(sighting.variance));
     }
     set_boundaries();
     for (std::size_t i = 0; i < boundaries_.size(); ++i)
-      flows_.push_back(moved<K>(static_cast<double>(end(i) - boundaries_[i]) * 1e-9, quiet(i) ? 0.0 : density));
+      flows_.push_back(moved<K>(static_cast<double>(end(i) - boundaries_[i]) * 1e-9, density));
     set_periodic();
   }
 
@@ -71,17 +29,17 @@ template <int K> class Recursion {
   Square<K> at(std::int64_t use) const {
     std::int64_t from = use;  // all that is measured before is known
     std::vector<std::int64_t> unknown;
-    for (std::size_t s = 0; s < middles_.size(); ++s) {
+    for (std::size_t s = 0; s < measured_.size(); ++s) {
       const std::int64_t behind = use - round_.sightings[s].known.ns;
       const std::int64_t rounds = (behind - within_round(behind, length_)) / length_;
-      unknown.push_back(middles_[s] + (rounds + 1) * length_);
+      unknown.push_back(measured_[s] + (rounds + 1) * length_);
       from = std::min(from, unknown.back());
     }
     std::size_t i = index_of(from);
     Square<K> p = before_[i];
     for (std::int64_t now = from;; now += end(i) - boundaries_[i], i = (i + 1) % boundaries_.size()) {
-      for (std::size_t s = 0; s < middles_.size(); ++s)
-        if (within_round(middles_[s], length_) == boundaries_[i] && now < unknown[s]) p = updates_[s].of(p);
+      for (std::size_t s = 0; s < measured_.size(); ++s)
+        if (within_round(measured_[s], length_) == boundaries_[i] && now < unknown[s]) p = updates_[s].of(p);
       if (now >= use) return p;
       p = flows_[i].of(p);
     }
@@ -96,51 +54,32 @@ template <int K> class Recursion {
 
   void set_boundaries() {
     boundaries_ = {0};
-    for (std::size_t s = 0; s < middles_.size(); ++s) {
-      const Sighting& one = round_.sightings[s];
-      for (const std::int64_t at : {one.measured.ns, middles_[s], one.measured.ns + one.within.ns})
-        boundaries_.push_back(within_round(at, length_));
-    }
+    for (const std::int64_t at : measured_) boundaries_.push_back(within_round(at, length_));
     for (const Duration use : round_.uses) boundaries_.push_back(within_round(use.ns, length_));
     std::sort(boundaries_.begin(), boundaries_.end());
     boundaries_.erase(std::unique(boundaries_.begin(), boundaries_.end()), boundaries_.end());
-  }
-
-  // Whether a measurement may happen between this boundary and the next one.
-  bool quiet(std::size_t i) const {
-    return std::any_of(round_.sightings.begin(), round_.sightings.end(), [&](const Sighting& one) {
-      return within_round(boundaries_[i] - one.measured.ns, length_) < one.within.ns;
-    });
   }
 
   // Finds the periodic covariance at the first boundary, and from there at all of them, before their measurements.
   void set_periodic() {
     Steps<K> rounds;
     for (std::size_t i = 0; i < boundaries_.size(); ++i) {
-      for (std::size_t s = 0; s < middles_.size(); ++s)
-        if (within_round(middles_[s], length_) == boundaries_[i]) rounds = rounds.then(updates_[s]);
+      for (std::size_t s = 0; s < measured_.size(); ++s)
+        if (within_round(measured_[s], length_) == boundaries_[i]) rounds = rounds.then(updates_[s]);
       rounds = rounds.then(flows_[i]);
     }
-    for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
-      const Steps<K> twice = rounds.then(rounds);
-      const bool ended = (twice.h - rounds.h).cwiseAbs().maxCoeff() <= 1e-15 * twice.h.cwiseAbs().maxCoeff();
-      rounds = twice;
-      if (ended) break;
-    }
-    Square<K> p = rounds.h;
+    Square<K> p = periodic(rounds);
     for (std::size_t i = 0; i < boundaries_.size(); ++i) {
       before_.push_back(p);
-      for (std::size_t s = 0; s < middles_.size(); ++s)
-        if (within_round(middles_[s], length_) == boundaries_[i]) p = updates_[s].of(p);
+      for (std::size_t s = 0; s < measured_.size(); ++s)
+        if (within_round(measured_[s], length_) == boundaries_[i]) p = updates_[s].of(p);
       p = flows_[i].of(p);
     }
   }
 
-  static constexpr int kMostDoublings = 48;
-
   const Round& round_;
   std::int64_t length_;
-  std::vector<std::int64_t> middles_, boundaries_;
+  std::vector<std::int64_t> measured_, boundaries_;
   std::vector<Steps<K>> updates_, flows_;  // by sighting; from boundary to boundary
   std::vector<Square<K>> before_;          // by boundary
 };
@@ -153,8 +92,8 @@ template <int K> double held_error(const Square<K>& p, double density, double h)
     return p(0, 0) + h * p(0, 1) + h * h / 3.0 * p(1, 1) + density * h * h * h / 12.0;
 }
 
-template <int K> std::vector<double> errors(const Round& round, double density, double spread) {
-  const Recursion<K> recursion(round, density, spread);
+template <int K> std::vector<double> errors(const Round& round, double density) {
+  const Recursion<K> recursion(round, density);
   std::vector<double> found;
   for (const Duration use : round.uses)
     found.push_back(held_error<K>(recursion.at(use.ns), density, round.held.seconds()));
@@ -163,14 +102,15 @@ template <int K> std::vector<double> errors(const Round& round, double density, 
 
 }  // namespace
 
-std::vector<double> errors_at_uses(const Round& round, Motion motion, double density, double spread) {
+std::vector<double> errors_at_uses(const Round& round, Motion motion, double density) {
   TTF_CHECK(round.length > Duration{} && !round.sightings.empty() && density > 0.0, "a round of {} ns, density {}",
             round.length.ns, density);
-  return motion == Motion::kRandomWalk ? errors<1>(round, density, spread) : errors<2>(round, density, spread);
+  for (const Sighting& one : round.sightings) TTF_CHECK(one.within == Duration{}, "a window of {} ns", one.within.ns);
+  return motion == Motion::kRandomWalk ? errors<1>(round, density) : errors<2>(round, density);
 }
 
-double mean_error(const Round& round, Motion motion, double density, double spread) {
-  const std::vector<double> errors = errors_at_uses(round, motion, density, spread);
+double mean_error(const Round& round, Motion motion, double density) {
+  const std::vector<double> errors = errors_at_uses(round, motion, density);
   return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 

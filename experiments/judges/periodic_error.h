@@ -25,7 +25,7 @@ struct Sighting {
   Duration measured{};    // within the round
   double variance = 0.0;  // R [m^2], > 0
   Duration known{};       // from here on uses see it; at or behind `measured`, at any distance
-  // Above 0: the instant is any one up to `within` later, and the errors are bounds from below for all of them.
+  // Above 0: the instant is any one up to `within` later, for bounds alone (trial_path.h).
   Duration within{};
 };
 
@@ -38,16 +38,10 @@ struct Round {
 };
 
 // Returns by use the expected squared error of one axis [m^2] with the noise density q [m^2/s for a walk, m^2/s^3], >
-// 0.
-//
-// With `within` above 0 the filter knows more, whatever the instants. No noise drives the motion while one may be
-// measured. So a measurement s behind the middle of this time is one of position + s velocity there. Its information is
-// at most
-//   diag((1 + e), (1 + 1/e) (within / 2)^2) / R   for any e > 0,
-// since 2 x y s <= e x^2 + s^2 y^2 / e. `spread` is e.
-std::vector<double> errors_at_uses(const Round& round, Motion motion, double density, double spread = 0.1);
+// 0. The instants are known: `within` is 0.
+std::vector<double> errors_at_uses(const Round& round, Motion motion, double density);
 
 // Returns their mean.
-double mean_error(const Round& round, Motion motion, double density, double spread = 0.1);
+double mean_error(const Round& round, Motion motion, double density);
 
 }  // namespace ttf::experiments::judges

@@ -7,32 +7,13 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "experiments/judges/trial_path.h"
 
 namespace ttf::experiments::judges {
 namespace {
 
 double drawn_between(RandomStream& draws, double low, double high) {
   return low * std::pow(high / low, draws.uniform());
-}
-
-// A box bounds each instant in it, whatever the spread.
-TEST(BoxOfPhases, BoundsAllInstantsInIt) {
-  RandomStream draws({21});
-  for (int draw = 0; draw < 300; ++draw) {
-    const std::int64_t length = draws.integer(20'000'000, 80'000'000);
-    Round box{{length}, {}, {Duration{}}, {draws.integer(0, 1) * length}}, inside = box;
-    const auto sensors = draws.integer(1, 3);
-    for (int s = 0; s < sensors; ++s) {
-      const Duration within{draws.integer(1, length / 3)};
-      const Duration age{draws.integer(within.ns, 2 * length)};
-      const double variance = drawn_between(draws, 1e-3, 1.0);
-      box.sightings.push_back({Duration{} - age, variance, {}, within});
-      inside.sightings.push_back({Duration{} - age + Duration{draws.integer(0, within.ns)}, variance, {}, {}});
-    }
-    const double density = drawn_between(draws, 0.01, 30.0), spread = drawn_between(draws, 0.01, 3.0);
-    for (const Motion motion : {Motion::kConstantVelocity, Motion::kRandomWalk})
-      EXPECT_LE(mean_error(box, motion, density, spread), mean_error(inside, motion, density) * (1.0 + 1e-9));
-  }
 }
 
 // The error of streams that are first used at these ages.
@@ -134,6 +115,44 @@ TEST(LeastOverPhases, IsBelowAllAgesThatCanBe) {
       }
     EXPECT_LE(bound, least) << draw;
     EXPECT_GE(bound, 0.95 * least) << draw;
+  }
+}
+
+// One of three lists can be new. The two others are late.
+TEST(LeastOverPhases, LetsSeveralStreamsBeLate) {
+  RandomStream draws({24});
+  for (int draw = 0; draw < 6; ++draw) {
+    const Duration period = Duration::milliseconds(draws.integer(20, 40));
+    Possible possible{period, {}, {}, {}};
+    for (int s = 0; s < 3; ++s)
+      possible.streams.push_back(
+          {drawn_between(draws, 1e-2, 0.1), period, Duration::milliseconds(draws.integer(20, 60))});
+    const std::int64_t more = draws.integer(period.ns / 2, period.ns);
+    const auto can_be = [&](const std::vector<Duration>& oldest) {
+      int new_ones = 0;
+      for (std::size_t s = 0; s < 3; ++s)
+        if (oldest[s] < possible.streams[s].least_age + Duration{more}) ++new_ones;
+      return new_ones < 2;
+    };
+    possible.attainable = [&](const auto&, const std::vector<Duration>& oldest) { return can_be(oldest); };
+    const double density = drawn_between(draws, 0.1, 30.0);
+    const auto bounded = [&](const Round& round) {
+      return bounded_mean_error(round, Motion::kConstantVelocity, density);
+    };
+    const double bound = least_over_phases(possible, bounded, 1e9, 1'500);
+    double least = 1e9;
+    constexpr int kCells = 8;  // of a period
+    std::vector<Duration> ages(3);
+    for (int cell = 0; cell < 16 * 16 * 16; ++cell) {
+      for (std::size_t s = 0, rest = static_cast<std::size_t>(cell); s < 3; ++s, rest /= 16) {
+        const auto at = static_cast<std::int64_t>(rest % 16);
+        // The least age that is not new is tried as well.
+        ages[s] = possible.streams[s].least_age + Duration{at == 15 ? more : period.ns * at / kCells};
+      }
+      if (can_be(ages)) least = std::min(least, error_at_ages(possible, ages, density));
+    }
+    EXPECT_LE(bound, least) << draw;
+    EXPECT_GE(bound, 0.97 * least) << draw;
   }
 }
 

@@ -168,6 +168,34 @@ TEST(ErrorOfAPlan, OverTimeMoreMeasurementsAreBetter) {
   }
 }
 
+// Lists are fused one after the other. So each order of them has its least ages. All orders are tried.
+TEST(ErrorOfFourSensors, IsThatOfTheBestOrder) {
+  // As paper_two_lasers_radar.yaml.
+  const Plan plan = paper("error",
+                          "  sensors: {rear_laser: {like: laser}, front_radar: {like: laser, kind: radar, raw: 32, "
+                          "objects: 12, preprocessing: 14 ms}}\n"
+                          "  error: {process_noise: 1, sigma: {laser: 0.06, camera: 0.15, front_radar: 0.25}}");
+  const Synthesis made = made_of(plan);
+  const auto read = instants::read_of(plan, made.candidate);
+  const auto prospect = judging::prospects(plan, read->reading, {}, 1'000'000).front();
+  const double variances[] = {0.06 * 0.06, 0.15 * 0.15, 0.06 * 0.06, 0.25 * 0.25};
+  double least = 1e9;
+  std::vector<std::size_t> order{0, 1, 2, 3};  // the newest first
+  do {
+    Round round{prospect.every, {}, {Duration{}}, {}};
+    Duration age{}, wait = Duration::microseconds(40);  // to the next slot
+    for (const std::size_t list : order) {
+      age = std::max(age + Duration::microseconds(10), prospect.coming[list].least_age + wait);
+      round.sightings.push_back({Duration{} - age, variances[list], {}, {}});
+      wait += Duration::microseconds(2'020);
+    }
+    least = std::min(least, mean_error(round, Motion::kConstantVelocity, 1.0));
+  } while (std::next_permutation(order.begin(), order.end()));
+  EXPECT_NEAR(made.reached[0].value / least, 1.0, 5e-4);
+  EXPECT_LE(made.reached[0].bound, made.reached[0].value);
+  EXPECT_GT(made.reached[0].bound, 0.9975 * made.reached[0].value);
+}
+
 // A cluster with odometry, which measures no object.
 TEST(ErrorOfAPlan, OdometryDoesNotCount) {
   const std::string text = schedules::synthesis::without_instants(schedules::shipped_text("moving_synchronised")) +
@@ -203,7 +231,7 @@ TEST(ErrorOfAPlan, ObjectivesBehindItKeepIt) {
   EXPECT_FALSE(made.reached[1].proven);
 }
 
-// The bound of a second judge is that of the plan without the first one. The least gap error is known there.
+// The least gap error of the plan without the first judge is known.
 TEST(SecondJudge, HasTheBoundOfThePlanWithoutTheFirst) {
   const std::string section = error_of("process_noise: 1");
   const Synthesis alone = made_of(paper("gap_error", section, "8560 us"));
@@ -212,13 +240,12 @@ TEST(SecondJudge, HasTheBoundOfThePlanWithoutTheFirst) {
   EXPECT_GT(behind.reached[1].value, 1.001 * behind.reached[1].bound);
   EXPECT_LT(behind.reached[1].value, 1.01 * behind.reached[1].bound);
   EXPECT_FALSE(behind.reached[1].supposes.empty());
-  // Ages that are held before both judges hold for the bound, too: nothing is given away there.
+  // Ages that were held before both judges count for the bound, too.
   const Synthesis aged = made_of(paper("data_age, worst_age, error, gap_error", section, "8560 us"));
   EXPECT_EQ(aged.reached[3].bound, aged.reached[3].value);
 }
 
-// All measurements, moved on a grid: none of the schedules is below the bound of the second judge, whether or not the
-// first one would have it.
+// Measurements are moved on a grid. No error there is below the bound of the second judge.
 TEST(SecondJudge, BoundsAllMovesOfMeasurements) {
   const Plan plan = paper("gap_error, error", error_of("process_noise: 5"));
   const Synthesis made = made_of(plan);

@@ -5,8 +5,8 @@
 
 #include "core/check.h"
 #include "schedules/synthesis/instants/ages.h"
-#include "schedules/synthesis/instants/bounds.h"
 #include "schedules/synthesis/instants/grid.h"
+#include "schedules/synthesis/instants/judging/attainable.h"
 
 namespace ttf::schedules::synthesis::instants::judging {
 namespace {
@@ -71,80 +71,6 @@ Meeting meeting_of(const End& end, const Problem& problem, std::int64_t tick_ps,
   return meeting;
 }
 
-// Returns the least worst age of the end's chains, counted longer by `beyond`.
-Ticks least_worst_of(const Problem& problem, const End& end, const std::vector<Ticks>& beyond) {
-  constexpr Ticks kAny = Ticks{1} << 50;
-  std::vector<Ticks> of_all(problem.chains.size(), -kAny);
-  for (std::size_t i = 0; i < end.chains.size(); ++i) of_all[end.chains[i]] = beyond[i];
-  return least_worst_age(problem, of_all);
-}
-
-// The fusion on a chain's way.
-struct Fusion {
-  std::size_t activity = 0;
-  NodeId node{};
-  Ticks head = 0, tail = 0;  // least ages of the measurement at its beginning, and of its beginning at the use
-};
-
-std::optional<Fusion> fusion_of(const Reading& reading, const Chain& chain) {
-  const auto fused = std::find_if(reading.fused.begin(), reading.fused.end(),
-                                  [&](const Fused& one) { return one.measuring == chain.activities.front(); });
-  if (fused == reading.fused.end()) return std::nullopt;
-  Fusion found{fused->fusing, fused->node, 0, 0};
-  bool behind = false, known = false;
-  for (std::size_t i = 0; i < chain.activities.size(); ++i) {
-    behind = behind || chain.activities[i] == fused->fusing;
-    known = behind;
-    if (i + 1 == chain.activities.size()) break;
-    (behind ? found.tail : found.head) += reading.problem.activities[chain.activities[i]].duration + chain.gaps[i];
-  }
-  if (!known) return std::nullopt;
-  return found;
-}
-
-// Two lists are first used at one use. Then the older one is fused first (Plan::in_order). So its age is at least its
-// way to the fusion, that fusion, and the other one's way from its own fusion to the use.
-bool kept_in_order(const Reading& reading, const End& end, const std::vector<Ticks>& youngest,
-                   const std::vector<Ticks>& oldest) {
-  const std::vector<Activity>& activities = reading.problem.activities;
-  for (std::size_t i = 0; i < end.chains.size(); ++i)
-    for (std::size_t j = 0; j < end.chains.size(); ++j) {
-      if (youngest[i] <= oldest[j]) continue;
-      const Chain &older = reading.problem.chains[end.chains[i]], &newer = reading.problem.chains[end.chains[j]];
-      const auto first = fusion_of(reading, older), second = fusion_of(reading, newer);
-      if (!first || !second || first->node != second->node || first->activity == second->activity) continue;
-      if (!activities[first->activity].resource ||
-          activities[first->activity].resource != activities[second->activity].resource)
-        continue;
-      if (oldest[i] < first->head + activities[first->activity].duration + second->tail) return false;
-    }
-  return true;
-}
-
-bool of_one_period(const Problem& problem, const End& end) {
-  return std::all_of(end.chains.begin(), end.chains.end(), [&](std::size_t chain) {
-    const std::vector<std::size_t>& way = problem.chains[chain].activities;
-    return std::all_of(way.begin(), way.end(), [&](std::size_t activity) {
-      return problem.activities[activity].period == problem.activities[end.activity].period;
-    });
-  });
-}
-
-bool possible(const Reading& reading, const End& end, const std::vector<Ticks>& largest_ages, std::int64_t tick_ps,
-              const std::vector<Duration>& youngest, const std::vector<Duration>& oldest) {
-  // With several periods, one measurement may be used late, and the next one soon. Then nothing is ruled out.
-  if (!of_one_period(reading.problem, end)) return true;
-  std::vector<Ticks> from, to, beyond;
-  for (const Duration age : youngest) from.push_back(age.ns * 1'000 / tick_ps);
-  for (const Duration age : oldest) to.push_back((age.ns * 1'000 + tick_ps - 1) / tick_ps);
-  for (std::size_t i = 0; i < from.size(); ++i)
-    if (from[i] > largest_ages[i]) return false;
-  const Ticks largest = *std::max_element(to.begin(), to.end());
-  for (const Ticks age : to) beyond.push_back(largest - age);
-  if (least_worst_of(reading.problem, end, beyond) > largest) return false;
-  return kept_in_order(reading, end, from, to);
-}
-
 }  // namespace
 
 std::vector<Meeting> meetings(const plan::Plan& plan, const Problem& problem, std::int64_t tick_ps,
@@ -167,11 +93,11 @@ std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, 
       prospect.coming.push_back({c, duration_of(period, tick_ps), duration_of(least[c], tick_ps)});
     }
     prospect.least_worst_age =
-        duration_of(least_worst_of(problem, end, std::vector<Ticks>(end.chains.size())), tick_ps);
-    std::vector<Ticks> largest;
-    for (const std::size_t c : end.chains) largest.push_back(limit_of(problem, limits, c));
-    prospect.attainable = [&reading, end, largest, tick_ps](const auto& youngest, const auto& oldest) {
-      return possible(reading, end, largest, tick_ps, youngest, oldest);
+        duration_of(least_worst_of(problem, end.chains, std::vector<Ticks>(end.chains.size())), tick_ps);
+    EndChains of_end{end.chains, {}};
+    for (const std::size_t c : end.chains) of_end.largest_ages.push_back(limit_of(problem, limits, c));
+    prospect.attainable = [&reading, of_end, tick_ps](const auto& youngest, const auto& oldest) {
+      return attainable(reading, of_end, tick_ps, youngest, oldest);
     };
     found.push_back(std::move(prospect));
   }
