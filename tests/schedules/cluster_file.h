@@ -20,6 +20,8 @@ inline const std::vector<std::string>& shipped_clusters() {
                                                "paper_fitted",
                                                "paper_planned",
                                                "paper_earliest",
+                                               "paper_planned_narrow",
+                                               "paper_planned_wide",
                                                "paper_dynamic",
                                                "laser_radar",
                                                "laser_radar_synchronised",
