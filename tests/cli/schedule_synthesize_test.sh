@@ -50,7 +50,12 @@ short_scans() {
 short_scans paper_short_scans planned_schedule
 says '^worst_age +40.874 ms .* proven best'
 short_scans closed_loop_short_scans closed_loop_planned closed_loop_planned_following
-# bounds CASE PLAN POINTS LASER_LOAD CAMERA_LOAD: with these scans and this traffic, the plan gives the cluster that the case drives.
+# drives EXPERIMENT AXIS=VALUE CLUSTER [PARADIGM]: the paradigm drives the cluster that synthesis made.
+drives() {
+  python3 "$(dirname "$0")/driven_cluster.py" "$program" "$source/experiments/$1.yaml" "${4:-planned}" "$2" "$3" ||
+    fail "$1 drives another cluster at $2"
+}
+# bounds CASE PLAN POINTS LASER_LOAD CAMERA_LOAD: with these scans and this traffic, the plan gives the case's cluster.
 bounds() {
   cat >"$work/case.yaml" <<YAML
 extends: $plans/$2.yaml
@@ -59,8 +64,7 @@ pdus: {laser_scan: {max_elements: $3}}
 can: {laser_can: {other_load: $4}, camera_can: {other_load: $5}}
 YAML
   expect 0 'wrote' schedule synthesize "$work/case.yaml" -o "$work/case_planned.yaml"
-  python3 "$(dirname "$0")/driven_cluster.py" "$program" "$source/experiments/planned_bounds.yaml" planned "case=$1" \
-    "$work/case_planned.yaml" || fail "planned_bounds drives another cluster in the case $1"
+  drives planned_bounds "case=$1" "$work/case_planned.yaml"
 }
 for bound in narrow paper wide; do
   plan=paper_$bound
@@ -69,6 +73,14 @@ for bound in narrow paper wide; do
   bounds ${bound}_long_load $plan 1300 0.04 0.1
   bounds ${bound}_short $plan 140 0 0
   bounds ${bound}_short_load $plan 140 0.4 0.1
+done
+for plan in held held_sixty; do
+  for bound in 34 44; do
+    name=paper_$plan
+    [[ $bound = 44 ]] && name=paper_wide_$plan
+    expect 0 'wrote' schedule synthesize "$plans/$name.yaml" -o "$work/held.yaml"
+    drives planned_periods "bound=$bound" "$work/held.yaml" $plan
+  done
 done
 for cluster in paper four least; do
   sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
