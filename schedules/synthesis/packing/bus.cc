@@ -139,7 +139,7 @@ model::Cluster bus_of(const Instance& instance, const std::vector<PackedFrame>& 
   model::Cluster bus;
   bus.name = request.name;
   bus.file = request.file;
-  int slots = 0;
+  int slots = request.slots;
   std::map<int, NodeId> ids;  // the nodes with frames, in the order of the instance
   for (const PackedFrame& frame : frames) {
     slots = std::max(slots, frame.number.slot);
@@ -157,7 +157,9 @@ model::Cluster bus_of(const Instance& instance, const std::vector<PackedFrame>& 
     std::set<std::string, std::less<>> assumed;
     model::Node& added = bus.nodes.emplace_back();
     added.name = ecu.name;
-    added.flexray = fibex::assume_local(ecu, bus.flexray, key_slot(frames, node).value(), assumed);
+    const auto common = request.key_slots.find(node);
+    const int own_slot = common != request.key_slots.end() ? common->second : key_slot(frames, node).value();
+    added.flexray = fibex::assume_local(ecu, bus.flexray, own_slot, assumed);
     added.microtick_ps = added.flexray->pdMicrotick_ps;
   }
   for (const PackedFrame& frame : frames)

@@ -5,6 +5,7 @@
 // (schedules/exchange/fibex/assumptions.h). The first three nodes start the cluster up and synchronise it.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace ttf::schedules::synthesis::packing {
 struct BusRequest {
   std::string name, file;  // the file is for messages
   Duration cycle;
+  int slots = 0;                      // static slots, at least those with frames
+  std::map<int, int> key_slots = {};  // by node; without an entry, the node's lowest one
 };
 
 // Returns the bus of these frames, in their order. Each of their nodes needs a key slot (frames.h). All slots are on

@@ -21,9 +21,8 @@ struct Packed {
   Places places;  // for all signals of the instance
 };
 
-// Places the signals of `order` into the bins of `packed` and into new ones behind them. The bins of one call may be
-// used by all nodes of its signals, so a call has one node's signals unless slots are shared. Each signal must have a
-// window and fit a frame.
+// Places the signals of `order` into the bins of `packed` and into new ones behind them. Each signal must have a window
+// and fit a frame.
 void first_fit(const Instance& instance, const Order& order, Fit fit, Packed& packed);
 
 // Begins with places that stand. They must not overlap (check.h).

@@ -57,28 +57,68 @@ std::vector<PackedFrame> frames_of(const Instance& instance, const Assignment& a
   return frames;
 }
 
-std::optional<int> key_slot(const std::vector<PackedFrame>& frames, int node) {
+namespace {
+
+bool sends(const std::vector<PackedFrame>& frames, int node) {
+  return std::any_of(frames.begin(), frames.end(), [&](const PackedFrame& frame) { return frame.node == node; });
+}
+
+// Returns the slots that have the same frame of the node in every cycle.
+std::set<int> whole_slots(const std::vector<PackedFrame>& frames, int node) {
+  std::set<int> slots;
   for (const PackedFrame& frame : frames)
-    if (frame.node == node && frame.repetition == 1) return frame.number.slot;
-  return std::nullopt;
+    if (frame.node == node && frame.repetition == 1) slots.insert(frame.number.slot);
+  return slots;
+}
+
+// Returns the lowest slot that is a whole one in each vehicle of the node.
+std::optional<int> common_key_slot(const std::vector<std::vector<PackedFrame>>& vehicles, int node) {
+  std::optional<std::set<int>> common;
+  for (const std::vector<PackedFrame>& frames : vehicles) {
+    if (!sends(frames, node)) continue;
+    std::set<int> own = whole_slots(frames, node);
+    if (common) std::erase_if(own, [&](int slot) { return !common->contains(slot); });
+    common = std::move(own);
+  }
+  return common && !common->empty() ? std::optional(*common->begin()) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<int> key_slot(const std::vector<PackedFrame>& frames, int node) {
+  const std::set<int> slots = whole_slots(frames, node);
+  return slots.empty() ? std::nullopt : std::optional(*slots.begin());
+}
+
+std::map<int, int> add_key_slots(std::vector<std::vector<PackedFrame>>& vehicles) {
+  std::map<int, model::Channels> nodes;
+  std::set<int> taken;
+  for (const std::vector<PackedFrame>& frames : vehicles)
+    for (const PackedFrame& frame : frames) {
+      nodes.emplace(frame.node, frame.number.channels);
+      taken.insert(frame.number.slot);
+    }
+  std::map<int, int> key_slots;
+  for (const auto& [node, channels] : nodes) {
+    std::optional<int> slot = common_key_slot(vehicles, node);
+    if (!slot) {
+      slot = 1;
+      while (!taken.insert(*slot).second) ++*slot;
+      for (std::vector<PackedFrame>& frames : vehicles)
+        if (sends(frames, node)) frames.push_back({{*slot, channels}, 0, 1, node, {}});
+    }
+    key_slots.emplace(node, *slot);
+  }
+  for (std::vector<PackedFrame>& frames : vehicles)
+    std::stable_sort(frames.begin(), frames.end(),
+                     [](const PackedFrame& a, const PackedFrame& b) { return a.number.slot < b.number.slot; });
+  return key_slots;
 }
 
 std::vector<PackedFrame> with_key_slots(std::vector<PackedFrame> frames) {
-  std::map<int, model::Channels> nodes;
-  std::set<int> taken;
-  for (const PackedFrame& frame : frames) {
-    nodes.emplace(frame.node, frame.number.channels);
-    taken.insert(frame.number.slot);
-  }
-  for (const auto& [node, channels] : nodes) {
-    if (key_slot(frames, node)) continue;
-    int slot = 1;
-    while (!taken.insert(slot).second) ++slot;
-    frames.push_back({{slot, channels}, 0, 1, node, {}});
-  }
-  std::stable_sort(frames.begin(), frames.end(),
-                   [](const PackedFrame& a, const PackedFrame& b) { return a.number.slot < b.number.slot; });
-  return frames;
+  std::vector<std::vector<PackedFrame>> one{std::move(frames)};
+  add_key_slots(one);
+  return std::move(one.front());
 }
 
 }  // namespace ttf::schedules::synthesis::packing

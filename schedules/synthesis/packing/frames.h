@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,10 @@ std::vector<PackedFrame> frames_of(const Instance& instance, const Assignment& a
 // Adds a slot without signals for each node with no slot that has the same frame in every cycle: a controller needs
 // one, its key slot. The new slots take the lowest numbers that are free on all channels.
 std::vector<PackedFrame> with_key_slots(std::vector<PackedFrame> frames);
+
+// The same for the vehicles of several variants, each with its frames: a node has the same key slot in all of them, and
+// a new slot is free in all. Returns the key slots by node.
+std::map<int, int> add_key_slots(std::vector<std::vector<PackedFrame>>& vehicles);
 
 // Returns the slot of a node that has the same frame in every cycle: the lowest one. None without such a slot.
 std::optional<int> key_slot(const std::vector<PackedFrame>& frames, int node);

@@ -51,7 +51,7 @@ Tried best_attempt(const Instance& instance, const Order& added, const Packed& f
     found = &attempt;
     if (static_cast<int>(best.packed.bins.size()) <= bound) return best;
   }
-  Packed packed = improved(instance, found->order, found->fit, fixed, bound, effort, part);
+  Packed packed = improved(instance, found->order, found->fit, fixed, {bound}, effort, part);
   if (packed.bins.size() < best.packed.bins.size()) best = {std::move(packed), best.how + ", improved"};
   return best;
 }

@@ -79,6 +79,36 @@ TEST(PackedFrames, AreTheFewest) {
   EXPECT_EQ(bus.frames[3].repetition, 1);
 }
 
+TEST(PackedFrames, OfVariantsHaveTheSameKeySlots) {
+  // Node 0 has a whole slot in each vehicle, but not the same one. Node 1 has one in the first alone, node 2 in both.
+  const auto frame = [](int slot, int node, int repetition) {
+    return PackedFrame{{slot, model::Channels::kA}, 0, repetition, node, {}};
+  };
+  std::vector<std::vector<PackedFrame>> vehicles{{frame(1, 0, 1), frame(2, 1, 1), frame(4, 2, 1)},
+                                                 {frame(2, 0, 1), frame(3, 1, 2), frame(4, 2, 1)}};
+  const auto key_slots = add_key_slots(vehicles);
+  EXPECT_EQ(key_slots, (std::map<int, int>{{0, 5}, {1, 6}, {2, 4}}));
+  for (const auto& frames : vehicles) {
+    EXPECT_EQ(frames.size(), 5u);
+    EXPECT_EQ(frames[3].number.slot, 5);
+    EXPECT_EQ(frames[3].node, 0);
+  }
+  std::vector<std::vector<PackedFrame>> without{{frame(1, 0, 1)}, {frame(1, 1, 1)}};
+  EXPECT_EQ(add_key_slots(without), (std::map<int, int>{{0, 1}, {1, 1}}));  // the nodes never meet
+}
+
+TEST(PackedBus, OfAVariantHasTheSlotsAndKeySlotsThatItIsToldOf) {
+  const PackedBus bus = packed_bus(like_instance(60, 2));
+  BusRequest request = kRequest;
+  request.slots = 40;
+  const int node = bus.frames.back().node;
+  request.key_slots = {{node, bus.frames.back().number.slot}};
+  const model::Cluster cluster = bus_of(bus.instance, bus.frames, request);
+  EXPECT_EQ(cluster.flexray.gNumberOfStaticSlots, 40);
+  EXPECT_EQ(cluster.nodes[static_cast<std::size_t>(node)].flexray->pKeySlotId, bus.frames.back().number.slot);
+  EXPECT_EQ(all_sentences(check::check(cluster)), "");
+}
+
 TEST(PackedBus, ObeysTheRulesOfACluster) {
   for (const ChannelUse use : {ChannelUse::kOne, ChannelUse::kSame})
     for (const int signals : {40, 400, 4000}) {

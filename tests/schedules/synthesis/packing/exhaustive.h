@@ -5,7 +5,8 @@
 
 namespace ttf::schedules::synthesis::packing {
 
-// Returns the fewest bins for the signals, at most 8 cycles of at most 8 bits; all bins have one node, or shared slots.
+// Returns the fewest bins for the signals, at most 8 cycles of at most 8 bits. In each variant a bin has one owner
+// (each cycle of it, where slots are shared). A signal has one place in all its variants.
 int fewest_bins(const Instance& instance);
 
 }  // namespace ttf::schedules::synthesis::packing

@@ -1,0 +1,101 @@
+#include "schedules/synthesis/packing/variants/candidates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "schedules/synthesis/packing/orders.h"
+
+namespace ttf::schedules::synthesis::packing::variants {
+namespace {
+
+struct Attempt {
+  Order order;
+  Fit fit = Fit::kLowestCycle;
+  std::string how;
+};
+
+Order widest_first(const Instance& instance, Order order) {
+  const auto width = [&](std::size_t signal) {
+    return std::popcount(instance.signals[signal].variants & instance.all_variants());
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return width(a) > width(b); });
+  return order;
+}
+
+std::vector<Attempt> attempts(const Instance& instance, const Order& signals) {
+  std::vector<Attempt> all;
+  for (const bool by_node : {false, true}) {
+    if (by_node && !instance.shared_slots) continue;
+    for (const bool widest : {true, false})
+      for (const OrderRule& rule : order_rules())
+        for (const Fit fit : {Fit::kLowestCycle, Fit::kLowestBit}) {
+          Order order = ordered(instance, signals, rule, by_node);
+          if (widest) order = widest_first(instance, std::move(order));
+          all.push_back({std::move(order), fit,
+                         fmt::format("{}{}{}, by lowest {}", widest ? "variants, " : "", by_node ? "node, " : "",
+                                     rule.name, fit == Fit::kLowestBit ? "bit" : "cycle")});
+        }
+  }
+  return all;
+}
+
+bool no_more(const std::vector<int>& bins, const std::vector<int>& than) {
+  return std::equal(bins.begin(), bins.end(), than.begin(), std::less_equal<>());
+}
+
+// The variants of each bin, in no order that matters.
+std::multiset<VariantSet> bin_variants(const Candidate& candidate) {
+  std::multiset<VariantSet> sets;
+  for (const Bin& bin : candidate.packed.bins) sets.insert(bin.used_variants());
+  return sets;
+}
+
+// Keeps the candidate if no other has fewer bins in some variant and as few in all, nor bins of the same variants.
+// Removes those that are worse in the same way.
+void keep(Candidate candidate, std::vector<Candidate>& kept) {
+  const auto worse = [](const Candidate& a, const Candidate& b) { return a.bins != b.bins && no_more(b.bins, a.bins); };
+  for (const Candidate& other : kept)
+    if (worse(candidate, other) || bin_variants(candidate) == bin_variants(other)) return;
+  std::erase_if(kept, [&](const Candidate& other) { return worse(other, candidate); });
+  kept.push_back(std::move(candidate));
+}
+
+std::pair<int, std::size_t> cost(const Candidate& candidate) {
+  return {std::accumulate(candidate.bins.begin(), candidate.bins.end(), 0), candidate.packed.bins.size()};
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates(const Instance& instance, const Order& signals, const Packed& fixed,
+                                  const std::vector<int>& bounds, const Effort& effort, int part) {
+  std::vector<Candidate> kept;
+  const std::vector<Attempt> all = attempts(instance, signals);
+  const Attempt* best = nullptr;
+  std::pair<int, std::size_t> least;
+  for (const Attempt& attempt : all) {
+    Candidate candidate{fixed, {}, attempt.how};
+    first_fit(instance, attempt.order, attempt.fit, candidate.packed);
+    candidate.bins = bins_by_variant(instance, candidate.packed.bins);
+    if (const auto own = cost(candidate); best == nullptr || own < least) {
+      best = &attempt;
+      least = own;
+    }
+    keep(std::move(candidate), kept);
+  }
+  const auto ideal = [&](const Candidate& candidate) { return no_more(candidate.bins, bounds); };
+  if (std::none_of(kept.begin(), kept.end(), ideal)) {
+    Candidate candidate{improved(instance, best->order, best->fit, fixed, bounds, effort, part), {}, {}};
+    candidate.bins = bins_by_variant(instance, candidate.packed.bins);
+    candidate.how = best->how + ", improved";
+    keep(std::move(candidate), kept);
+  }
+  std::stable_sort(kept.begin(), kept.end(), [](const Candidate& a, const Candidate& b) { return cost(a) < cost(b); });
+  return kept;
+}
+
+}  // namespace ttf::schedules::synthesis::packing::variants

@@ -1,0 +1,21 @@
+// Draws signals of several variants: those of like_instance.h, of which some are in all variants and the others in a
+// drawn set of them.
+#pragma once
+
+#include "tests/schedules/synthesis/packing/like_instance.h"
+
+namespace ttf::schedules::synthesis::packing {
+
+// `common` is the percentage of signals that all variants have.
+inline Instance like_variants(Instance instance, int variants, std::uint64_t seed, int common = 50) {
+  RandomStream random({seed, 3, Purpose::kTest});
+  for (int variant = 0; variant < variants; ++variant) instance.variants.push_back("v" + std::to_string(variant));
+  for (Signal& signal : instance.signals) {
+    signal.variants = instance.all_variants();
+    if (random.integer(1, 100) > common)
+      signal.variants = static_cast<VariantSet>(random.integer(1, static_cast<std::int64_t>(instance.all_variants())));
+  }
+  return instance;
+}
+
+}  // namespace ttf::schedules::synthesis::packing
