@@ -39,7 +39,8 @@ void add_synthesize(CLI::App& schedule, Action& action) {
       "          ttfusion schedule synthesize schedules/plans/paper.yaml --binding --trade-off out/trade_off.svg\n"
       "          ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o packing.csv\n"
       "          ttfusion schedule synthesize --signals examples/packing/grown_signals.csv --fixed packing.csv "
-      "--payload 8byte -o grown.csv");
+      "--payload 8byte -o grown.csv\n"
+      "          ttfusion schedule synthesize --signals examples/packing/variants.csv --payload 8byte --fibex bus.xml");
   CLI::Option* plan =
       command->add_option("plan", options->plan, "Plan (docs/synthesis.md), or a shipped one's name")->check(named());
   packing::add_packing_options(*command, options->packing);

@@ -52,6 +52,25 @@ expect 1 'need 6 static slots with numbers up to 20: slots must be 1..8, and no 
 "$program" "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8 2>/dev/null | grep -q 'given are free' &&
   fail "slots are free though they do not suffice"
 
+# Variants of a vehicle share one schedule. A further variant moves nothing.
+variants=$source/examples/packing/variants.csv
+expect 0 '^6 static slots: proven to be the fewest' "${packed[@]}" --signals "$variants" -o "$work/variants.csv"
+says '^as signals of one vehicle, all need 9 slots .*: the variants save 3$' '^sport +52 +3\.162 +6 +6 ' '^base +36 '
+sed 's/^taxi_sign.*$/&\nflag,cab,5,,,30,parade\nanthem,horn,40,,,60,parade/' "$variants" >"$work/parade.csv"
+expect 0 'in 4 variants in frames' "${packed[@]}" --signals "$work/parade.csv" --fixed "$work/variants.csv" -o "$work/parade_packed.csv"
+says '^63 signals stand at their places, 2 are new$'
+grep -v '^flag\|^anthem' "$work/parade_packed.csv" | cmp -s - "$work/variants.csv" || fail "a variant's signals move others"
+expect 0 'bus_sport.xml: 39 frames with signals' "${packed[@]}" --signals "$variants" --fibex "$work/bus.xml"
+for variant in sport estate base; do
+  expect 0 '^variants: consistent$' schedule check "$work/bus_$variant.xml"
+  expect 0 '^variants: cycle of 5 ms, 5000 macroticks: static 13 x' schedule show "$work/bus_$variant.xml"
+done
+"$program" "${packed[@]}" --signals "$variants" --json | python3 -c '
+import json, sys
+found = json.load(sys.stdin)
+assert [one["slots"] for one in found["variants"]] == [6, 6, 5], found
+assert (found["slots_as_one_vehicle"], found["slots"]) == (9, 6), found' || fail "variants are no JSON"
+
 # Signals without a place are named, and the others are packed.
 expect 1 'signals.csv:17: signal tyre_pressure has no place: its 32 bits must fit a frame of 16 bits$' \
   schedule synthesize --signals "$signals" --payload 16bit -o "$work/narrow.csv"
@@ -80,6 +99,10 @@ mistake '--fibex = .*: must be another file than that of --out' --signals "$sign
 sed 's/^rain,\(.*\),[0-9]*,\([0-9]*\),\([0-9]*\),A$/rain,\1,0,\2,\3,A/' "$work/packing.csv" >"$work/zero.csv"
 mistake 'zero.csv: slot = 0: must be 1 or more with --fibex' --signals "$signals" --payload 8byte \
   --fixed "$work/zero.csv" --fibex "$work/bus.xml"
+printf 'signal,node,period_ms,bits,variants\na,a,5,8,base|\n' >"$work/half.csv"
+mistake 'half.csv:2: variants = base|: must be names as in base|sport' --signals "$work/half.csv"
+mistake '--fibex = .*bus_sport.xml: must be another file' --signals "$variants" --payload 8byte \
+  -o "$work/bus_sport.xml" --fibex "$work/bus.xml"
 mistake '--channels' --signals "$signals" --channels two
 mistake '--fixed' --fixed "$work/packing.csv"
 mistake '--out' --signals "$signals" -o "$signals"

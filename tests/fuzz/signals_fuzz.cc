@@ -1,6 +1,6 @@
 // Any text as signals to pack, and as places that stand. Laws: each mistake is a finding with the file's name. Accepted
 // signals have a place unless they are named as impossible, the packing passes the checker and is not below its bound,
-// and its file is read again as the same packing. Places that stand do not move, and a bus of the packing has each
+// and its file is read again as the same packing. Places that stand do not move, and the bus of each variant has each
 // signal in its cycles.
 #include <algorithm>
 #include <string>
@@ -9,6 +9,9 @@
 #include "core/check.h"
 #include "schedules/synthesis/packing/frames.h"
 #include "schedules/synthesis/packing/packer.h"
+#include "schedules/synthesis/packing/variants/check.h"
+#include "schedules/synthesis/packing/variants/packer.h"
+#include "schedules/synthesis/packing/variants/projection.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
@@ -25,12 +28,12 @@ std::int64_t placed(const Places& places) {
   return std::count_if(places.begin(), places.end(), [](const auto& place) { return place.has_value(); });
 }
 
-void check_frames(const SignalFile& file, const Assignment& assignment) {
+void check_frames(const Instance& instance, const Assignment& assignment) {
   std::int64_t sent = 0, expected = 0;
-  for (const PackedFrame& frame : frames_of(file.instance, assignment))
-    sent += static_cast<std::int64_t>(frame.signals.size()) * (file.shape.cycles / frame.repetition);
+  for (const PackedFrame& frame : frames_of(instance, assignment))
+    sent += static_cast<std::int64_t>(frame.signals.size()) * (instance.cycles / frame.repetition);
   for (std::size_t i = 0; i < assignment.size(); ++i)
-    if (assignment[i]) expected += file.shape.cycles / file.instance.signals[i].repetition;
+    if (assignment[i]) expected += instance.cycles / instance.signals[i].repetition;
   TTF_CHECK(sent == expected, "{} signals in frames, not {}", sent, expected);
 }
 
@@ -39,7 +42,9 @@ void check_packing(const std::string& text, const TableShape& shape, ChannelUse 
   if (!fuzz::accepted(kFile, [&] { file = cli::schedule::packing::parse_signals(text, kFile, shape); })) return;
   StandingPlaces standing;
   if (!fuzz::accepted(kFile, [&] { standing = parse_standing(text, kFile, file, use); })) standing = {};
-  const Solution solution = pack(file.instance, standing.places, {3, 1});
+  const Solution solution = file.instance.variants.empty()
+                                ? pack(file.instance, standing.places, {3, 1})
+                                : variants::pack_variants(file.instance, standing.places, {3, 1});
   const auto impossible = static_cast<std::int64_t>(file.impossible.size());
   TTF_CHECK(placed(solution.places) + impossible == static_cast<std::int64_t>(file.times.size()), "{} have a place",
             placed(solution.places));
@@ -48,10 +53,13 @@ void check_packing(const std::string& text, const TableShape& shape, ChannelUse 
     TTF_CHECK(!standing.places[i] || standing.places[i] == solution.places[i], "signal {} moved", i);
   const auto numbers = slot_numbers(standing.numbers, solution.bins, 1, use);
   const Assignment assignment = assigned(solution.places, numbers);
-  for (const Violation& violation : violations(file.instance, assignment))
+  for (const Violation& violation : variants::variant_violations(file.instance, assignment))
     TTF_CHECK(std::any_of(numbers.begin(), numbers.end(), [](const auto& one) { return one.slot > kLastStaticSlot; }),
               "signal {} {}", violation.signal, violation.text);
-  check_frames(file, assignment);
+  for (int variant = 0; variant < file.instance.variant_count(); ++variant) {
+    const variants::Projection vehicle = variants::projection(file.instance, variant);
+    check_frames(vehicle.instance, vehicle.of(assignment));
+  }
   const std::string once = packing_csv(file, assignment);
   const SignalFile again = cli::schedule::packing::parse_signals(once, kFile, shape);
   TTF_CHECK(packing_csv(again, assignment) == once, "a packing changes when written again: {}", once);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/schedule/packing/variant_account.h"
 #include "core/decimal.h"
 
 namespace ttf::cli::schedule::packing {
@@ -53,8 +54,9 @@ std::string verdict_text(const Account& account) {
 std::string room_text(const Account& account) {
   std::size_t width = 4;
   for (const std::string& node : account.file.instance.nodes) width = std::max(width, node.size());
-  std::string text = fmt::format("room for further signals of {} bits in these slots, all of one period [ms]:\n{:<{}}",
-                                 account.room_bits, "node", width);
+  std::string text =
+      fmt::format("room for further signals of {} bits in these slots, all of one period [ms]{}:\n{:<{}}",
+                  account.room_bits, account.one_vehicle != nullptr ? " and in all variants" : "", "node", width);
   for (int times = 1; times <= account.file.shape.cycles; times *= 2)
     text += fmt::format("  {:>7}", milliseconds_text(account.file.shape.cycle * times));
   text += '\n';
@@ -64,6 +66,10 @@ std::string room_text(const Account& account) {
     text += '\n';
   }
   return text;
+}
+
+std::string variants_words(std::size_t variants) {
+  return variants == 0 ? "" : fmt::format(" in {} variant{}", variants, variants == 1 ? "" : "s");
 }
 
 nlohmann::ordered_json parts_json(const Account& account) {
@@ -120,17 +126,21 @@ std::string no_packing(const Account& account) {
 
 std::string account_text(const Account& account) {
   const TableShape& shape = account.file.shape;
-  std::string text =
-      fmt::format("{} signals of {} {} in frames of {} bits, {} {} of {} ms{}\n", account.file.instance.signals.size(),
-                  account.file.instance.nodes.size(), account.file.instance.nodes.size() == 1 ? "node" : "nodes",
-                  shape.payload_bits, shape.cycles, shape.cycles == 1 ? "cycle" : "cycles",
-                  milliseconds_text(shape.cycle), shape.shared_slots ? ", slots shared among nodes" : "");
+  std::string text = fmt::format("{} signals of {} {}{} in frames of {} bits, {} {} of {} ms{}\n",
+                                 account.file.instance.signals.size(), account.file.instance.nodes.size(),
+                                 account.file.instance.nodes.size() == 1 ? "node" : "nodes",
+                                 variants_words(account.file.instance.variants.size()), shape.payload_bits,
+                                 shape.cycles, shape.cycles == 1 ? "cycle" : "cycles", milliseconds_text(shape.cycle),
+                                 shape.shared_slots ? ", slots shared among nodes" : "");
   if (account.standing > 0)
     text += fmt::format("{} signals stand at their places, {} are new\n", account.standing,
                         std::count_if(account.solution.places.begin(), account.solution.places.end(),
                                       [](const auto& place) { return place.has_value(); }) -
                             account.standing);
-  text += parts_text(account) + verdict_text(account);
+  if (account.one_vehicle != nullptr)
+    text += variants_table(account) + verdict_text(account) + saving_text(account);
+  else
+    text += parts_text(account) + verdict_text(account);
   if (account.slots && account.suffices())
     text += fmt::format("{} of the {} static slots given are free\n", account.free_slots(), *account.slots);
   return text + room_text(account);
@@ -142,9 +152,14 @@ std::string account_json(const Account& account) {
                               {"slots", account.slots_needed()},
                               {"least_slots", account.least_slots()},
                               {"proven", account.slots_needed() == account.least_slots()},
-                              {"without_place", nlohmann::ordered_json::array()},
-                              {"parts", parts_json(account)},
-                              {"room", nlohmann::ordered_json::array()}};
+                              {"without_place", nlohmann::ordered_json::array()}};
+  if (account.one_vehicle != nullptr) {
+    json["variants"] = variants_json(account);
+    json["slots_as_one_vehicle"] = slots_as_one_vehicle(account);
+  } else {
+    json["parts"] = parts_json(account);
+  }
+  json["room"] = nlohmann::ordered_json::array();
   for (const Finding& finding : account.file.impossible)
     json["without_place"].push_back({{"signal", finding.value}, {"line", finding.line}, {"why", finding.expected}});
   for (const table::Room& room : account.rooms)

@@ -16,6 +16,8 @@ struct Account {
   const schedules::synthesis::packing::Solution& solution;
   const std::vector<schedules::synthesis::packing::SlotNumber>& numbers;
   const std::vector<schedules::synthesis::packing::Room>& rooms;
+  // The packing of all signals as those of one vehicle, if there are variants.
+  const schedules::synthesis::packing::Solution* one_vehicle = nullptr;
   schedules::synthesis::packing::ChannelUse use;
   int standing = 0;  // signals that kept their place
   int room_bits = 8;

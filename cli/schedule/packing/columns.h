@@ -21,6 +21,7 @@ enum Column : std::size_t {
   kRelease,
   kDeadline,
   kBits,
+  kVariants,
   kSlot,
   kFirstCycle,
   kBitOffset,
@@ -28,7 +29,8 @@ enum Column : std::size_t {
   kColumns
 };
 inline constexpr std::array<std::string_view, kColumns> kColumnNames{
-    "signal", "node", "period_ms", "release_ms", "deadline_ms", "bits", "slot", "first_cycle", "bit_offset", "channel"};
+    "signal",   "node", "period_ms",   "release_ms", "deadline_ms", "bits",
+    "variants", "slot", "first_cycle", "bit_offset", "channel"};
 
 // One line after the other, with its fields by column.
 class Rows {

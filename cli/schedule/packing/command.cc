@@ -15,6 +15,9 @@
 #include "core/check.h"
 #include "core/decimal.h"
 #include "core/errors.h"
+#include "schedules/synthesis/packing/variants/check.h"
+#include "schedules/synthesis/packing/variants/packer.h"
+#include "schedules/synthesis/packing/variants/projection.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
@@ -53,19 +56,26 @@ table::ChannelUse use_of(const PackingOptions& options) {
 }
 
 void check_outputs(const PackingOptions& options, const std::string& out) {
-  for (const auto& [option, path] : {std::pair{"--out", out}, {"--fibex", options.fibex}})
-    for (const std::string& input : {options.signals, options.fixed})
-      if (!path.empty() && !input.empty()) refuse_overwriting(input, path, option);
+  for (const std::string& input : {options.signals, options.fixed})
+    if (!out.empty() && !input.empty()) refuse_overwriting(input, out, "--out");
   if (options.fibex.empty()) return;
-  const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
-  if (normal(out) == normal(options.fibex))
-    refuse_option("--fibex", options.fibex, "must be another file than that of --out");
   if (options.slot_multiplexing)
     refuse_option("--fibex", options.fibex, "goes without --slot-multiplexing: the file is for FlexRay 2.1");
   if (options.channels == "independent")
     refuse_option("--fibex", options.fibex,
                   "goes with --channels one or same: a key slot has all channels of its node");
   if (options.first_slot == 0) refuse_option("--first-slot", "0", "must be 1 or more with --fibex");
+}
+
+// Variants have a file each, so this is known after the signals.
+void check_bus_paths(const PackingOptions& options, const SignalFile& file, const std::string& out) {
+  if (options.fibex.empty()) return;
+  const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
+  for (const std::string& path : bus_paths(file, options.fibex)) {
+    for (const std::string& input : {options.signals, options.fixed})
+      if (!input.empty()) refuse_overwriting(input, path, "--fibex");
+    if (normal(out) == normal(path)) refuse_option("--fibex", path, "must be another file than that of --out");
+  }
 }
 
 // Returns 1 with a sentence for each signal without a place.
@@ -93,12 +103,16 @@ void check_bus_slots(const std::string& fixed, const std::vector<table::SlotNumb
 
 void add_packing_options(CLI::App& command, PackingOptions& options) {
   const auto group = [&](CLI::Option* option) { return option->group("Signals"); };
-  CLI::Option* signals = group(command.add_option("--signals", options.signals, "Signals to pack into frames: CSV"));
+  CLI::Option* signals = group(command.add_option("--signals", options.signals,
+                                                  "Signals to pack into frames, also of variants of a vehicle: CSV"));
   signals->check(named());
   std::vector<CLI::Option*> others{
       command.add_option("--fixed", options.fixed, "Packing to keep: its signals do not move, new ones are added")
           ->check(named()),
-      command.add_option("--fibex", options.fibex, "Bus description to write: FIBEX 3.1")->check(named()),
+      command
+          .add_option("--fibex", options.fibex,
+                      "Bus description to write: FIBEX 3.1; with variants one for each, as in bus_sport.xml")
+          ->check(named()),
       command.add_option("--cycle", options.cycle, "Communication cycle")->capture_default_str(),
       command.add_option("--payload", options.payload, "Payload of a frame, in bit or byte")->capture_default_str(),
       command.add_option("--cycles", options.cycles, "Cycles after which the schedule repeats: a power of two")
@@ -132,11 +146,17 @@ int pack_signals(const PackingOptions& options, const std::string& out, bool jso
   check_outputs(options, out);
   const table::ChannelUse use = use_of(options);
   const SignalFile file = read_signals(options.signals, shape_of(options));
+  check_bus_paths(options, file, out);
   StandingPlaces standing;
   if (!options.fixed.empty()) standing = read_standing(options.fixed, file, use);
   print_warnings(standing.notes);
   if (!options.fibex.empty()) check_bus_slots(options.fixed, standing.numbers);
-  const table::Solution solution = pack(file.instance, standing.places, {options.steps, options.seed});
+  const table::Effort effort{options.steps, options.seed};
+  const bool has_variants = !file.instance.variants.empty();
+  const table::Solution solution = has_variants ? table::variants::pack_variants(file.instance, standing.places, effort)
+                                                : pack(file.instance, standing.places, effort);
+  std::optional<table::Solution> one_vehicle;
+  if (has_variants) one_vehicle = pack(table::variants::one_vehicle(file.instance), {}, effort);
   const auto numbers = slot_numbers(standing.numbers, solution.bins, options.first_slot, use);
   const table::Assignment assignment = assigned(solution.places, numbers);
   const auto rooms = room_left(file.instance, solution.places, options.room_bits);
@@ -146,6 +166,7 @@ int pack_signals(const PackingOptions& options, const std::string& out, bool jso
                         .solution = solution,
                         .numbers = numbers,
                         .rooms = rooms,
+                        .one_vehicle = one_vehicle ? &*one_vehicle : nullptr,
                         .use = use,
                         .standing = static_cast<int>(kept),
                         .room_bits = options.room_bits,
@@ -157,12 +178,13 @@ int pack_signals(const PackingOptions& options, const std::string& out, bool jso
     fmt::print(stderr, "error: {}: the signals {}\n", options.signals, why);
     return 1;
   }
-  const auto broken = violations(file.instance, assignment);
+  const auto broken = table::variants::variant_violations(file.instance, assignment);
   TTF_CHECK(broken.empty(), "signal {} {}", file.instance.signals[broken.front().signal].name, broken.front().text);
   if (!options.fibex.empty()) {
-    const BusFile bus = bus_file(file, assignment);
-    write_file(options.fibex, bus.text);
-    say_written(options.fibex, bus.content);
+    for (const BusFile& bus : bus_files(file, assignment, options.fibex)) {
+      write_file(bus.path, bus.text);
+      say_written(bus.path, bus.content);
+    }
   }
   if (!out.empty()) {
     write_file(out, packing_csv(file, assignment));

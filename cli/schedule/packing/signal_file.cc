@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cli/schedule/packing/columns.h"
+#include "cli/schedule/packing/variant_names.h"
 #include "core/decimal.h"
 #include "core/file_bytes.h"
 #include "schedules/model/cluster.h"
@@ -62,6 +63,7 @@ class SignalReader {
     if (findings.empty() && file_.times.empty())
       findings.add({file_.name, 0, "signals", "", "are missing: must have a line for each"});
     findings.throw_if_any();
+    file_.instance.variants = names_of_variants_.names();
     return std::move(file_);
   }
 
@@ -76,13 +78,15 @@ class SignalReader {
     const auto period =
         rows.milliseconds(kPeriod, {file_.shape.cycle, file_.shape.cycle * file_.shape.cycles}, std::nullopt, findings);
     const auto bits = rows.whole(kBits, {1, table::kMostPayloadBits}, findings);
+    const table::VariantSet variants = names_of_variants_.read(rows, findings);
     if (!period) return;
     const auto repetition = repetition_of(rows, *period, file_.shape, findings);
     const auto release = rows.milliseconds(kRelease, {Duration{}, *period}, Duration{}, findings);
     const auto deadline = rows.milliseconds(kDeadline, {Duration{}, *period}, *period, findings);
     if (!repetition || !release || !deadline || !bits) return;
-    const table::Signal signal{name, node(rows.text(kNode)), *repetition,
-                               table::window_of(file_.shape.cycle, *release, *deadline, *repetition), *bits};
+    const table::Signal signal{name,        node(rows.text(kNode)),
+                               *repetition, table::window_of(file_.shape.cycle, *release, *deadline, *repetition),
+                               *bits,       variants};
     const SignalTimes times{*period, *release, *deadline, rows.line()};
     if (std::string why = impossibility(signal, times, file_.shape); !why.empty())
       file_.impossible.push_back({file_.name, rows.line(), "signal", name, std::move(why)});
@@ -97,6 +101,7 @@ class SignalReader {
   }
 
   SignalFile file_;
+  VariantNames names_of_variants_;
   std::map<std::string, int> nodes_, line_of_;
 };
 
@@ -111,13 +116,19 @@ SignalFile read_signals(const std::string& path, const TableShape& shape) {
 }
 
 std::string packing_csv(const SignalFile& signals, const table::Assignment& assignment) {
-  std::string text = fmt::format("{}\n", fmt::join(kColumnNames, ","));
+  const std::vector<std::string>& variants = signals.instance.variants;
+  std::string text;
+  for (std::size_t column = 0; column < kColumns; ++column)
+    if (column != kVariants || !variants.empty())
+      text += fmt::format("{}{}", column == 0 ? "" : ",", kColumnNames[column]);
+  text += '\n';
   for (std::size_t i = 0; i < assignment.size(); ++i) {
     const table::Signal& signal = signals.instance.signals[i];
     const SignalTimes& times = signals.times[i];
     text += fmt::format("{},{},{},{},{},{},", csv_field(signal.name),
                         csv_field(signals.instance.nodes[static_cast<std::size_t>(signal.node)]), ms_text(times.period),
                         ms_text(times.release), ms_text(times.deadline), signal.bits);
+    if (!variants.empty()) text += variants_text(signal.variants, variants) + ',';
     if (const auto& place = assignment[i])
       text += fmt::format("{},{},{},{}\n", place->number.slot, place->first_cycle, place->offset,
                           schedules::model::channels_text(place->number.channels));

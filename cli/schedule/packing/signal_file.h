@@ -29,7 +29,7 @@ struct TableShape {
 struct SignalFile {
   std::string name;
   TableShape shape;
-  schedules::synthesis::packing::Instance instance;  // nodes in the order of the file
+  schedules::synthesis::packing::Instance instance;  // nodes and variants in the order of the file
   std::vector<SignalTimes> times;                    // by signal
   std::vector<Finding> impossible;                   // the signals that no packing can have a place for
 };
@@ -51,7 +51,8 @@ StandingPlaces read_standing(const std::string& path, const SignalFile& signals,
 StandingPlaces parse_standing(const std::string& text, const std::string& name, const SignalFile& signals,
                               schedules::synthesis::packing::ChannelUse use);
 
-// Returns the packing as a file that read_signals() and read_standing() take.
+// Returns the packing as a file that read_signals() and read_standing() take. It has a column for variants if the
+// signals have them.
 std::string packing_csv(const SignalFile& signals, const schedules::synthesis::packing::Assignment& assignment);
 
 }  // namespace ttf::cli::schedule::packing

@@ -9,6 +9,7 @@
 #include "core/decimal.h"
 #include "core/file_bytes.h"
 #include "schedules/model/cluster.h"
+#include "schedules/synthesis/packing/variants/check.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
@@ -31,7 +32,7 @@ class StandingReader {
     Findings findings;
     while (rows.next(findings)) take(rows, findings);
     findings.throw_if_any();
-    for (const table::Violation& violation : table::violations(signals_.instance, assignment_))
+    for (const table::Violation& violation : table::variants::variant_violations(signals_.instance, assignment_))
       findings.add({name_, lines_[violation.signal], "signal", signals_.instance.signals[violation.signal].name,
                     violation.text});
     findings.throw_if_any();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "schedules/synthesis/packing/packer.h"
+#include "schedules/synthesis/packing/variants/packer.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
@@ -88,6 +89,60 @@ TEST(SignalFile, EachMistakeIsASentence) {
   EXPECT_THAT(mistakes(heading + "a,n,fast,many\nb,n,5,\n"), SizeIs(3));
   EXPECT_THAT(mistakes("signal,node,period_ms,bits,release_ms\na,n,5,1,6\n"),
               ElementsAre(HasSubstr("release_ms = 6: must be a decimal number 0..5 ms")));
+}
+
+constexpr const char* kWithVariants =
+    "signal,node,period_ms,bits,variants\nspeed,chassis,5,16,\nrain,body,320,4,base|sport\ntaxi,cab,5,8,base\n"
+    "spoiler,wing,5,8,sport\n";
+
+TEST(SignalVariants, AreNumberedAsTheyCome) {
+  const SignalFile file = parse_signals(kWithVariants, "s.csv", {});
+  EXPECT_THAT(file.instance.variants, ElementsAre("base", "sport"));
+  std::vector<schedules::synthesis::packing::VariantSet> sets;
+  for (const auto& signal : file.instance.signals) sets.push_back(signal.variants);
+  EXPECT_THAT(sets, ElementsAre(schedules::synthesis::packing::kAllVariants, 3u, 1u, 2u));
+  EXPECT_THAT(three().instance.variants, IsEmpty());
+}
+
+TEST(SignalVariants, EachMistakeIsASentence) {
+  const std::string heading = "signal,node,period_ms,bits,variants\n";
+  for (const char* field :
+       {"|", "base|", "|base", "base||sport", "sport line", "a/b", "12345678901234567890123456789012345678901"})
+    EXPECT_THAT(mistakes(heading + "a,n,5,1," + field + "\n"),
+                ElementsAre(HasSubstr("must be names as in base|sport, each of 1..40 letters")))
+        << field;
+  EXPECT_THAT(mistakes(heading + "a,n,5,1,base|sport|base\n"),
+              ElementsAre(HasSubstr("s.csv:2: variants = base|sport|base: must name base once")));
+  std::string many = "v0";
+  for (int i = 1; i < 64; ++i) many += "|v" + std::to_string(i);
+  EXPECT_THAT(mistakes(heading + "a,n,5,1," + many + "\n"), IsEmpty());
+  EXPECT_THAT(mistakes(heading + "a,n,5,1," + many + "\nb,n,5,1,v64\n"),
+              ElementsAre(HasSubstr("s.csv:3: variants = v64: must not name another variant: there are at most 64")));
+}
+
+TEST(SignalVariants, OverlapInWhatStandsUnlessAVariantHasBoth) {
+  const SignalFile file = parse_signals(kWithVariants, "s.csv", {});
+  const std::string heading = "signal,node,period_ms,bits,slot,first_cycle,bit_offset\n";
+  const auto stand = [&](const std::string& rows) {
+    return sentences_of([&] { parse_standing(heading + rows, "p.csv", file, ChannelUse::kOne); });
+  };
+  EXPECT_THAT(stand("taxi,cab,5,8,1,0,0\nspoiler,wing,5,8,1,0,0\n"), IsEmpty());
+  EXPECT_THAT(stand("rain,body,320,4,1,0,0\nspoiler,wing,5,8,1,0,8\n"),
+              ElementsAre(HasSubstr("p.csv:3: signal = spoiler: must not be in slot 1, which belongs to node body of "
+                                    "signal rain, in variant sport")));
+}
+
+TEST(SignalVariants, AWrittenScheduleIsReadAgain) {
+  const SignalFile file = parse_signals(kWithVariants, "s.csv", {});
+  const auto solution = schedules::synthesis::packing::variants::pack_variants(file.instance);
+  const auto numbers = slot_numbers({}, solution.bins, 1, ChannelUse::kOne);
+  const std::string text = packing_csv(file, assigned(solution.places, numbers));
+  EXPECT_THAT(text, HasSubstr("bits,variants,slot"));
+  EXPECT_THAT(text, HasSubstr("\nrain,body,320,0,320,4,base|sport,"));
+  EXPECT_THAT(text, HasSubstr("\nspeed,chassis,5,0,5,16,,"));
+  const StandingPlaces standing = parse_standing(text, "p.csv", file, ChannelUse::kOne);
+  EXPECT_EQ(packing_csv(file, assigned(standing.places, standing.numbers)), text);
+  EXPECT_EQ(packing_csv(parse_signals(text, "p.csv", {}), assigned(solution.places, numbers)), text);
 }
 
 TEST(StandingPlaces, AreReadByNameWithBinsWithoutAGap) {
