@@ -47,6 +47,9 @@ constexpr Description kPlan[] = {
     {"plan.gap_error.density", "The spectral density of the acceleration of the vehicle ahead."},
     {"plan.gap_error.delay", "A command acts so long after the chain's end."},
     {"plan.one_channel", "Each of these lists is sent on one channel, which the plan chooses.", "[image]"},
+    {"plan.slot_multiplexing",
+     "A static slot may have several senders, in different cycles, as in FlexRay 3.0; otherwise one in all cycles, as "
+     "in 2.1."},
     {"plan.in_order", "Lists are fused in the order of their measurements; otherwise they may wait for older ones."},
 };
 

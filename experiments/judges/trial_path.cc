@@ -76,7 +76,7 @@ template <int K> class TrialPath {
   struct Event {
     std::int64_t age = 0;
     double variance = 0.0;
-    Square<K> p{};
+    Square<K> p = Square<K>::Zero();
   };
 
   // Events of one round repeat; newer ones come once.

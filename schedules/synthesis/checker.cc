@@ -98,7 +98,7 @@ std::string order_mistake(const Problem& problem, const Order& order) {
 // common divisor of the periods.
 bool overlap(const Activity& a, Ticks offset_a, const Activity& b, Ticks offset_b) {
   if (a.duration == 0 || b.duration == 0) return false;
-  const Ticks common = std::gcd(a.period, b.period);
+  const Ticks common = meeting_time(a, b);
   Ticks behind = (offset_b - offset_a) % common;
   if (behind < 0) behind += common;
   return behind < a.duration || behind + b.duration > common;

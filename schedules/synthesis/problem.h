@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,13 +40,27 @@ struct Activity {
   // The lanes of the resource that it takes, as bits. Activities without a common lane do not disturb each other: lists on the two
   // channels of a static segment.
   std::uint8_t lanes = 3;
+  // A resource may come round in turns of this length, and each place in a turn then has one owner: FlexRay 2.1's static slots, with a
+  // turn for each cycle. It divides the period. 0: places have no owner.
+  Ticks turn = 0;
+  std::size_t owner = 0;
 };
 
 inline constexpr std::uint8_t kLanes[] = {1, 2};
 
-// Whether the two must take turns.
+// Whether the two disturb each other.
 constexpr bool share_a_lane(const Activity& a, const Activity& b) {
   return a.resource && a.resource == b.resource && (a.lanes & b.lanes) != 0;
+}
+
+// Whether their places in a turn must differ.
+constexpr bool own_their_places(const Activity& a, const Activity& b) {
+  return a.turn > 0 && a.turn == b.turn && a.owner != b.owner;
+}
+
+// Returns the time after which the two meet alike.
+constexpr Ticks meeting_time(const Activity& a, const Activity& b) {
+  return own_their_places(a, b) ? a.turn : std::gcd(a.period, b.period);
 }
 
 // At most one activity at a time in each lane: a processor, a static segment, a CAN.

@@ -20,7 +20,7 @@ Ticks next_on_grid(const Grid& grid, Ticks earliest) {
 }
 
 Ticks in_the_way(const Activity& one, Ticks at, const Activity& other, Ticks there, bool earlier) {
-  const Ticks common = std::gcd(one.period, other.period);
+  const Ticks common = meeting_time(one, other);
   const Ticks behind = modulo(at - there, common);  // from the other's beginning to this one's
   const bool meets = behind < other.duration || common - behind < one.duration;
   if (!meets || one.duration == 0 || other.duration == 0) return 0;

@@ -346,6 +346,10 @@ class Engine {
   bool exact() const {
     if (found_.best && best_worst_ == least_worst_) return true;
     if (cut_ || !one_anchor_ || !all_positions_ || dropped_ || !all_orders_meet(reading_, graph_, main_)) return false;
+    // A later place in one cycle may be in the way of others in another cycle.
+    for (std::size_t a = 0; a < problem_.activities.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (main_[a] && main_[b] && own_their_places(problem_.activities[a], problem_.activities[b])) return false;
     const Ticks period = problem_.activities[anchor_].period, most = largest_possible();
     for (const Chain& chain : problem_.chains)
       for (const std::size_t a : chain.activities)

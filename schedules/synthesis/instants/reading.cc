@@ -94,6 +94,11 @@ class Reader {
     }
   }
 
+  void own_slots(Activity& activity, NodeId sender) const {
+    activity.turn = plan_.slot_multiplexing ? 0 : cycle();
+    activity.owner = index_of(sender);
+  }
+
   void add_planned_lists() {
     for (const PlannedList& list : timed_.lists) {
       const model::PduLayout& layout = cluster_.pdu(list.pdu);
@@ -104,6 +109,7 @@ class Reader {
       activity.duration = fragments * g_.gdStaticSlot;
       activity.grid = {cycle(), 0, (left_out::last_slot(cluster_) - fragments) * g_.gdStaticSlot, g_.gdStaticSlot};
       activity.lanes = static_cast<std::uint8_t>(list.channels);
+      own_slots(activity, list.sender);
       if (!list.at.instant) activity.fixed = at(list.base_cycle, (list.slot - 1) * Ticks{g_.gdStaticSlot});
       made_.lists.push_back(add(std::move(activity)));
       if (!slots_of_.contains(list.pdu)) slots_of_[list.pdu] = made_.lists.back();
@@ -129,6 +135,7 @@ class Reader {
       activity.duration = slots * g_.gdStaticSlot;
       activity.fixed = at(frame.base_cycle, (frame.slot - 1) * Ticks{g_.gdStaticSlot});
       activity.lanes = lanes;
+      own_slots(activity, frame.sender);
       const std::size_t made = add(std::move(activity));
       if (frame.pdu != kNoPdu && !slots_of_.contains(frame.pdu)) slots_of_[frame.pdu] = made;
     }

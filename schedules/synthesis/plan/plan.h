@@ -104,6 +104,7 @@ struct Plan {
   std::vector<Goal> objective;                      // the most important first
   std::optional<ErrorDemand> error;
   GapErrorDemand gap_error;
+  bool slot_multiplexing = true;  // a static slot may have several senders, in different cycles (FlexRay 3.0)
   bool in_order = true;  // lists are fused in the order of their measurements, so that none waits for an older one
   TextOrigins origins;   // the files and lines of its text, if it extends another plan
 

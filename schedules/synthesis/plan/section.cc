@@ -193,6 +193,7 @@ void read_section(YamlMap& section, Plan& plan) {
   read_objective(section, plan);
   read_demands(section, plan);
   read_one_channel(section, plan);
+  plan.slot_multiplexing = section.boolean_or("slot_multiplexing", true);
   plan.in_order = section.boolean_or("in_order", true);
   section.finish();
 }

@@ -199,7 +199,7 @@ bool Encoding::add_overlaps(const std::vector<Ticks>& offsets) {
   for (std::size_t a = 0; a < all.size(); ++a)
     for (std::size_t b = a + 1; b < all.size(); ++b) {
       if (!share_a_lane(all[a], all[b]) || all[a].duration == 0 || all[b].duration == 0) continue;
-      const Ticks common = std::gcd(all[a].period, all[b].period);
+      const Ticks common = meeting_time(all[a], all[b]);
       const Ticks behind = solver::modulo(offsets[b] - offsets[a], common);
       if (behind >= all[a].duration && behind <= common - all[b].duration) continue;
       if (!apart_.emplace(a, b).second) continue;

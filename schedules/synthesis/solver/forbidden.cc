@@ -61,7 +61,9 @@ bool Tree::by_resource(std::size_t activity, Ticks offset, bool upwards, Interva
       ++free;
       continue;
     }
-    const Ticks common = model_.common(activity, other), duration = model_.problem.activities[other].duration;
+    const Activity& standing = model_.problem.activities[other];
+    const Ticks common = standing.turn > 0 ? meeting_time(own, standing) : model_.common(activity, other);
+    const Ticks duration = standing.duration;
     Ticks behind = modulo(at - offsets_[other], common);
     if (behind >= duration && behind <= common - own.duration) {
       ++free;

@@ -33,7 +33,7 @@ void Rules::add_resources() {
   for (std::size_t a = 0; a < all.size(); ++a)
     for (std::size_t b = a + 1; b < all.size(); ++b) {
       if (!share_a_lane(all[a], all[b]) || all[a].duration == 0 || all[b].duration == 0) continue;
-      const Ticks common = model.common(a, b);
+      const Ticks common = meeting_time(all[a], all[b]);
       rules.push_back({a + 1, b + 1, common, all[a].duration, common - all[b].duration});
       contradictory |= all[a].duration + all[b].duration > common;
     }

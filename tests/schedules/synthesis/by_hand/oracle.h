@@ -38,6 +38,20 @@ inline bool overlaps(const Problem& problem, const std::vector<Ticks>& offsets) 
   return false;
 }
 
+// Marks the owner of every place in the turns of a resource.
+inline bool disowns(const Problem& problem, const std::vector<Ticks>& offsets) {
+  for (std::size_t a = 0; a < offsets.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      const Activity &one = problem.activities[a], &other = problem.activities[b];
+      if (!one.resource || one.resource != other.resource || (one.lanes & other.lanes) == 0) continue;
+      if (one.turn == 0 || one.turn != other.turn || one.owner == other.owner) continue;
+      for (Ticks tick = offsets[a]; tick < offsets[a] + one.duration; ++tick)
+        for (Ticks taken = offsets[b]; taken < offsets[b] + other.duration; ++taken)
+          if ((tick - taken) % one.turn == 0) return true;
+    }
+  return false;
+}
+
 // Follows the data of every instance forwards: each instance reads the newest that is ready.
 struct Instance {
   Ticks begin, sample;
@@ -113,7 +127,8 @@ inline bool keeps_precedences(const Problem& problem, const std::vector<Ticks>& 
 }
 
 inline bool keeps(const Problem& problem, const std::vector<Ticks>& offsets) {
-  if (!keeps_precedences(problem, offsets, offsets.size()) || overlaps(problem, offsets)) return false;
+  if (!keeps_precedences(problem, offsets, offsets.size()) || overlaps(problem, offsets) || disowns(problem, offsets))
+    return false;
   for (const Chain& chain : problem.chains)
     if (chain.largest_age && age(problem, chain, offsets) > *chain.largest_age) return false;
   for (const Order& order : problem.orders)
@@ -160,7 +175,8 @@ inline bool feasible(const Problem& problem) {
   return place(0);
 }
 
-// A small problem with all that a problem may have. `harmonic`: periods divide each other. One in three has resources of two lanes.
+// A small problem with all that a problem may have. `harmonic`: periods divide each other. One in three has resources of two lanes, and some
+// have places with owners.
 inline Problem drawn(std::uint64_t seed, bool harmonic) {
   RandomStream draws({.seed = seed, .purpose = Purpose::kTest});
   const auto one_of = [&](const std::vector<Ticks>& values) {
@@ -203,6 +219,11 @@ inline Problem drawn(std::uint64_t seed, bool harmonic) {
   RandomStream lanes({.seed = seed, .purpose = Purpose::kTest, .index = 3});
   for (Activity& activity : problem.activities)
     if (seed % 3 == 0) activity.lanes = static_cast<std::uint8_t>(lanes.integer(1, 3));
+  for (Activity& activity : problem.activities)
+    if (seed % 5 < 2 && harmonic) {
+      activity.turn = 3;
+      activity.owner = static_cast<std::size_t>(lanes.integer(0, 1));
+    }
   return problem;
 }
 

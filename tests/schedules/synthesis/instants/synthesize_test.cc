@@ -273,6 +273,26 @@ TEST(SynthesizeChannels, ListsOnOneChannelEachAreSentAtOnce) {
   EXPECT_LE(one.reached[1].value, both.reached[1].value);
 }
 
+// FlexRay 2.1 gives a static slot to one node in all cycles.
+TEST(SynthesizeSlots, MayHaveOneSenderEach) {
+  std::string text = changed(plan_text("paper"), "objective: \\[[^\\]]*\\]", "objective: [slots, worst_age]");
+  text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
+  const auto senders = [](const model::Cluster& cluster) {
+    std::map<int, std::set<NodeId>> found;
+    for (const model::FrameSlot& frame : cluster.frames) found[frame.slot].insert(frame.sender);
+    return std::count_if(found.begin(), found.end(), [](const auto& slot) { return slot.second.size() > 1; });
+  };
+  const Synthesis shared = synthesize(plan::parse_plan(text, "plan.yaml"));
+  const Synthesis owned =
+      synthesize(plan::parse_plan(changed(text, "plan:\n", "plan:\n  slot_multiplexing: false\n"), "plan.yaml"));
+  ASSERT_TRUE(shared.found && owned.found);
+  EXPECT_GT(senders(shared.cluster), 0);
+  EXPECT_EQ(senders(owned.cluster), 0);
+  EXPECT_EQ(shared.reached[0].value, 18.0);  // 5 key slots, and the 13 of the image
+  EXPECT_EQ(owned.reached[0].value, 34.0);   // and 9 and 7 of the lists
+  EXPECT_TRUE(check::check(owned.cluster).empty());
+}
+
 TEST(SynthesizeChannels, NodesMustHearThem) {
   std::string text =
       changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
