@@ -55,17 +55,25 @@ struct ScheduleOptions {
   std::optional<std::string> can_errors;
 };
 
+// Returns null for a time without a bound. A detector does not look at all pictures (schedules/analysis/ages.h), and
+// frames of lower slots may keep a dynamic list waiting.
+nlohmann::ordered_json known_ms(Duration time, bool known) {
+  return known ? nlohmann::ordered_json(in_ms(time)) : nlohmann::ordered_json(nullptr);
+}
+
 // Returns null without frames in the dynamic segment.
 nlohmann::ordered_json dynamic_json(const schedules::model::Cluster& cluster) {
   nlohmann::ordered_json json;
   for (const schedules::analysis::DynamicList& list : schedules::analysis::dynamic_lists(cluster))
-    json["lists"].push_back({{"pdu", list.pdu == kNoPdu ? "" : cluster.pdu(list.pdu).name},
-                             {"sender", cluster.node(list.sender).name},
-                             {"slots", {list.first_slot, list.last_slot}},
-                             {"channels", schedules::model::channels_text(list.channels)},
-                             {"minislots_each", list.minislots_each},
-                             {"turn", {list.earliest_turn, list.latest_turn}},
-                             {"always_in_time", list.always_in_time}});
+    json["lists"].push_back(
+        {{"pdu", list.pdu == kNoPdu ? "" : cluster.pdu(list.pdu).name},
+         {"sender", cluster.node(list.sender).name},
+         {"slots", {list.first_slot, list.last_slot}},
+         {"channels", schedules::model::channels_text(list.channels)},
+         {"minislots_each", list.minislots_each},
+         {"turn", {list.earliest_turn, list.latest_turn}},
+         {"always_in_time", list.always_in_time},
+         {"sent_within_ms", known_ms(list.sent_within.value_or(Duration{}), list.sent_within.has_value())}});
   if (json.is_null()) return json;
   json["minislots"] = cluster.flexray.gNumberOfMinislots;
   for (const schedules::analysis::DynamicLoad& load : schedules::analysis::dynamic_load(cluster))
@@ -109,11 +117,6 @@ nlohmann::ordered_json contributions_json(const std::vector<schedules::analysis:
   for (const schedules::analysis::Contribution& part : parts)
     json.push_back({{"name", part.name}, {"best_ms", in_ms(part.best)}, {"worst_ms", in_ms(part.worst)}});
   return json;
-}
-
-// Returns null for a time without a bound: a detector does not look at all pictures (schedules/analysis/ages.h).
-nlohmann::ordered_json known_ms(Duration time, bool known) {
-  return known ? nlohmann::ordered_json(in_ms(time)) : nlohmann::ordered_json(nullptr);
 }
 
 // Returns the dead time of the scenario's actuator; zero without a scenario.

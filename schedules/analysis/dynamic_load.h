@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/ids.h"
+#include "core/time.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::schedules::analysis {
@@ -29,6 +31,12 @@ struct DynamicList {
   std::int64_t earliest_turn = 0,
                latest_turn = 0;  // minislots: earliest turn of the first slot, latest of the last
   bool always_in_time = true;    // its turn always comes in its cycle; otherwise it may wait for later cycles
+  // The longest time from the end of the task that writes it to the end of its last frame. If its turn may be too late, it
+  // is bounded by theory (schedules/timing/response/flexray_dynamic.h). None: the frames of lower slots can keep it
+  // waiting without end, or theory does not apply. Where it is not known how often a list is written, or it is written
+  // more often than sent, each of its cycles counts.
+  std::optional<Duration> sent_within = Duration{};
+  bool theory_applies = true;  // all repetitions on its channels are powers of two
 };
 
 // Return both channels, and the lists in slot order. The cluster must have passed check().

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "schedules/analysis/ages.h"
+#include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/analysis/slot_groups.h"
 #include "schedules/exchange/text.h"
@@ -159,7 +160,7 @@ TEST(DynamicLoad, IsListedAndDrawn) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("23-24  AB  camera_pre  camera_objects 0-1"), std::string::npos) << text;
-  EXPECT_NE(text.find("12  3-37\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("12              3-37     2.322 ms\n"), std::string::npos) << text;
   const std::string shown = exchange::show_text(cluster);
   EXPECT_NE(shown.find(text), std::string::npos);
   EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos)
@@ -249,7 +250,49 @@ TEST(DynamicLoad, SaysWhatMayHaveToWait) {
   cluster.frames = {frame(11, model::Channels::kA, NodeId{0}, PduId{2}),
                     frame(12, model::Channels::kA, NodeId{1}, PduId{2}),
                     frame(13, model::Channels::kA, NodeId{1}, PduId{0})};
-  EXPECT_NE(dynamic_text(cluster).find("3-25, or in a later cycle"), std::string::npos) << dynamic_text(cluster);
+  EXPECT_NE(dynamic_text(cluster).find("3-25 or later    unbounded\n"), std::string::npos) << dynamic_text(cluster);
+  // Theory has no repetition of five.
+  cluster.frames[0].repetition = 5;
+  EXPECT_NE(dynamic_text(cluster).find("3-25 or later            -\n"), std::string::npos) << dynamic_text(cluster);
+}
+
+// A list comes just too late for the turn of its slot: a cycle later all slots before it are used, too.
+TEST(DynamicLoad, TheWaitOfAListThatIsAlwaysInTimeByHand) {
+  const model::Cluster cluster = check::load_checked_cluster(shipped_path("flexray_demo"));
+  const auto lists = dynamic_lists(cluster);
+  ASSERT_EQ(lists.size(), 2u);
+  for (const DynamicList& list : lists) {
+    const std::int64_t minislots =
+        list.latest_turn - (list.last_slot - cluster.flexray.gNumberOfStaticSlots) + list.minislots_each;
+    const Duration nominal = cluster.cycle() * list.repetition +
+                             Duration{minislots * cluster.flexray.gdMinislot * cluster.flexray.gdMacrotick_ps / 1'000};
+    ASSERT_TRUE(list.sent_within);
+    EXPECT_EQ(*list.sent_within, nominal + Duration{clock_bounds(cluster).drift_ns(nominal.ns)});
+  }
+}
+
+// The slots before it are used in one of eight cycles. So a list that finds them used is sent a cycle later.
+TEST(DynamicLoad, AListThatMayWaitHasABoundWhereOthersAreSeldomWritten) {
+  model::Cluster cluster = dynamic();
+  cluster.frames = {frame(11, model::Channels::kA, NodeId{0}, PduId{2}),
+                    frame(12, model::Channels::kA, NodeId{0}, PduId{1}),
+                    frame(13, model::Channels::kA, NodeId{1}, PduId{0})};
+  cluster.nodes[1].flexray->pLatestTx = 13;
+  const auto writes = [&](std::size_t node, int repetition, std::vector<PduId> pdus) {
+    model::Task& task = cluster.nodes[node].tasks.emplace_back();
+    task.activation.kind = model::ActivationKind::kTime;
+    task.activation.at.repetition = repetition;
+    task.worst_case = task.best_case = Duration::microseconds(100);
+    for (const PduId pdu : pdus) task.writes.push_back({"", pdu, model::kFlexRay, 0});
+  };
+  writes(0, 8, {PduId{2}, PduId{1}});
+  EXPECT_FALSE(dynamic_lists(cluster)[2].sent_within) << "nobody says how often it is written";
+  writes(1, 4, {PduId{0}});
+  const auto lists = dynamic_lists(cluster);
+  ASSERT_FALSE(lists[2].always_in_time);
+  ASSERT_TRUE(lists[2].sent_within);
+  EXPECT_GT(*lists[2].sent_within, cluster.cycle() * 2);
+  EXPECT_LT(*lists[2].sent_within, cluster.cycle() * 3);
 }
 
 }  // namespace
