@@ -172,7 +172,7 @@ class Trader {
     }
   }
 
-  static constexpr std::int64_t kSearchesInAStep = 4;  // by candidate
+  static constexpr std::int64_t kSearchesInAStep = 4;  // for each candidate
   static constexpr std::int64_t kLeastShare = 1'000;
 
   const Plan& plan_;
