@@ -23,6 +23,9 @@ says '^  least of 25 +0\.0099[0-9]+ m2$'
 expect 0 '^paper_least_error: consistent$' schedule check "$work/least.yaml"
 sed 's/objective: .*/objective: [gap_error]/' "$plans/paper.yaml" >"$work/gap.yaml"
 expect 0 '^gap_error +0\.1884 m2 +0\.1884 m2  best, if the error grows with the age$' schedule synthesize "$work/gap.yaml"
+# With so long a delay of commands no loop is stable.
+sed 's/objective: .*/objective: [gap_error]\n  gap_error: {delay: 1.5 s}/' "$plans/paper.yaml" >"$work/unstable.yaml"
+expect 0 '^gap_error +unbounded +unbounded  the loop was stable at no instants$' schedule synthesize "$work/unstable.yaml"
 sed 's/objective: .*/objective: [error]/' "$plans/paper.yaml" >"$work/no_error.yaml"
 expect 2 'plan.error: must have process_noise and sigma' schedule synthesize "$work/no_error.yaml"
 # The plans give the shipped clusters, which experiments drive.
@@ -98,7 +101,7 @@ cmp "$work/trade_off.svg" "$source/docs/pictures/trade_off.svg" ||
 expect 0 'wrote' schedule synthesize "$plans/paper_least_error.yaml" --trade-off "$work/trade_off.csv"
 grep -q '^front,8.835,4,4,54.916,54.916,80,proven,' "$work/trade_off.csv" || fail "the front has another least age"
 [[ $(grep -c '^candidate,.*,1\.0[0-9]*$' "$work/trade_off.csv") -eq 94 ]] || fail "the lengths with a schedule have no error"
-expect 2 'must end in|ends in|\.svg' schedule synthesize "$plans/paper.yaml" --trade-off "$work/trade_off.txt"
+expect 2 '^error: command line: --trade-off = .*: must end in \.svg, \.png, \.pdf or \.csv$' schedule synthesize "$plans/paper.yaml" --trade-off "$work/trade_off.txt"
 # A round of sixty cycles, and a free payload.
 expect 0 '^paper_sixty_cycles: a cycle of 6.83 ms, chosen' schedule synthesize "$plans/paper_sixty_cycles.yaml" -o "$work/sixty.yaml"
 expect 0 '^paper_sixty_cycles: consistent$' schedule check "$work/sixty.yaml"

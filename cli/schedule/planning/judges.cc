@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace ttf::cli::schedule::planning {
 
 using schedules::synthesis::instants::Reached;
@@ -18,7 +20,10 @@ bool is_judged(Goal goal) { return goal == Goal::kError || goal == Goal::kGapErr
 namespace {
 
 // In twelve columns, with a space before it.
-std::string square_metres(double value) { return fmt::format("{:.{}g} m2", value, value < 1e-3 ? 3 : 4); }
+std::string square_metres(double value) {
+  if (!std::isfinite(value)) return "unbounded";
+  return fmt::format("{:.{}g} m2", value, value < 1e-3 ? 3 : 4);
+}
 
 }  // namespace
 
@@ -27,6 +32,7 @@ std::string judged_text(const Reached& one, double value) {
 }
 
 std::string judged_proof_text(const Reached& one) {
+  if (!std::isfinite(one.value)) return "the loop was stable at no instants";
   if (one.bound <= 0.0) return "no bound is known";
   if (one.proven) return fmt::format("proven best: {}", one.way);
   if (one.value == one.bound) return fmt::format("best, if {}", one.supposes);

@@ -52,7 +52,9 @@ std::string csv(const Plan& plan, const trade::TradeOff& made) {
 }  // namespace
 
 void check_trade_off_path(const std::string& path) {
-  if (!path.ends_with(".csv")) report::drawing::check_picture_path(path);
+  for (const char* known : {".svg", ".png", ".pdf", ".csv"})
+    if (path.ends_with(known)) return;
+  throw InputError({"command line", 0, "--trade-off", path, "must end in .svg, .png, .pdf or .csv"});
 }
 
 void write_trade_off(const Plan& plan, const instants::Synthesis& made, const PlanJudges& judges,
