@@ -52,6 +52,30 @@ model::Cluster with_instants(const Plan& plan, const Timed& timed, const Reading
   return cluster;
 }
 
+std::vector<Ticks> offsets_of(const Read& read, const model::Cluster& cluster) {
+  const model::GlobalParameters& g = cluster.flexray;
+  std::vector<Ticks> offsets;
+  for (const Activity& activity : read.reading.problem.activities) offsets.push_back(activity.fixed.value_or(0));
+  const auto at = [&](const model::CycleInstant& instant) {
+    return instant.base_cycle * Ticks{g.gMacroPerCycle} + instant.offset.value;
+  };
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (read.reading.sensors[s]) offsets[*read.reading.sensors[s]] = at(cluster.sensors[s].at);
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    for (std::size_t t = 0; t < cluster.nodes[n].tasks.size(); ++t)
+      if (read.reading.tasks[n][t]) offsets[*read.reading.tasks[n][t]] = at(cluster.nodes[n].tasks[t].activation.at);
+  for (std::size_t l = 0; l < read.timed.lists.size(); ++l) {
+    if (read.reading.problem.activities[read.reading.lists[l]].fixed) continue;
+    const auto frame = std::find_if(cluster.frames.begin(), cluster.frames.end(), [&](const model::FrameSlot& one) {
+      return one.pdu == read.timed.lists[l].pdu && one.fragment == 0;
+    });
+    TTF_CHECK(frame != cluster.frames.end(), "a planned list without a slot");
+    offsets[read.reading.lists[l]] =
+        frame->base_cycle * Ticks{g.gMacroPerCycle} + (frame->slot - 1) * Ticks{g.gdStaticSlot};
+  }
+  return offsets;
+}
+
 AgeBounds age_bounds(const model::Cluster& cluster, const PlannedChain& chain) {
   const TaskId to{chain.node, chain.task};
   if (fuses(cluster, to)) {

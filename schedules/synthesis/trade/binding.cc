@@ -14,6 +14,7 @@
 #include "schedules/model/round.h"
 #include "schedules/synthesis/instants/placement.h"
 #include "schedules/synthesis/instants/reading.h"
+#include "schedules/synthesis/instants/written.h"
 #include "schedules/synthesis/plan/ways.h"
 #include "schedules/synthesis/trade/rests.h"
 
@@ -43,7 +44,7 @@ class BindingFinder {
  public:
   BindingFinder(const Plan& plan, const Synthesis& made, Read read)
       : plan_(plan), made_(made), read_(std::move(read)), cluster_(made.cluster),
-        clocks_(analysis::clock_bounds(cluster_)), offsets_(offsets_in(read_, cluster_)),
+        clocks_(analysis::clock_bounds(cluster_)), offsets_(instants::offsets_of(read_, cluster_)),
         base_(place(read_.reading, {})) {}
 
   BindingWay way(std::size_t c) {

@@ -114,27 +114,6 @@ void note_places(const Reading& reading, const std::vector<Ticks>& offsets, std:
 
 }  // namespace
 
-std::vector<Ticks> offsets_in(const Read& read, const model::Cluster& cluster) {
-  const Reading& reading = read.reading;
-  std::vector<Ticks> offsets;
-  for (const Activity& activity : reading.problem.activities) offsets.push_back(activity.fixed.value_or(0));
-  const auto of = [&](const model::CycleInstant& at) {
-    return at.base_cycle * Ticks{cluster.flexray.gMacroPerCycle} + at.offset.value;
-  };
-  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
-    if (reading.sensors[s]) offsets[*reading.sensors[s]] = of(cluster.sensors[s].at);
-  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
-    for (std::size_t t = 0; t < cluster.nodes[n].tasks.size(); ++t)
-      if (reading.tasks[n][t]) offsets[*reading.tasks[n][t]] = of(cluster.nodes[n].tasks[t].activation.at);
-  for (std::size_t l = 0; l < reading.lists.size(); ++l)
-    for (const model::FrameSlot& frame : cluster.frames)
-      if (frame.pdu == read.timed.lists[l].pdu && frame.fragment == 0 &&
-          !reading.problem.activities[reading.lists[l]].fixed)
-        offsets[reading.lists[l]] = of(
-            {frame.base_cycle, frame.repetition, Macroticks{(frame.slot - 1) * Ticks{cluster.flexray.gdStaticSlot}}});
-  return offsets;
-}
-
 std::vector<Ticks> oldest_way(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets) {
   Ticks round = 1;
   for (const std::size_t a : chain.activities) round = std::lcm(round, problem.activities[a].period);

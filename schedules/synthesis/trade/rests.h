@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "schedules/model/cluster.h"
 #include "schedules/synthesis/instants/reading.h"
 
 namespace ttf::schedules::synthesis::trade {
@@ -16,9 +15,6 @@ struct Rest {
   std::string cause;
   Ticks time = 0;
 };
-
-// Returns the offsets by activity of a cluster that was found for this candidate.
-std::vector<Ticks> offsets_in(const Read& read, const model::Cluster& cluster);
 
 // Returns the beginnings along a chain, in one count of ticks, for the measurement that grows oldest.
 std::vector<Ticks> oldest_way(const Problem& problem, const Chain& chain, const std::vector<Ticks>& offsets);

@@ -7,6 +7,7 @@
 #include "schedules/synthesis/instants/ages.h"
 #include "schedules/synthesis/instants/grid.h"
 #include "schedules/synthesis/instants/judging/attainable.h"
+#include "schedules/synthesis/instants/written.h"
 
 namespace ttf::schedules::synthesis::instants::judging {
 namespace {
@@ -102,29 +103,6 @@ std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, 
     found.push_back(std::move(prospect));
   }
   return found;
-}
-
-std::vector<Ticks> offsets_of(const Read& read, const model::Cluster& cluster) {
-  const model::GlobalParameters& g = cluster.flexray;
-  std::vector<Ticks> offsets;
-  for (const Activity& activity : read.reading.problem.activities) offsets.push_back(activity.fixed.value_or(0));
-  const auto at = [&](const model::CycleInstant& instant) {
-    return instant.base_cycle * Ticks{g.gMacroPerCycle} + instant.offset.value;
-  };
-  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
-    if (read.reading.sensors[s]) offsets[*read.reading.sensors[s]] = at(cluster.sensors[s].at);
-  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
-    for (std::size_t t = 0; t < cluster.nodes[n].tasks.size(); ++t)
-      if (read.reading.tasks[n][t]) offsets[*read.reading.tasks[n][t]] = at(cluster.nodes[n].tasks[t].activation.at);
-  for (std::size_t l = 0; l < read.timed.lists.size(); ++l) {
-    const auto frame = std::find_if(cluster.frames.begin(), cluster.frames.end(), [&](const model::FrameSlot& one) {
-      return one.pdu == read.timed.lists[l].pdu && one.fragment == 0;
-    });
-    TTF_CHECK(frame != cluster.frames.end(), "a planned list without a slot");
-    offsets[read.reading.lists[l]] =
-        frame->base_cycle * Ticks{g.gMacroPerCycle} + (frame->slot - 1) * Ticks{g.gdStaticSlot};
-  }
-  return offsets;
 }
 
 std::vector<Meeting> meetings(const plan::Plan& plan, const model::Cluster& cluster) {

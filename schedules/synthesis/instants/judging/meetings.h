@@ -19,7 +19,4 @@ std::vector<Meeting> meetings(const plan::Plan& plan, const Problem& problem, st
 std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, const Limits& limits,
                                 std::int64_t tick_ps);
 
-// Returns the offsets that a cluster has chosen.
-std::vector<Ticks> offsets_of(const Read& read, const model::Cluster& cluster);
-
 }  // namespace ttf::schedules::synthesis::instants::judging

@@ -25,7 +25,6 @@ using judging::Meeting;
 using judging::meetings;
 using judging::Met;
 using judging::moved_measurements;
-using judging::offsets_of;
 using judging::placed_within;
 using judging::Prospect;
 using judging::prospects;
