@@ -106,7 +106,7 @@ std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, 
 }
 
 std::vector<Meeting> meetings(const plan::Plan& plan, const model::Cluster& cluster) {
-  Candidate candidate{cluster.cycle(), {}, 0, {}};
+  Candidate candidate{cluster.cycle(), {}, plan.payload ? 2 * cluster.flexray.gPayloadLengthStatic : 0, {}};
   for (const model::Sensor& sensor : cluster.sensors) candidate.repetitions.push_back(sensor.at.repetition);
   const auto read = read_of(plan, candidate);
   TTF_CHECK(read.has_value(), "a cluster of another plan");

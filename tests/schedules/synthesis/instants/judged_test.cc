@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "schedules/check/checker.h"
+#include "schedules/file/inherit.h"
 #include "schedules/synthesis/instants/judging/meetings.h"
 #include "schedules/synthesis/instants/judging/moves.h"
 #include "schedules/synthesis/instants/placement.h"
@@ -164,6 +165,32 @@ TEST(Meetings, AreThoseOfTheProblem) {
     const Met& one = by_cluster[0].met[i];
     EXPECT_EQ((one.used - one.measured).ns, found.best->ages[one.chain] * 1'000);
   }
+}
+
+// So it is where the payload is free: lists take other slots with each payload.
+TEST(Meetings, AreThoseOfThePayloadThatWasChosen) {
+  std::string text = changed(file::inherited(plan_path("paper_payload")).text, "shortest: 8.5 ms", "shortest: 8.6 ms");
+  text = changed(text, "longest: 9 ms", "longest: 8.6 ms");
+  text = changed(text, "payload: \\{[^}]*\\}", "payload: {shortest: 60, longest: 120, step: 20}");
+  const Plan plan = plan::parse_plan(text, "plan.yaml");
+  int placed = 0;
+  for (const Candidate& candidate : candidates(plan)) {
+    const auto read = read_of(plan, candidate);
+    if (!read) continue;
+    for (Ticks slots = least_slots(*read); slots <= read->timed.cluster.flexray.gNumberOfStaticSlots; slots += 10) {
+      Limits limits;
+      limits.last_slot = slots * read->timed.cluster.flexray.gdStaticSlot;
+      const Search found = place(read->reading, limits, true);
+      if (!found.best) continue;
+      ++placed;
+      const model::Cluster cluster = with_instants(plan, read->timed, read->reading, found.best->solution);
+      const std::vector<Meeting> met = meetings(plan, cluster);
+      ASSERT_EQ(met.size(), 1u);
+      for (const Met& one : met[0].met)
+        EXPECT_EQ((one.used - one.measured).ns, found.best->ages[one.chain] * 1'000) << candidate.payload << " bytes";
+    }
+  }
+  EXPECT_GT(placed, 10);
 }
 
 // Every placement that the search finds has ages that the prospect allows.
