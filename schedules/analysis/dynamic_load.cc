@@ -22,7 +22,7 @@ struct Written {
   std::int64_t period = 0, jitter = 0;  // [ns]
 };
 
-std::optional<Written> written(const model::Cluster& cluster, const model::FrameSlot& frame) {
+std::optional<Written> writing_of(const model::Cluster& cluster, const model::FrameSlot& frame) {
   const std::vector<model::Task>& tasks = cluster.node(frame.sender).tasks;
   for (std::size_t t = 0; t < tasks.size(); ++t)
     for (const model::PortBinding& out : tasks[t].writes) {
@@ -51,7 +51,7 @@ class ChannelByTheory {
       const auto& sender = cluster.node(frame.sender).flexray;
       if (!sender || (frame.repetition & (frame.repetition - 1)) != 0) return;
       const std::int64_t own = cluster.cycle().ns * frame.repetition;
-      const Written every = written(cluster, frame).value_or(Written{own, 0});
+      const Written every = writing_of(cluster, frame).value_or(Written{own, 0});
       frames_.push_back(i);
       messages_.push_back({.slot = frame.slot - g.gNumberOfStaticSlots,
                            .base_cycle = frame.base_cycle,
