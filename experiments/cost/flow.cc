@@ -23,7 +23,24 @@ MatrixXd exponential(const MatrixXd& a) {
   return sum;
 }
 
+namespace {
+
+// One step, and then the same again.
+FlowStep twice(const FlowStep& half) {
+  FlowStep step;
+  step.phi = half.phi * half.phi;
+  step.noise = half.noise + half.phi * half.noise * half.phi.transpose();
+  step.q = half.q + half.phi.transpose() * half.q * half.phi;
+  step.constant = 2.0 * half.constant + half.noise.cwiseProduct(half.q).sum();
+  return step;
+}
+
+}  // namespace
+
 FlowStep step_of(const Flow& flow, double dt) {
+  // exp(-a dt) and exp(a dt) lose the digits of their product in longer steps.
+  constexpr double kLongest = 8.0;
+  if (dt * flow.a.cwiseAbs().rowwise().sum().maxCoeff() > kLongest) return twice(step_of(flow, dt / 2.0));
   const Index n = flow.a.rows();
   FlowStep step;
   // exp of [-a', 1, 0; 0, -a', q; 0, 0, a] dt. Its last column has exp(-a' dt) times the integral of q_step, exp(-a' dt) times

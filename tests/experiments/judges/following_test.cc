@@ -48,6 +48,19 @@ TEST(GapError, DoesNotDependOnTheBeginningOfTheRound) {
   EXPECT_NEAR(gap_error({}, twice) / error, 1.0, 1e-10);
 }
 
+// A lag far below the period. A command that is given again changes nothing, but makes the steps short.
+TEST(GapError, OfAShortLagIsThatOfShortSteps) {
+  const Duration period = Duration::milliseconds(301), age = Duration::milliseconds(180);
+  for (const double lag : {0.001, 0.004, 0.02}) {
+    const FollowingVehicle vehicle{1.2, lag, 0.8, 1.0};
+    CommandRound again = of_one_age(period, age);
+    for (int ms = 1; ms < 301; ++ms) again.commands.push_back({age + Duration::milliseconds(ms), Duration{}});
+    const double error = gap_error(vehicle, of_one_age(period, age));
+    EXPECT_GT(error, 0.0);
+    EXPECT_NEAR(gap_error(vehicle, again) / error, 1.0, 1e-9) << lag;
+  }
+}
+
 TEST(GapError, GrowsWithAgeAndPeriod) {
   double before = 0.0;
   for (int ms = 0; ms <= 200; ms += 10) {
