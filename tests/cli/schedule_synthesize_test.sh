@@ -19,8 +19,14 @@ says "^data_age .* $proof\$"
 says "^worst_age .* $proof\$"
 expect 0 '^paper_two_lasers_radar: consistent$' schedule check "$work/four.yaml"
 expect 0 '^error +1\.00000 .* at most 0\.0[0-9]+ % off$' schedule synthesize "$plans/paper_least_error.yaml" -o "$work/least.yaml"
-says '^  least of 25 +0\.0099[0-9]+ m2$'
+says '^  with noise 25 +0\.0099[0-9]+ m2 +1\.00000 times the least, 0 m2 more$'
 expect 0 '^paper_least_error: consistent$' schedule check "$work/least.yaml"
+# No schedule is the best for both noises.
+sed -e "s#extends: .*#extends: $plans/paper.yaml#" -e 's/process_noises: .*/process_noises: [0.01, 10000]/' \
+  -e 's/camera: 0.15/camera: 0.4/' "$plans/paper_least_error.yaml" >"$work/two_noises.yaml"
+expect 0 '^error +1\.0065[0-9] ' schedule synthesize "$work/two_noises.yaml"
+says '^  with noise 0\.01 +0\.00060[0-9] m2 +1\.0065[0-9] times the least, 4e-06 m2 more$'
+says '^  with noise 10000 +0\.731[0-9] m2 +1\.0009[0-9] times the least, 0\.000[67][0-9]* m2 more$'
 sed 's/objective: .*/objective: [gap_error]/' "$plans/paper.yaml" >"$work/gap.yaml"
 expect 0 '^gap_error +0\.1884 m2 +0\.1884 m2  best, if the error grows with the age$' schedule synthesize "$work/gap.yaml"
 # With so long a delay of commands no loop is stable.

@@ -46,7 +46,7 @@ std::string proof_text(const instants::Reached& one) {
   return fmt::format("at most {} off", value_text(one, off));
 }
 
-std::string report(const Plan& plan, const Synthesis& made) {
+std::string report(const Plan& plan, const Synthesis& made, const PlanJudges& judges) {
   const auto& cluster = made.cluster;
   std::vector<std::string> choices{"cycles", "rates"};
   if (plan.payload) choices.insert(choices.begin() + 1, "payloads");
@@ -57,7 +57,8 @@ std::string report(const Plan& plan, const Synthesis& made) {
   text += fmt::format("{:<22}{:>12}{:>12}\n", "objective", "value", "bound");
   for (const instants::Reached& one : made.reached)
     text += fmt::format("{:<22}{:>12}{:>12}  {}\n{}", instants::name_of(one.goal), value_text(one, one.value),
-                        value_text(one, one.bound), proof_text(one), references_text(plan, one));
+                        value_text(one, one.bound), proof_text(one),
+                        references_text(references(plan, one, judges, cluster)));
   text += fmt::format("{:<22}{:>12}{:>12}{:>12}{:>12}\n", "chain [ms]", "best age", "worst age", "largest", "every");
   for (std::size_t c = 0; c < plan.chains.size(); ++c) {
     const plans::PlannedChain& chain = plan.chains[c];
@@ -69,7 +70,7 @@ std::string report(const Plan& plan, const Synthesis& made) {
   return text;
 }
 
-nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
+nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made, const PlanJudges& judges) {
   nlohmann::ordered_json json{{"cluster", made.cluster.name},
                               {"found", true},
                               {"cycle_ms", in_ms(made.cluster.cycle())},
@@ -80,9 +81,11 @@ nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made) {
         {{"name", instants::name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
     if (one.proven) json["objective"].back()["way"] = one.way;
     if (!one.supposes.empty()) json["objective"].back()["supposes"] = one.supposes;
-    for (std::size_t i = 0; one.weights.size() > 1 && i < one.weights.size(); ++i)
-      json["objective"].back()["least"].push_back(
-          {{"process_noise", plan.error->process_noises[i]}, {"error", 1.0 / one.weights[i]}});
+    for (const Reference& part : references(plan, one, judges, made.cluster))
+      json["objective"].back()["least"].push_back({{"process_noise", part.process_noise},
+                                                   {"error", part.least},
+                                                   {"here", part.error},
+                                                   {"more", part.error - part.least}});
   }
   for (std::size_t c = 0; c < plan.chains.size(); ++c)
     json["chains"].push_back({{"name", plan.chains[c].name},
@@ -148,7 +151,7 @@ int synthesize_plan(const std::string& typed, const PlanOutputs& outputs) {
   } catch (const InputError& error) {
     throw InputError(in_the_files(plan, error.findings()));
   }
-  const std::string text = report(plan, made);
+  const std::string text = report(plan, made, judges);
   if (!out.empty()) {
     const std::string name = std::filesystem::path(file).filename().string();
     const std::string yaml = schedules::exchange::cluster_yaml(
@@ -159,7 +162,7 @@ int synthesize_plan(const std::string& typed, const PlanOutputs& outputs) {
   }
   if (!outputs.trade_off.empty()) write_trade_off(plan, made, judges, outputs.trade_off);
   if (outputs.json)
-    fmt::print("{}\n", report_json(plan, made).dump(2));
+    fmt::print("{}\n", report_json(plan, made, judges).dump(2));
   else
     fmt::print("{}{}", text,
                outputs.binding

@@ -25,6 +25,12 @@ std::string square_metres(double value) {
   return fmt::format("{:.{}g} m2", value, value < 1e-3 ? 3 : 4);
 }
 
+// Rounding makes no difference.
+double difference(const Reference& one) {
+  const double more = one.error - one.least;
+  return more <= 1e-9 * one.least ? 0.0 : more;
+}
+
 }  // namespace
 
 std::string judged_text(const Reached& one, double value) {
@@ -40,12 +46,25 @@ std::string judged_proof_text(const Reached& one) {
   return one.supposes.empty() ? off : fmt::format("{}, if {}", off, one.supposes);
 }
 
-std::string references_text(const Plan& plan, const Reached& one) {
+std::vector<Reference> references(const Plan& plan, const Reached& one, const PlanJudges& judges,
+                                  const schedules::model::Cluster& made) {
+  std::vector<Reference> found;
+  if (one.weights.size() < 2) return found;
+  for (std::size_t i = 0; i < one.weights.size(); ++i) {
+    std::vector<double> alone(one.weights.size(), 0.0);
+    alone[i] = 1.0;
+    const double error =
+        schedules::synthesis::instants::judging::judged(*judges.by_goal().at(one.goal), alone, plan, made);
+    found.push_back({plan.error->process_noises[i], 1.0 / one.weights[i], error});
+  }
+  return found;
+}
+
+std::string references_text(const std::vector<Reference>& references) {
   std::string text;
-  if (one.weights.size() < 2) return text;
-  for (std::size_t i = 0; i < one.weights.size(); ++i)
-    text +=
-        fmt::format("  least of {:<11g}{:>12}\n", plan.error->process_noises[i], square_metres(1.0 / one.weights[i]));
+  for (const Reference& one : references)
+    text += fmt::format("  with noise {:<9g}{:>12}{:>12}  {:.5f} times the least, {:.2g} m2 more\n", one.process_noise,
+                        square_metres(one.error), "", one.error / one.least, difference(one));
   return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/judges/error_judge.h"
 #include "experiments/judges/gap_judge.h"
@@ -34,8 +35,19 @@ std::string judged_text(const schedules::synthesis::instants::Reached& one, doub
 // Returns what is known about it: proven best, or how far it may be off.
 std::string judged_proof_text(const schedules::synthesis::instants::Reached& one);
 
-// Returns lines about the least error of each density, for a regret; else none.
-std::string references_text(const schedules::synthesis::plan::Plan& plan,
-                            const schedules::synthesis::instants::Reached& one);
+// A regret's part: a density and its errors.
+struct Reference {
+  double process_noise = 0.0;  // the density
+  double least = 0.0;          // for it alone, as far as it was found [m^2]
+  double error = 0.0;          // the error here [m^2]
+};
+
+// Returns them in the plan's order, for a regret; else none.
+std::vector<Reference> references(const schedules::synthesis::plan::Plan& plan,
+                                  const schedules::synthesis::instants::Reached& one, const PlanJudges& judges,
+                                  const schedules::model::Cluster& made);
+
+// Returns a line for each: the error, its ratio to the least one, and the difference.
+std::string references_text(const std::vector<Reference>& references);
 
 }  // namespace ttf::cli::schedule::planning
