@@ -91,6 +91,8 @@ for plan in held held_sixty; do
     drives planned_periods "bound=$bound" "$work/held.yaml" $plan
   done
 done
+expect 0 '^laser +65.174 +65.582 ' schedule synthesize "$plans/closed_loop_wide.yaml" -o "$work/loop_wide.yaml"
+drives closed_loop_planned condition=wide "$work/loop_wide.yaml"
 for cluster in paper four least; do
   sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
     >"$work/drive.yaml"
