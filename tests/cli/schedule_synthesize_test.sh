@@ -93,6 +93,8 @@ for plan in held held_sixty; do
 done
 expect 0 '^laser +65.174 +65.582 ' schedule synthesize "$plans/closed_loop_wide.yaml" -o "$work/loop_wide.yaml"
 drives closed_loop_planned condition=wide "$work/loop_wide.yaml"
+drives closed_loop_planned_following condition=wide_025 "$work/loop_wide.yaml"
+drives closed_loop_planned_following condition=wide_4 "$work/loop_wide.yaml"
 for cluster in paper four least; do
   sed "s#tt: .*#tt: $work/$cluster.yaml#; s#\\.\\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" \
     >"$work/drive.yaml"
