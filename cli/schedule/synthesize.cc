@@ -40,7 +40,10 @@ void add_synthesize(CLI::App& schedule, Action& action) {
       "          ttfusion schedule synthesize --signals examples/packing/signals.csv --payload 8byte -o packing.csv\n"
       "          ttfusion schedule synthesize --signals examples/packing/grown_signals.csv --fixed packing.csv "
       "--payload 8byte -o grown.csv\n"
-      "          ttfusion schedule synthesize --signals examples/packing/variants.csv --payload 8byte --fibex bus.xml");
+      "          ttfusion schedule synthesize --signals examples/packing/variants.csv --payload 8byte "
+      "--fibex bus.xml -o variants.csv\n"
+      "          ttfusion schedule synthesize --signals examples/packing/variants.csv --payload 8byte "
+      "--fixed bus_sport.xml --fixed bus_estate.xml --fixed bus_base.xml -o variants.csv");
   CLI::Option* plan =
       command->add_option("plan", options->plan, "Plan (docs/synthesis.md), or a shipped one's name")->check(named());
   packing::add_packing_options(*command, options->packing);

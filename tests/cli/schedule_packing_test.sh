@@ -45,16 +45,10 @@ expect 0 'bus.xml: 35 frames with signals, and 4 slots more: key slots, without 
 expect 0 '^signals: consistent$' schedule check "$work/bus.xml"
 expect 0 '^signals: cycle of 5 ms, 5000 macroticks: static 9 x 35' schedule show "$work/bus.xml"
 
-# A slot that stands beyond those given leaves none of them free.
-sed 's/^rain,\(.*\),[0-9]*,\([0-9]*\),\([0-9]*\),A$/rain,\1,20,\2,\3,A/' "$work/packing.csv" >"$work/far.csv"
-expect 1 'need 6 static slots with numbers up to 20: slots must be 1..8, and no packing that keeps the places that stand' \
-  "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8
-"$program" "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8 2>/dev/null | grep -q 'given are free' &&
-  fail "slots are free though they do not suffice"
-
 # Variants of a vehicle share one schedule. A further variant moves nothing.
 variants=$source/examples/packing/variants.csv
-expect 0 '^6 static slots: proven to be the fewest' "${packed[@]}" --signals "$variants" -o "$work/variants.csv"
+expect 0 '^6 static slots: proven to be the fewest' "${packed[@]}" --signals "$variants" -o "$work/variants.csv" \
+  --fibex "$work/variants.xml"
 says '^as signals of one vehicle, all need 9 slots .*: the variants save 3$' '^sport +52 +3\.162 +6 +6 ' '^base +36 '
 sed 's/^taxi_sign.*$/&\nflag,cab,5,,,30,parade\nanthem,horn,40,,,60,parade/' "$variants" >"$work/parade.csv"
 expect 0 'in 4 variants in frames' "${packed[@]}" --signals "$work/parade.csv" --fixed "$work/variants.csv" -o "$work/parade_packed.csv"
@@ -71,6 +65,22 @@ found = json.load(sys.stdin)
 assert [one["slots"] for one in found["variants"]] == [6, 6, 5], found
 assert (found["slots_as_one_vehicle"], found["slots"]) == (9, 6), found' || fail "variants are no JSON"
 
+# The bus stands like the packing that it was made of. Those of variants stand together.
+"$program" "${packed[@]}" --signals "$signals" -o "$work/packing.csv" --fibex "$work/stands.xml" >/dev/null 2>&1
+expect 0 '^44 signals stand at their places, 5 are new$' "${packed[@]}" --signals "$grown" --fixed "$work/stands.xml" \
+  -o "$work/grown_bus.csv"
+cmp -s "$work/grown.csv" "$work/grown_bus.csv" || fail "a bus that stands is another packing than its signals"
+expect 0 '^63 signals stand at their places, 0 are new$' "${packed[@]}" --signals "$source/examples/packing/variants.csv" \
+  --fixed "$work/variants_sport.xml" --fixed "$work/variants_estate.xml" --fixed "$work/variants_base.xml" -o "$work/variants_again.csv"
+cmp -s "$work/variants.csv" "$work/variants_again.csv" || fail "the buses of variants stand elsewhere than their signals"
+
+# A slot that stands beyond those given leaves none of them free.
+sed 's/^rain,\(.*\),[0-9]*,\([0-9]*\),\([0-9]*\),A$/rain,\1,20,\2,\3,A/' "$work/packing.csv" >"$work/far.csv"
+expect 1 'need 6 static slots with numbers up to 20: slots must be 1..8, and no packing that keeps the places that stand' \
+  "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8
+"$program" "${packed[@]}" --signals "$signals" --fixed "$work/far.csv" --slots 8 2>/dev/null | grep -q 'given are free' &&
+  fail "slots are free though they do not suffice"
+
 # Signals without a place are named, and the others are packed.
 expect 1 'signals.csv:17: signal tyre_pressure has no place: its 32 bits must fit a frame of 16 bits$' \
   schedule synthesize --signals "$signals" --payload 16bit -o "$work/narrow.csv"
@@ -78,6 +88,7 @@ grep -q '^tyre_pressure,chassis,320,0,320,32,,,,$' "$work/narrow.csv" || fail "a
 printf 'signal,node,period_ms,release_ms,deadline_ms,bits\nlate,a,5,5,5,1\n' >"$work/late.csv"
 expect 1 'late.csv:2: signal late has no place: a cycle of 5 ms must begin' schedule synthesize --signals "$work/late.csv"
 
+printf 'signal,node,period_ms,bits\na,a,10,32\n' >"$work/slow.csv"
 printf 'signal,node,period_ms,bits\na,a,0.08,32\nb,b,0.08,32\nc,c,0.08,32\n' >"$work/fast.csv"
 
 mistake() {  # WORDS ARGS...
@@ -103,6 +114,13 @@ printf 'signal,node,period_ms,bits,variants\na,a,5,8,base|\n' >"$work/half.csv"
 mistake 'half.csv:2: variants = base|: must be names as in base|sport' --signals "$work/half.csv"
 mistake '--fibex = .*bus_sport.xml: must be another file' --signals "$variants" --payload 8byte \
   -o "$work/bus_sport.xml" --fibex "$work/bus.xml"
+mistake 'stands.xml:[0-9]*: gPayloadLengthStatic = 4: must be 2, for the 32 bits of --payload' --signals "$grown" \
+  --fixed "$work/stands.xml"
+mistake 'stands.xml:[0-9]*: cycle = 5 ms: must be 10 ms, as --cycle says' --signals "$work/slow.csv" --cycle 10ms \
+  --payload 8byte --fixed "$work/stands.xml"
+sed 's/^<fx:FIBEX .*/<fx:NONE>/' "$work/stands.xml" >"$work/damaged.xml"
+mistake 'damaged.xml' --signals "$grown" --payload 8byte --fixed "$work/damaged.xml"
+mistake '--out' --signals "$grown" --fixed "$work/packing.csv" --fixed "$work/stands.xml" -o "$work/stands.xml"
 mistake '--channels' --signals "$signals" --channels two
 mistake '--fixed' --fixed "$work/packing.csv"
 mistake '--out' --signals "$signals" -o "$signals"

@@ -154,6 +154,7 @@ void signal_seeds(const fs::path& folder) {
   write(folder / "signals/places",
         "2signal,node,period_ms,release_ms,deadline_ms,bits,slot,first_cycle,bit_offset,channel\n"
         "a,n,5,0,5,15,1,0,2,A\n\"b, c\",n,40,10,29.5,8,1,2,17,A\nd,m,320,,,4,2,60,0,A\n");
+  write(folder / "signals/bus", std::string("2") + schedules::exchange::fibex::kPowertrain);
   write(folder / "signals/variants", "2" + fuzz::shipped("examples/packing/variants.csv"));
   write_dictionary(folder / "signals.dict",
                    {"signal", "node", "period_ms", "release_ms", "deadline_ms", "bits", "variants", "|", "slot",

@@ -1,13 +1,14 @@
-// Any text as signals to pack, and as places that stand. Laws: each mistake is a finding with the file's name. Accepted
-// signals have a place unless they are named as impossible, the packing passes the checker and is not below its bound,
-// and its file is read again as the same packing. Places that stand do not move, and the bus of each variant has each
-// signal in its cycles.
+// Any text as signals to pack, and as places that stand; one that begins with a tag is a bus. Laws: each mistake is a
+// finding with the file's name. Accepted signals have a place unless they are named as impossible, the packing passes
+// the checker and is not below its bound, and its file is read again as the same packing. Places that stand do not
+// move, and the bus of each variant has each signal in its cycles.
 #include <algorithm>
 #include <string>
 
 #include "cli/schedule/packing/signal_file.h"
 #include "core/check.h"
 #include "schedules/synthesis/packing/frames.h"
+#include "schedules/synthesis/packing/imported/bus_signals.h"
 #include "schedules/synthesis/packing/packer.h"
 #include "schedules/synthesis/packing/variants/check.h"
 #include "schedules/synthesis/packing/variants/packer.h"
@@ -65,6 +66,15 @@ void check_packing(const std::string& text, const TableShape& shape, ChannelUse 
   TTF_CHECK(packing_csv(again, assignment) == once, "a packing changes when written again: {}", once);
 }
 
+// A bus that stands: each of its signals has a place in the round.
+void check_bus(const std::string& text) {
+  imported::BusSignals bus;
+  if (!fuzz::accepted(kFile, [&] { bus = imported::parse_bus_signals(text, kFile); })) return;
+  for (const imported::BusSignal& signal : bus.signals)
+    TTF_CHECK(bus.cycles % signal.repetition == 0 && signal.place.first_cycle < signal.repetition && signal.bits > 0,
+              "{} in cycle {} of {}", signal.name, signal.place.first_cycle, signal.repetition);
+}
+
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -72,6 +82,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text = fuzz::text_of(data + 1, size - 1);
   const int how = data[0];
   const TableShape shape{Duration::milliseconds(5), how % 2 == 0 ? 64 : 20, how % 3 == 0 ? 64 : 8, how % 5 == 0};
-  check_packing(text, shape, static_cast<ChannelUse>(how % 7 % 3));
+  if (text.starts_with('<'))
+    check_bus(text);
+  else
+    check_packing(text, shape, static_cast<ChannelUse>(how % 7 % 3));
   return 0;
 }

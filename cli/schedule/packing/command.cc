@@ -55,9 +55,15 @@ table::ChannelUse use_of(const PackingOptions& options) {
   return options.channels == "independent" ? table::ChannelUse::kIndependent : table::ChannelUse::kOne;
 }
 
+std::vector<std::string> inputs_of(const PackingOptions& options) {
+  std::vector<std::string> inputs{options.signals};
+  inputs.insert(inputs.end(), options.fixed.begin(), options.fixed.end());
+  return inputs;
+}
+
 void check_outputs(const PackingOptions& options, const std::string& out) {
-  for (const std::string& input : {options.signals, options.fixed})
-    if (!out.empty() && !input.empty()) refuse_overwriting(input, out, "--out");
+  for (const std::string& input : inputs_of(options))
+    if (!out.empty()) refuse_overwriting(input, out, "--out");
   if (options.fibex.empty()) return;
   if (options.slot_multiplexing)
     refuse_option("--fibex", options.fibex, "goes without --slot-multiplexing: the file is for FlexRay 2.1");
@@ -72,8 +78,7 @@ void check_bus_paths(const PackingOptions& options, const SignalFile& file, cons
   if (options.fibex.empty()) return;
   const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
   for (const std::string& path : bus_paths(file, options.fibex)) {
-    for (const std::string& input : {options.signals, options.fixed})
-      if (!input.empty()) refuse_overwriting(input, path, "--fibex");
+    for (const std::string& input : inputs_of(options)) refuse_overwriting(input, path, "--fibex");
     if (normal(out) == normal(path)) refuse_option("--fibex", path, "must be another file than that of --out");
   }
 }
@@ -94,9 +99,10 @@ std::string shortage(const Account& account) {
 }
 
 // A cluster numbers its slots from 1. A packing that stands may have slot 0.
-void check_bus_slots(const std::string& fixed, const std::vector<table::SlotNumber>& numbers) {
+void check_bus_slots(const std::vector<std::string>& fixed, const std::vector<table::SlotNumber>& numbers) {
   for (const table::SlotNumber& number : numbers)
-    if (number.slot == 0) throw InputError({fixed, 0, "slot", "0", "must be 1 or more with --fibex"});
+    if (number.slot == 0)
+      throw InputError({fmt::format("{}", fmt::join(fixed, ", ")), 0, "slot", "0", "must be 1 or more with --fibex"});
 }
 
 }  // namespace
@@ -107,8 +113,11 @@ void add_packing_options(CLI::App& command, PackingOptions& options) {
                                                   "Signals to pack into frames, also of variants of a vehicle: CSV"));
   signals->check(named());
   std::vector<CLI::Option*> others{
-      command.add_option("--fixed", options.fixed, "Packing to keep: its signals do not move, new ones are added")
-          ->check(named()),
+      command
+          .add_option("--fixed", options.fixed,
+                      "Packing to keep, CSV or FIBEX: its signals do not move, new ones are added; may be repeated")
+          ->check(named())
+          ->allow_extra_args(false),
       command
           .add_option("--fibex", options.fibex,
                       "Bus description to write: FIBEX 3.1; with variants one for each, as in bus_sport.xml")

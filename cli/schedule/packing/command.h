@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ttf::cli::schedule::packing {
 
 struct PackingOptions {
   std::string signals;  // empty: not given
-  std::string fixed;
+  std::vector<std::string> fixed;
   std::string fibex;
   std::string cycle = "5ms", payload = "32bit", channels = "one";
   int cycles = 64;

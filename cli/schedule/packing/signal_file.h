@@ -1,4 +1,5 @@
-// Reads the signals that are to be packed, and places that stand, from CSV (docs/packing.md lists the columns).
+// Reads the signals that are to be packed from CSV (docs/packing.md lists the columns), and places that stand from CSV
+// or FIBEX.
 #pragma once
 
 #include <string>
@@ -45,8 +46,10 @@ struct StandingPlaces {
   std::vector<std::string> notes;  // places that are not kept, and why
 };
 
-// Throws InputError with all mistakes: a signal that changed its node, period or length, and places that break a rule.
-StandingPlaces read_standing(const std::string& path, const SignalFile& signals,
+// A text that begins with a tag is FIBEX. Several files may have the same signal, at one place. Both throw InputError
+// with all mistakes: a signal that changed its node, period or length, places that break a rule, and a bus of another
+// cycle or payload.
+StandingPlaces read_standing(const std::vector<std::string>& paths, const SignalFile& signals,
                              schedules::synthesis::packing::ChannelUse use);
 StandingPlaces parse_standing(const std::string& text, const std::string& name, const SignalFile& signals,
                               schedules::synthesis::packing::ChannelUse use);

@@ -17,6 +17,8 @@ struct Assigned {
   SlotNumber number;
   int first_cycle = 0;
   int offset = 0;
+
+  bool operator==(const Assigned&) const = default;
 };
 // By signal; a signal without an entry has no place.
 using Assignment = std::vector<std::optional<Assigned>>;

@@ -111,7 +111,7 @@ TEST_F(PublishedSignals, FirstFitsOrdersHaveTheirKnownFigures) {
 
 TEST_F(PublishedSignals, ThePublishedScheduleIsSoundAndHas127Slots) {
   const std::string path = support::recording_path(kPublished);
-  const StandingPlaces standing = read_standing(path, file_, table::ChannelUse::kOne);
+  const StandingPlaces standing = read_standing({path}, file_, table::ChannelUse::kOne);
   EXPECT_EQ(standing.numbers.size(), 127u);
   EXPECT_EQ(standing.notes.size(), 2u);  // the two have places there, outside their windows
   const table::Solution solution = pack(file_.instance, standing.places);
