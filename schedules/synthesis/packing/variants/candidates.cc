@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -19,11 +20,19 @@ struct Attempt {
   std::string how;
 };
 
-Order widest_first(const Instance& instance, Order order) {
-  const auto width = [&](std::size_t signal) {
-    return std::popcount(instance.signals[signal].variants & instance.all_variants());
+// The rule of an order gives way to the number of variants: not at all, among signals of one period, or altogether.
+enum class Widest { kNo, kOfPeriod, kFirst };
+constexpr std::pair<Widest, const char*> kWidest[] = {
+    {Widest::kFirst, "variants, "}, {Widest::kOfPeriod, "period, variants, "}, {Widest::kNo, ""}};
+
+Order widest_first(const Instance& instance, Order order, Widest widest) {
+  const auto rank = [&](std::size_t index) {
+    const Signal& signal = instance.signals[index];
+    return std::pair(widest == Widest::kOfPeriod ? signal.repetition : 0,
+                     -std::popcount(signal.variants & instance.all_variants()));
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return width(a) > width(b); });
+  if (widest != Widest::kNo)
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   return order;
 }
 
@@ -31,15 +40,14 @@ std::vector<Attempt> attempts(const Instance& instance, const Order& signals) {
   std::vector<Attempt> all;
   for (const bool by_node : {false, true}) {
     if (by_node && !instance.shared_slots) continue;
-    for (const bool widest : {true, false})
+    for (const auto& [widest, name] : kWidest) {
+      if (by_node && widest != Widest::kNo) continue;  // nodes would come last among the keys
       for (const OrderRule& rule : order_rules())
-        for (const Fit fit : {Fit::kLowestCycle, Fit::kLowestBit}) {
-          Order order = ordered(instance, signals, rule, by_node);
-          if (widest) order = widest_first(instance, std::move(order));
-          all.push_back({std::move(order), fit,
-                         fmt::format("{}{}{}, by lowest {}", widest ? "variants, " : "", by_node ? "node, " : "",
-                                     rule.name, fit == Fit::kLowestBit ? "bit" : "cycle")});
-        }
+        for (const Fit fit : {Fit::kLowestCycle, Fit::kLowestBit})
+          all.push_back({widest_first(instance, ordered(instance, signals, rule, by_node), widest), fit,
+                         fmt::format("{}{}{}, by lowest {}", name, by_node ? "node, " : "", rule.name,
+                                     fit == Fit::kLowestBit ? "bit" : "cycle")});
+    }
   }
   return all;
 }
@@ -55,8 +63,8 @@ std::multiset<VariantSet> bin_variants(const Candidate& candidate) {
   return sets;
 }
 
-// Keeps the candidate if no other has fewer bins in some variant and as few in all, nor bins of the same variants.
-// Removes those that are worse in the same way.
+// Keeps the candidate unless another one has no more bins in any variant and fewer in some, or bins of the same
+// variants. Removes those that are worse than it.
 void keep(Candidate candidate, std::vector<Candidate>& kept) {
   const auto worse = [](const Candidate& a, const Candidate& b) { return a.bins != b.bins && no_more(b.bins, a.bins); };
   for (const Candidate& other : kept)

@@ -1,7 +1,7 @@
 // Several packings of signals that may share bins: those of one node, or of all where slots are shared.
 //
-// First fit tries the orders of orders.h, each also with the signals of many variants first. A packing is worth keeping
-// unless another one has no more bins in any variant, and fewer in some.
+// First fit tries the orders of orders.h, each also with the signals of many variants first, or first in their period.
+// A packing is worth keeping unless another one has no more bins in any variant, and fewer in some.
 #pragma once
 
 #include <string>

@@ -3,8 +3,8 @@
 //
 // The graph of bins that share a variant is coloured (Dvorak, Hanzalek, IEEE Transactions on Vehicular Technology,
 // 2018), and greedily. The next bin is the one that the fewest opened columns can take (Brelaz, "New methods to color
-// the vertices of a graph", Communications of the ACM 22, 1979). Several differ in their number of variants: the largest goes
-// first. It takes the column that has the fewest variants left.
+// the vertices of a graph", Communications of the ACM 22, 1979); among equals, the one with the most variants. It takes
+// the column that has the fewest variants left.
 #pragma once
 
 #include <vector>
