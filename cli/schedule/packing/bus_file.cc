@@ -53,6 +53,7 @@ std::vector<BusFile> bus_files(const SignalFile& signals, const table::Assignmen
   for (const auto& of_vehicle : frames) packed.push_back(of_vehicle.size());
   table::BusRequest request{std::filesystem::path(signals.name).stem().string(), signals.name, signals.shape.cycle, 0,
                             add_key_slots(frames)};
+  request.starters = starters_of(frames);
   for (const auto& of_vehicle : frames)
     for (const table::PackedFrame& frame : of_vehicle) request.slots = std::max(request.slots, frame.number.slot);
   const std::vector<std::string> paths = bus_paths(signals, path);

@@ -20,9 +20,9 @@ namespace {
 
 namespace fibex = exchange::fibex;
 
-constexpr int kLeastNit = 20;                        // macroticks, for the offset correction
-constexpr int kLongestNit = 805, kMostStarters = 3;  // specification 2.1A, annex B: gdNIT; three nodes survive one loss
-constexpr int kAfterActionPoint = 15;  // macroticks of a minislot: more than precision and propagation delay
+constexpr int kLeastNit = 20;                    // macroticks, for the offset correction
+constexpr int kLongestNit = 805, kStarters = 3;  // specification 2.1A, annex B: gdNIT; three nodes survive one loss
+constexpr int kAfterActionPoint = 15;            // macroticks of a minislot: more than precision and propagation delay
 constexpr std::int64_t kNsPerMacrotick = 1000;
 
 // Fills the cycle: static slots, then minislots if the network idle time would be too long.
@@ -135,6 +135,28 @@ class FibexWriter {
 
 }  // namespace
 
+std::set<int> starters_of(const std::vector<std::vector<PackedFrame>>& vehicles) {
+  std::map<int, std::vector<std::size_t>> vehicles_of;  // by node
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    std::set<int> nodes;
+    for (const PackedFrame& frame : vehicles[i]) nodes.insert(frame.node);
+    for (const int node : nodes) vehicles_of[node].push_back(i);
+  }
+  std::vector<int> order;
+  for (const auto& [node, of] : vehicles_of) order.push_back(node);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return vehicles_of[a].size() > vehicles_of[b].size(); });
+  std::set<int> starters;
+  std::vector<int> in_vehicle(vehicles.size());
+  for (const int node : order) {
+    const auto& own = vehicles_of[node];
+    if (std::all_of(own.begin(), own.end(), [&](std::size_t i) { return in_vehicle[i] >= kStarters; })) continue;
+    starters.insert(node);
+    for (const std::size_t i : own) ++in_vehicle[i];
+  }
+  return starters;
+}
+
 model::Cluster bus_of(const Instance& instance, const std::vector<PackedFrame>& frames, const BusRequest& request) {
   model::Cluster bus;
   bus.name = request.name;
@@ -146,6 +168,7 @@ model::Cluster bus_of(const Instance& instance, const std::vector<PackedFrame>& 
     ids.emplace(frame.node, NodeId{});
   }
   bus.flexray = parameters_of(instance, slots, request);
+  const std::set<int> starters = request.starters.empty() ? starters_of({frames}) : request.starters;
   const model::Channels channels = frames.empty() ? model::Channels::kA : frames.front().number.channels;
   for (auto& [node, id] : ids) {
     id = static_cast<NodeId>(bus.nodes.size());
@@ -153,7 +176,7 @@ model::Cluster bus_of(const Instance& instance, const std::vector<PackedFrame>& 
     ecu.name = instance.nodes[static_cast<std::size_t>(node)];
     ecu.parameters.pChannels = channels;
     ecu.parameters.pWakeupChannel = default_wakeup(channels);
-    ecu.parameters.pKeySlotUsedForStartup = ecu.parameters.pKeySlotUsedForSync = bus.nodes.size() < kMostStarters;
+    ecu.parameters.pKeySlotUsedForStartup = ecu.parameters.pKeySlotUsedForSync = starters.contains(node);
     std::set<std::string, std::less<>> assumed;
     model::Node& added = bus.nodes.emplace_back();
     added.name = ecu.name;

@@ -2,10 +2,11 @@
 //
 // The static slots are as short as the payload allows. A dynamic segment without frames fills the rest of the cycle.
 // The parameters of controllers follow from the largest drifts that FlexRay allows
-// (schedules/exchange/fibex/assumptions.h). The first three nodes start the cluster up and synchronise it.
+// (schedules/exchange/fibex/assumptions.h). Three nodes start the cluster up and synchronise it.
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,13 @@ struct BusRequest {
   Duration cycle;
   int slots = 0;                      // static slots, at least those with frames
   std::map<int, int> key_slots = {};  // by node; without an entry, the node's lowest one
+  std::set<int> starters = {};        // none: starters_of() these frames
 };
+
+// Returns the nodes that start up the vehicles of several variants, each with its frames: in each vehicle three or
+// more, or all its nodes. A node has the same role in all of them. Those of many vehicles come first, then those of low
+// numbers.
+std::set<int> starters_of(const std::vector<std::vector<PackedFrame>>& vehicles);
 
 // Returns the bus of these frames, in their order. Each of their nodes needs a key slot (frames.h). All slots are on
 // the same channels, and numbered from 1. Throws InputError if the slots do not fit the cycle, or the cycle is no whole

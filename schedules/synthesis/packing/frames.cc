@@ -83,6 +83,17 @@ std::optional<int> common_key_slot(const std::vector<std::vector<PackedFrame>>& 
   return common && !common->empty() ? std::optional(*common->begin()) : std::nullopt;
 }
 
+// Returns the lowest slot that is free in each vehicle of the node.
+int free_slot(const std::vector<std::vector<PackedFrame>>& vehicles, int node) {
+  std::set<int> taken;
+  for (const std::vector<PackedFrame>& frames : vehicles)
+    if (sends(frames, node))
+      for (const PackedFrame& frame : frames) taken.insert(frame.number.slot);
+  int slot = 1;
+  while (taken.contains(slot)) ++slot;
+  return slot;
+}
+
 }  // namespace
 
 std::optional<int> key_slot(const std::vector<PackedFrame>& frames, int node) {
@@ -92,18 +103,13 @@ std::optional<int> key_slot(const std::vector<PackedFrame>& frames, int node) {
 
 std::map<int, int> add_key_slots(std::vector<std::vector<PackedFrame>>& vehicles) {
   std::map<int, model::Channels> nodes;
-  std::set<int> taken;
   for (const std::vector<PackedFrame>& frames : vehicles)
-    for (const PackedFrame& frame : frames) {
-      nodes.emplace(frame.node, frame.number.channels);
-      taken.insert(frame.number.slot);
-    }
+    for (const PackedFrame& frame : frames) nodes.emplace(frame.node, frame.number.channels);
   std::map<int, int> key_slots;
   for (const auto& [node, channels] : nodes) {
     std::optional<int> slot = common_key_slot(vehicles, node);
     if (!slot) {
-      slot = 1;
-      while (!taken.insert(*slot).second) ++*slot;
+      slot = free_slot(vehicles, node);
       for (std::vector<PackedFrame>& frames : vehicles)
         if (sends(frames, node)) frames.push_back({{*slot, channels}, 0, 1, node, {}});
     }

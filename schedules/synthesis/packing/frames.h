@@ -30,7 +30,7 @@ std::vector<PackedFrame> frames_of(const Instance& instance, const Assignment& a
 std::vector<PackedFrame> with_key_slots(std::vector<PackedFrame> frames);
 
 // The same for the vehicles of several variants, each with its frames: a node has the same key slot in all of them, and
-// a new slot is free in all. Returns the key slots by node.
+// a new slot is free in all that have the node. Returns the key slots by node.
 std::map<int, int> add_key_slots(std::vector<std::vector<PackedFrame>>& vehicles);
 
 // Returns the slot of a node that has the same frame in every cycle: the lowest one. None without such a slot.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/check.h"
 #include "schedules/synthesis/packing/lower_bound.h"
 #include "schedules/synthesis/packing/orders.h"
 
@@ -112,6 +113,7 @@ bool Solution::proven() const {
 }
 
 Solution pack(const Instance& instance, const Places& fixed, const Effort& effort) {
+  TTF_CHECK(instance.variants.empty(), "{} variants: variants/packer.h packs them", instance.variants.size());
   Solution solution;
   solution.places.resize(instance.signals.size());
   for (const auto& place : fixed)

@@ -35,9 +35,9 @@ struct Solution {
   bool proven() const;
 };
 
-// Keeps the places of `fixed` (by signal; empty, or with an entry for each). They must have passed check.h. Their bins
-// are numbered from 0 without a gap. With places that stand, a part's bound counts its standing bins, even if a packing
-// anew needed fewer.
+// Packs an instance without variants (variants/packer.h packs those with them). Keeps the places of `fixed` (by signal;
+// empty, or with an entry for each). They must have passed check.h. Their bins are numbered from 0 without a gap. With
+// places that stand, a part's bound counts its standing bins, even if a packing anew needed fewer.
 Solution pack(const Instance& instance, const Places& fixed = {}, const Effort& effort = {});
 
 }  // namespace ttf::schedules::synthesis::packing

@@ -16,7 +16,8 @@ struct Room {
   std::vector<int> signals;
 };
 
-// Returns the room of each node. Where slots are shared, frames that no node owns count for each.
+// Returns the room of each node, for signals in all variants. Where slots are shared, frames that no node owns count
+// for each.
 std::vector<Room> room_left(const Instance& instance, const Places& places, int bits);
 
 }  // namespace ttf::schedules::synthesis::packing

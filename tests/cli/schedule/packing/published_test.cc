@@ -13,6 +13,9 @@
 #include "schedules/synthesis/packing/lower_bound.h"
 #include "schedules/synthesis/packing/orders.h"
 #include "schedules/synthesis/packing/packer.h"
+#include "schedules/synthesis/packing/variants/check.h"
+#include "schedules/synthesis/packing/variants/packer.h"
+#include "tests/schedules/synthesis/packing/like_variants.h"
 #include "tests/support/recordings.h"
 
 namespace ttf::cli::schedule::packing {
@@ -127,6 +130,18 @@ TEST_F(PublishedSignals, HalfOfThemCanStandWhileTheOthersAreAdded) {
   for (std::size_t i = 0; i < 2048; ++i) EXPECT_EQ(grown.places[i], stands.places[i]);
   EXPECT_GE(grown.bins, 127);
   EXPECT_LE(grown.bins, 129);
+}
+
+// Half of the signals are in drawn sets of four variants.
+TEST_F(PublishedSignals, OfFourVariantsNeedFewerSlots) {
+  const table::Instance instance = table::like_variants(file_.instance, 4, 1);
+  const table::Solution solution = table::variants::pack_variants(instance, {}, {0, 1});
+  EXPECT_TRUE(table::variants::variant_violations(
+                  instance, assigned(solution.places, slot_numbers({}, solution.bins, 1, table::ChannelUse::kOne)))
+                  .empty());
+  EXPECT_EQ(solution.bound(), 100);
+  EXPECT_GE(solution.bins, 100);
+  EXPECT_LE(solution.bins, 103);
 }
 
 }  // namespace

@@ -95,6 +95,19 @@ TEST(PackedFrames, OfVariantsHaveTheSameKeySlots) {
   }
   std::vector<std::vector<PackedFrame>> without{{frame(1, 0, 1)}, {frame(1, 1, 1)}};
   EXPECT_EQ(add_key_slots(without), (std::map<int, int>{{0, 1}, {1, 1}}));  // the nodes never meet
+  std::vector<std::vector<PackedFrame>> slow{{frame(1, 0, 1), frame(2, 1, 2)}, {frame(1, 0, 1), frame(3, 2, 2)}};
+  EXPECT_EQ(add_key_slots(slow), (std::map<int, int>{{0, 1}, {1, 3}, {2, 2}}));
+}
+
+TEST(PackedBus, StartersAreThreeInEachVehicleWithOneRoleInAll) {
+  const auto vehicle = [](const std::vector<int>& nodes) {
+    std::vector<PackedFrame> frames;
+    for (const int node : nodes) frames.push_back({{node + 1, model::Channels::kA}, 0, 1, node, {}});
+    return frames;
+  };
+  EXPECT_EQ(starters_of({vehicle({0, 1, 2, 3})}), (std::set{0, 1, 2}));
+  EXPECT_EQ(starters_of({vehicle({1, 4})}), (std::set{1, 4}));
+  EXPECT_EQ(starters_of({vehicle({0, 1, 2, 3}), vehicle({0, 2, 3, 5}), vehicle({2, 3, 5, 6})}), (std::set{0, 2, 3, 5}));
 }
 
 TEST(PackedBus, OfAVariantHasTheSlotsAndKeySlotsThatItIsToldOf) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/random.h"
+#include "schedules/synthesis/packing/room.h"
 #include "schedules/synthesis/packing/variants/check.h"
 #include "schedules/synthesis/packing/variants/lower_bound.h"
 #include "schedules/synthesis/packing/variants/projection.h"
@@ -155,6 +157,32 @@ TEST(VariantPacker, ANewVariantsOwnSignalsNeedNoMoreThanItsVehicle) {
   for (std::size_t i = 0; i < old; ++i) EXPECT_EQ(solution.places[i], stands.places[i]);
   const int alone = pack(projection(grown, 2).instance).bins;
   EXPECT_EQ(solution.bins, std::max(stands.bins, alone));
+}
+
+// As RoomLeft.IsFilledExactly, for further signals in all variants.
+TEST(VariantPacker, TheRoomIsFilledExactly) {
+  const Instance instance = like_variants(like_instance(250, 2), 3, 2);
+  const Solution solution = pack_variants(instance);
+  std::set<std::pair<int, int>> of_node;  // node and bin
+  for (std::size_t i = 0; i < instance.signals.size(); ++i)
+    of_node.emplace(instance.signals[i].node, solution.places[i]->bin);
+  int most = 0;
+  for (const Room& room : room_left(instance, solution.places, 3))
+    for (std::size_t k = 0; k < room.signals.size(); ++k) {
+      Packed packed = with_fixed(instance, solution.places);
+      const Signal more{"more", room.node, 1 << k, {0, (1 << k) - 1}, 3};
+      int added = 0;
+      for (std::size_t b = 0; b < packed.bins.size(); ++b) {
+        if (!of_node.contains({room.node, static_cast<int>(b)})) continue;
+        while (const auto place = packed.bins[b].first_place(more, Fit::kLowestBit)) {
+          packed.bins[b].occupy(more, *place);
+          ++added;
+        }
+      }
+      EXPECT_EQ(room.signals[k], added) << "node " << room.node << " repetition " << (1 << k);
+      most = std::max(most, added);
+    }
+  EXPECT_GT(most, 0);
 }
 
 TEST(VariantPacker, IsTheSameTwice) {
