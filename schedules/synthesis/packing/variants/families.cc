@@ -7,7 +7,7 @@
 namespace ttf::schedules::synthesis::packing::variants {
 namespace {
 
-constexpr int kMostSearchSteps = 20'000;
+constexpr std::size_t kMostComparisons = 50'000'000;
 
 Family conflicting_with(const Family& sets, VariantSet set) {
   Family found;
@@ -28,7 +28,8 @@ class CliqueSearch {
 
   // Finds the maximal families of `chosen`, some of `open` and none of `done`, which all conflict with `chosen`.
   void search(const Family& chosen, Family open, Family done) {
-    if (++steps_ > kMostSearchSteps || static_cast<int>(found_.size()) >= most_) return;
+    comparisons_ += (open.size() + done.size()) * open.size();  // those of the pivot
+    if (comparisons_ > kMostComparisons || static_cast<int>(found_.size()) >= most_) return;
     if (open.empty() && done.empty() && !share_a_variant(chosen)) {
       found_.push_back(chosen);
       std::sort(found_.back().begin(), found_.back().end());
@@ -62,7 +63,8 @@ class CliqueSearch {
     return tried;
   }
 
-  int most_, steps_ = 0;
+  int most_;
+  std::size_t comparisons_ = 0;
 };
 
 }  // namespace
@@ -81,8 +83,12 @@ std::vector<Family> families(const Instance& instance, const Order& signals, int
     std::copy_if(sets.begin(), sets.end(), std::back_inserter(own),
                  [&](VariantSet set) { return (set >> variant & 1) != 0; });
   }
+  // Sets that conflict with all others are in each maximal family.
+  Family always, others;
+  for (const VariantSet set : sets)
+    (conflicting_with(sets, set).size() + 1 == sets.size() ? always : others).push_back(set);
   CliqueSearch search(most);
-  search.search({}, sets, {});
+  search.search(always, others, {});
   std::move(search.found_.begin(), search.found_.end(), std::back_inserter(all));
   return all;
 }

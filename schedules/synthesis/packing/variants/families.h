@@ -19,7 +19,7 @@ using Family = std::vector<VariantSet>;
 std::vector<VariantSet> sets_of(const Instance& instance, const Order& signals);
 
 // Returns the family of each variant, and the maximal families in which no variant has all: the first `most` of them
-// that a search finds.
+// that a search of limited length finds.
 std::vector<Family> families(const Instance& instance, const Order& signals, int most);
 
 // Returns the signals with a set of the family.
