@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "schedules/synthesis/packing/variants/lower_bound.h"
 #include "schedules/synthesis/packing/variants/pieces.h"
 #include "schedules/synthesis/packing/variants/projection.h"
+#include "schedules/synthesis/packing/variants/standing_columns.h"
 
 namespace ttf::schedules::synthesis::packing::variants {
 namespace {
@@ -25,56 +25,6 @@ struct Share {
   std::size_t chosen = 0;
 
   const Packed& packed() const { return candidates[chosen].packed; }
-};
-
-// The columns that stand: who owns them in each variant.
-class Standing {
- public:
-  Standing(const Instance& instance, const Places& fixed) : instance_(instance), fixed_(fixed) {
-    for (std::size_t signal = 0; signal < fixed.size(); ++signal) {
-      if (!fixed[signal]) continue;
-      const Signal& of = instance.signals[signal];
-      columns_ = std::max(columns_, fixed[signal]->bin + 1);
-      owned_[fixed[signal]->bin][instance.shared_slots ? 0 : of.node] |= of.variants & instance.all_variants();
-    }
-  }
-
-  int columns() const { return columns_; }
-  const std::map<int, std::map<int, VariantSet>>& owned() const { return owned_; }
-
-  // Returns the places of a share's signals that stand, in bins of its own, and the columns of these. A bin is blocked
-  // in the variants of other owners. The owner of the lowest number also has the variants without an owner.
-  Packed bins_of(const Order& signals, int node, std::vector<int>& columns) const {
-    Places places(instance_.signals.size());
-    std::map<int, int> bin_of;  // by column
-    for (const auto& [column, owners] : owned_)
-      if (owners.contains(node)) {
-        bin_of.emplace(column, static_cast<int>(columns.size()));
-        columns.push_back(column);
-      }
-    for (const std::size_t signal : signals)
-      if (signal < fixed_.size() && fixed_[signal]) {
-        places[signal] = fixed_[signal];
-        places[signal]->bin = bin_of.at(fixed_[signal]->bin);
-      }
-    Packed packed = with_fixed(instance_, places);
-    for (const auto& [column, bin] : bin_of)
-      packed.bins[static_cast<std::size_t>(bin)].block(blocked(owned_.at(column), node));
-    return packed;
-  }
-
- private:
-  VariantSet blocked(const std::map<int, VariantSet>& owners, int node) const {
-    VariantSet others = 0;
-    for (const auto& [owner, variants] : owners)
-      if (owner != node) others |= variants;
-    return owners.begin()->first == node ? others : instance_.all_variants() & ~owners.at(node);
-  }
-
-  const Instance& instance_;
-  const Places& fixed_;
-  int columns_ = 0;
-  std::map<int, std::map<int, VariantSet>> owned_;  // by column and node
 };
 
 class Packer {
@@ -132,7 +82,7 @@ class Packer {
 
   // The columns of all pieces that do not stand: share by share, bin by bin.
   Columns columns() const {
-    std::vector<VariantSet> standing(static_cast<std::size_t>(standing_.columns())), added;
+    std::vector<VariantSet> standing(static_cast<std::size_t>(standing_.count())), added;
     for (const Share& share : shares_)
       each_piece(share, [&](std::size_t bin, const Piece& piece) {
         if (piece.stands)
@@ -206,7 +156,7 @@ class Packer {
   const Instance& instance_;
   const Places& fixed_;
   Effort effort_;
-  Standing standing_;
+  StandingColumns standing_;
   Order signals_;
   std::vector<Share> shares_;
   bool in_pieces_ = false;
