@@ -105,10 +105,17 @@ FrameRun run_from(const model::Cluster& cluster, std::size_t first, std::vector<
   return run;
 }
 
+// Returns the width of a column with these names, and a blank behind the longest.
+template <class Named> std::size_t width_of(const std::vector<Named>& all, std::size_t least) {
+  for (const Named& one : all) least = std::max(least, one.name.size() + 1);
+  return least;
+}
+
 void show_slots(const model::Cluster& cluster, std::string& text) {
   const model::GlobalParameters& g = cluster.flexray;
-  text +=
-      fmt::format("{:>9}  {:>15}  {:<2}  {:<12}{:<34}{}\n", "slot", "macroticks", "ch", "sender", "frame", "cycles");
+  const std::size_t senders = width_of(cluster.nodes, 12);
+  text += fmt::format("{:>9}  {:>15}  {:<2}  {:<{}}{:<34}{}\n", "slot", "macroticks", "ch", "sender", senders, "frame",
+                      "cycles");
   std::vector<char> shown(cluster.frames.size());
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
     if (shown[i]) continue;
@@ -130,13 +137,13 @@ void show_slots(const model::Cluster& cluster, std::string& text) {
     if (is_dynamic(g, first)) frame += " (dynamic)";
     const auto [begin, over] = macroticks(cluster, first, last);
     text +=
-        fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", slots, begin, over, channels_text(first.channels),
-                    cluster.node(first.sender).name, frame, cycles_text(first.base_cycle, first.repetition));
+        fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<{}}{:<34}{}\n", slots, begin, over, channels_text(first.channels),
+                    cluster.node(first.sender).name, senders, frame, cycles_text(first.base_cycle, first.repetition));
   }
   if (g.gdSymbolWindow > 0) {
     const int idle = g.gMacroPerCycle - g.gdNIT;
-    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", "", idle - g.gdSymbolWindow, idle, "AB", "",
-                        "symbol window", cycles_text(0, 1));
+    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<{}}{:<34}{}\n", "", idle - g.gdSymbolWindow, idle, "AB", "",
+                        senders, "symbol window", cycles_text(0, 1));
   }
 }
 
@@ -199,7 +206,8 @@ void show_derived(const model::Cluster& cluster, std::string& text) {
 
 // A time on the cycle's own grid goes below a row that it would make too wide.
 std::string task_text(const model::Cluster& cluster, const model::Node& node, const model::Task& task) {
-  const std::string names = fmt::format("  {:<12}{:<16}", node.name, task.name);
+  const std::string names =
+      fmt::format("  {:<{}}{:<{}}", node.name, width_of(cluster.nodes, 12), task.name, width_of(node.tasks, 16));
   std::string text = fmt::format("{}{:g}-{:g} ms, deadline {:g} ms, {}", names, in_ms(task.best_case),
                                  in_ms(task.worst_case), in_ms(task.deadline), activation_text(cluster, task));
   if (task.activation.kind == model::ActivationKind::kTime) {
@@ -257,8 +265,8 @@ std::string show_text(const model::Cluster& cluster) {
     if (sensor.follows())
       when =
           fmt::format("when {} ends, every {:g} to {:g} ms", sensor.after, in_ms(sensor.period), in_ms(sensor.longest));
-    text += fmt::format("  {:<12}{} -> {}: {}\n", sensor.name, cluster.node(sensor.device).name,
-                        cluster.node(sensor.host).name, when);
+    text += fmt::format("  {:<{}}{} -> {}: {}\n", sensor.name, width_of(cluster.sensors, 12),
+                        cluster.node(sensor.device).name, cluster.node(sensor.host).name, when);
   }
   text += "\ntasks\n";
   for (const model::Node& node : cluster.nodes)

@@ -9,6 +9,7 @@
 
 #include "core/decimal.h"
 #include "core/time.h"
+#include "schedules/analysis/can_load.h"
 #include "schedules/file/shortest_periods.h"
 #include "schedules/left_out/earliest.h"
 #include "schedules/model/repetitions.h"
@@ -32,6 +33,7 @@ class Filler {
 
   void fill() {
     if (any_instant(parts_)) {
+      if (!cans_carry_their_lists()) return;
       for (const left_out::List& list : parts_.lists) absent_of_lists_.push_back(list.at);
       left_out::use_key_slots(cluster_, parts_.lists);
       left_out::put_earliest(cluster_, parts_, findings_);
@@ -52,6 +54,22 @@ class Filler {
         if (parts_.shortest_periods[c][m])
           visit(bus.messages[m], fmt::format("can.{}.messages[{}].shortest_period", bus.name, m));
     }
+  }
+
+  // Without bounds of the CANs nothing follows. The sentences are those of the check (schedules/check/slots.cc).
+  bool cans_carry_their_lists() {
+    bool all = true;
+    for (const model::CanBus& bus : cluster_.can_buses)
+      for (const model::CanMessage& message : bus.messages) {
+        const int bytes = cluster_.pdu(message.pdu).fragment_bytes;
+        if (analysis::can_data_length(bus.flexible_data_rate, bytes)) continue;
+        all = false;
+        findings_.add(cluster_.finding(
+            message.line, fmt::format("can.{}.messages ({})", bus.name, cluster_.pdu(message.pdu).name),
+            fmt::format("{} bytes", bytes),
+            fmt::format("must fit a frame of this CAN, at most {} bytes", bus.flexible_data_rate ? 64 : 8)));
+      }
+    return all;
   }
 
   void say(std::string path, std::string value) { cluster_.derived.push_back({std::move(path), std::move(value)}); }

@@ -32,7 +32,7 @@ void load_multiplexing(YamlMap& map, const model::GlobalParameters& flexray, con
     map.fail("repetition", repetitions_text(flexray, allowed));
     usable = false;
   }
-  if (base_cycle >= repetition) {
+  if (base_cycle >= repetition && (may.repetition || map.has("repetition"))) {
     map.fail("base_cycle", fmt::format("must be below repetition, 0..{}", repetition - 1));
     usable = false;
   }

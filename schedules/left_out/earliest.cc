@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "schedules/analysis/can_load.h"
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/responses.h"
 #include "schedules/left_out/items.h"
@@ -117,7 +118,7 @@ class Putting {
       if (item.at) continue;
       const std::vector<Wait> waiting = waits(item);
       if (waiting.empty() && !item.fixed && item.place.kind != Place::Kind::kMeasurement)
-        return refuse(item, 0, "must be in the file: it takes nothing that the schedule begins");
+        return refuse(item, 0, "must be in the file: " + no_beginning(item));
       const auto from = earliest(waiting);
       if (!from) continue;
       const auto start = fitted(item, *from);
@@ -131,6 +132,25 @@ class Putting {
     best->at = first;
     if (!best->fixed) write(*best, first);
     return true;
+  }
+
+  // Returns why nothing leads to the item.
+  std::string no_beginning(const Item& item) const {
+    std::vector<model::PortBinding> lists;
+    if (item.place.kind == Place::Kind::kTask) lists = task_at(cluster_, item.place.task).reads;
+    for (const model::PortBinding& list : lists) {
+      const std::string& name = cluster_.pdu(list.pdu).name;
+      if (list.medium.is_flexray() && !items_.places.contains({Place::Kind::kSlots, kNoSensor, {}, list.pdu}))
+        return fmt::format("{}, which it reads, has no static slots", name);
+      if (!list.medium.is_can()) continue;
+      const model::CanBus& bus = cluster_.can(list.medium);
+      const double load = analysis::can_worst_load(cluster_, bus);
+      if (load > analysis::kCanLoadLimit)
+        return fmt::format(
+            "{}, which it reads, comes at no certain time: the worst-case load of {} is {:.1f} %, above {:.0f} %", name,
+            bus.name, 100.0 * load, 100.0 * analysis::kCanLoadLimit);
+    }
+    return "it takes nothing that the schedule begins";
   }
 
   // A ring ends where the file says an instant: that item takes the data of an earlier round.

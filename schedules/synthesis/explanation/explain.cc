@@ -53,7 +53,15 @@ class Explainer {
     return feasible(plan).found;
   }
 
-  // Returns the value nearest to the plan's at which the whole plan has a solution.
+  // The search knows gaps and ages alone. The check has more rules, as that a task ends before its next activation.
+  bool passes_at(const Dial& dial, std::int64_t value) const {
+    Plan plan = plan_;
+    dial.set(plan, value);
+    return instants::passes(plan);
+  }
+
+  // Returns the value nearest to the plan's at which the whole plan has a solution. Where the check refuses it, values ever
+  // farther away are tried. Returns none if it refuses all.
   std::optional<std::int64_t> least_change(const Dial& dial) {
     const std::int64_t way = dial.easiest > dial.now ? 1 : -1;
     const auto at = [&](std::int64_t steps) {
@@ -65,6 +73,11 @@ class Explainer {
     while (yes - no > 1) {
       const std::int64_t middle = no + (yes - no) / 2;
       (possible_at(dial, at(middle)) ? yes : no) = middle;
+    }
+    const std::int64_t least = yes, most = (dial.easiest - dial.now) * way / dial.grain + 1;
+    for (std::int64_t farther = 1; !passes_at(dial, at(yes)); farther *= 2) {
+      if (yes == most) return std::nullopt;
+      yes = std::min(least + farther, most);
     }
     return at(yes);
   }

@@ -59,7 +59,7 @@ class Collector {
           one.worst_case = {ns};
           one.best_case = std::min(one.best_case, one.worst_case);
         };
-        const Dial dial{task.worst_case.ns, 1'000, kGrain_ns, set,
+        const Dial dial{task.worst_case.ns, std::max<std::int64_t>(1'000, task.best_case.ns), kGrain_ns, set,
                         [key](std::int64_t ns) { return fmt::format("{}: {}", key, ms(ns)); }};
         say(
             dial.words(dial.now), line_of(key, task.line), [set](Plan& plan) { set(plan, 1'000); }, dial);

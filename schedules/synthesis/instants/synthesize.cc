@@ -123,4 +123,15 @@ Feasible feasible(const Plan& plan) {
   return result;
 }
 
+bool passes(const Plan& plan) {
+  for (const Candidate& candidate : candidates(plan)) {
+    const auto read = read_of(plan, candidate);
+    if (!read) continue;
+    const Search found = place(read->reading, {}, true);
+    if (found.best && check::check(with_instants(plan, read->timed, read->reading, found.best->solution)).empty())
+      return true;
+  }
+  return false;
+}
+
 }  // namespace ttf::schedules::synthesis::instants

@@ -57,6 +57,9 @@ struct Feasible {
 };
 Feasible feasible(const plan::Plan& plan);
 
+// Returns whether instants that the search finds pass the check (schedules/check/checker.h).
+bool passes(const plan::Plan& plan);
+
 // The name in a plan, and the unit.
 const char* name_of(plan::Goal goal);
 
