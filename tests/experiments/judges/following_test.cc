@@ -71,6 +71,14 @@ TEST(GapError, GrowsWithAgeAndPeriod) {
   }
 }
 
+// It need not grow: a long time gap and a long period bring the loop close to its limit.
+TEST(GapError, MayFallWithTheAge) {
+  const FollowingVehicle vehicle{7.254, 0.0088, 69.058, 1.0};
+  const Duration period = Duration::microseconds(914'900);
+  EXPECT_LT(gap_error(vehicle, of_one_age(period, Duration::milliseconds(90))),
+            0.5 * gap_error(vehicle, of_one_age(period, Duration::microseconds(32'800))));
+}
+
 // x' = -x + w, sampled for nothing: the variance is 1/2. With x' = x + w there is none.
 TEST(TimetableCost, OfANoisyIntegratorIsItsVariance) {
   for (const double rate : {-1.0, 1.0}) {
