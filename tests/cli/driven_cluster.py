@@ -3,8 +3,8 @@
 
   driven_cluster.py PROGRAM EXPERIMENT PARADIGM AXIS=VALUE SYNTHESISED
 
-Takes the paradigm's cluster file with all that it derives, replaces the keys that this value of the axis varies, and
-prints each key in which the result differs from the synthesised cluster. The name may differ."""
+Takes the paradigm's whole cluster file. Replaces the keys that this value of the axis varies. Prints each key that
+differs. The name may differ."""
 import pathlib
 import re
 import subprocess

@@ -1,7 +1,7 @@
-// Any text as signals to pack, and as places that stand; one that begins with a tag is a bus. Laws: each mistake is a
-// finding with the file's name. Accepted signals have a place unless they are named as impossible, the packing passes
-// the checker and is not below its bound, and its file is read again as the same packing. Places that stand do not
-// move, and the bus of each variant has each signal in its cycles.
+// Any text as signals to pack, and as places that stand. One that begins with a tag is a bus. Each mistake is a finding.
+// Each accepted signal has a place, or is named as impossible. The packing passes the checker. It is not below its
+// bound. Its file is read again as the same packing. Places that stand do not move. The bus of each variant has each
+// signal in its cycles.
 #include <algorithm>
 #include <string>
 

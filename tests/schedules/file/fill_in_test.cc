@@ -122,6 +122,20 @@ TEST(FillIn, ADynamicSlotHasItsCycles) {
   EXPECT_EQ(first_finding("pdu: image", "slot: 200, pdu: image").substr(0, 32), "frames[5].base_cycle: is missing");
 }
 
+// The cause is named: a frame that is too long, a load, a list without frames.
+TEST(FillIn, ACanWithoutBoundsIsNamed) {
+  EXPECT_EQ(first_finding("fragment_bytes: 8\n", "fragment_bytes: 16\n"),
+            "can.camera_can.messages (camera_frame): must fit a frame of this CAN, at most 8 bytes");
+  EXPECT_EQ(first_finding("nominal_bit_rate: 1000000\n    data", "nominal_bit_rate: 100000\n    data").substr(0, 121),
+            "nodes.laser_pre.tasks.preprocess.activation.offset: must be in the file: laser_scan, which it reads, "
+            "comes at no "
+            "certain ");
+  EXPECT_EQ(
+      first_finding("  - \\{sender: laser_pre, pdu: laser_objects\\}\n", ""),
+      "nodes.fusion.tasks.fuse_laser.activation.offset: must be in the file: laser_objects, which it reads, has no "
+      "static slots");
+}
+
 // The status frames have the lowest slots that no one else has.
 TEST(FillIn, StatusFramesHaveTheKeySlotOrTheLowestOne) {
   std::string text = without_derived("paper_planned");

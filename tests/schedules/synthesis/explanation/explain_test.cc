@@ -57,6 +57,18 @@ TEST(Explain, LargestAgesAreThoseOfTheCheck) {
   EXPECT_FALSE(with(best_us - 2).found);
 }
 
+// An offered value passes the check, too: the task ends before its next activation. A best case bounds them.
+TEST(Explain, OfferedValuesPassTheCheck) {
+  const std::string text = changed(plan_text("paper"), "(use:\\n(?: .*\\n)*?        worst_case:) 1 ms", "$1 40 ms");
+  const Explanation why = explain(plan::parse_plan(text, "plan.yaml"));
+  const std::string key = "nodes.feature.tasks.use.worst_case: ";
+  const auto offered =
+      std::find_if(why.changes.begin(), why.changes.end(), [&](const auto& one) { return one.text.starts_with(key); });
+  ASSERT_NE(offered, why.changes.end());
+  const std::string mended = changed(text, "worst_case: 40 ms", "worst_case: " + offered->text.substr(key.size()));
+  EXPECT_TRUE(synthesize(plan::parse_plan(mended, "plan.yaml")).found) << offered->text;
+}
+
 // The least change of a number is enough, and the next smaller one is not.
 TEST(Explain, ChangesAreTheLeastOnes) {
   const std::string text = changed(plan_text("paper"), "largest_age: 60 ms", "largest_age: 54 ms");

@@ -143,7 +143,7 @@ TEST(Placement, LimitsAreKept) {
   }
 }
 
-// Two pieces of 5 that may end at the use, of heads 10 and 8: the younger one stands before the older one.
+// Two pieces of 5 may end at the use. Their heads are 10 and 8. The younger one stands first.
 TEST(Bounds, JacksonsScheduleByHand) {
   EXPECT_EQ(jackson({{0, 5, 10}, {0, 5, 8}}), 18);
   EXPECT_EQ(jackson({{0, 5, 10}, {0, 5, 4}}), 15);

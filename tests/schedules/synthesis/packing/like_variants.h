@@ -1,5 +1,4 @@
-// Draws signals of several variants: those of like_instance.h, of which some are in all variants and the others in a
-// drawn set of them.
+// Draws signals of several variants: those of like_instance.h. Some are in all variants. The others are in a drawn set.
 #pragma once
 
 #include "tests/schedules/synthesis/packing/like_instance.h"

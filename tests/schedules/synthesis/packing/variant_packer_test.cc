@@ -23,7 +23,7 @@ std::vector<Violation> broken_by_variant(const Instance& instance, const Solutio
   return variant_violations(instance, assigned(solution.places, slot_numbers({}, solution.bins, 1, ChannelUse::kOne)));
 }
 
-// Up to five signals of two nodes and three variants in frames of at most 4 bits, over 1, 2 or 4 cycles.
+// Up to five signals of two nodes and three variants. Frames have at most 4 bits. They repeat in 1, 2 or 4 cycles.
 Instance tiny_variants(std::uint64_t seed, bool shared) {
   RandomStream random({seed, 2, Purpose::kTest});
   Instance instance{{"a", "b"},     {}, static_cast<int>(random.integer(1, 4)), 1 << random.integer(0, 2), shared,
