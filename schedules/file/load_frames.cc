@@ -70,7 +70,13 @@ class FrameLoader {
   bool is_taken(int slot, NodeId sender) const {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       if (static_cast<NodeId>(n) != sender && key_slot(static_cast<NodeId>(n)) == slot) return true;
-    return std::any_of(cluster_.frames.begin(), cluster_.frames.end(),
+    const auto of_list = [&](const left_out::List& list) {
+      const bool known = index_of(list.pdu) < cluster_.pdus.size();
+      return !list.at.instant && slot >= list.slot &&
+             slot < list.slot + (known ? cluster_.pdu(list.pdu).max_fragments() : 1);
+    };
+    return std::any_of(lists_.begin(), lists_.end(), of_list) ||
+           std::any_of(cluster_.frames.begin(), cluster_.frames.end(),
                        [&](const model::FrameSlot& frame) { return frame.slot == slot; });
   }
   int lowest_free(NodeId sender) const {

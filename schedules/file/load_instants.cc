@@ -22,9 +22,9 @@ void load_multiplexing(YamlMap& map, const model::GlobalParameters& flexray, con
   absent.instant = !base;
   absent.repetition = !every;
   if (within != nullptr && may.instant && base && map.lacks(within))
-    map.fail(within, "is missing: a file leaves out both base_cycle and it, or neither");
+    map.fail(within, fmt::format("is missing: base_cycle and {} are both written, or both left out", within));
   if (within != nullptr && may.instant && !base && map.has(within))
-    map.fail("base_cycle", fmt::format("is missing: a file leaves out both {} and it, or neither", within));
+    map.fail("base_cycle", fmt::format("is missing: base_cycle and {} are both written, or both left out", within));
   base_cycle = static_cast<int>(base.value_or(0));
   repetition = static_cast<int>(every.value_or(within == nullptr || absent.instant ? 1 : allowed.back()));
   bool usable = true;

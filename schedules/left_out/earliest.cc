@@ -62,9 +62,11 @@ class Putting {
           add_waits(sources_.ready(*writer), found);
         break;
       case Place::Kind::kTask:
-        for (const model::PortBinding& in : task_at(cluster_, item.place.task).reads)
-          add_waits(sources_.arrival(in.pdu, in.medium), found);
-        if (writes_image(cluster_, item.place.task)) wait_for_fusion(item.place.task, found);
+        for (const TaskId& task : with_followers(item.place.task)) {
+          for (const model::PortBinding& in : task_at(cluster_, task).reads)
+            add_waits(sources_.arrival(in.pdu, in.medium), found);
+          if (writes_image(cluster_, task)) wait_for_fusion(item.place.task, found);
+        }
     }
     return found;
   }
@@ -80,11 +82,19 @@ class Putting {
     }
   }
 
+  std::vector<TaskId> with_followers(TaskId task) const {
+    std::vector<TaskId> all = followers(cluster_, task);
+    all.insert(all.begin(), task);
+    return all;
+  }
+
   void wait_for_fusion(TaskId image, std::vector<Wait>& found) const {
     for (std::size_t t = 0; t < cluster_.node(image.node).tasks.size(); ++t) {
       const TaskId other{image.node, t};
       const auto fusing = items_.places.find({Place::Kind::kTask, kNoSensor, other, kNoPdu});
-      if (other != image && fusing != items_.places.end() && fuses(cluster_, other))
+      if (other == image || fusing == items_.places.end()) continue;
+      const std::vector<TaskId> all = with_followers(other);
+      if (std::any_of(all.begin(), all.end(), [&](TaskId one) { return fuses(cluster_, one); }))
         found.push_back({fusing->second, items_.all[fusing->second].duration});
     }
   }
@@ -223,7 +233,9 @@ void use_key_slots(const model::Cluster& cluster, std::vector<List>& lists) {
     if (!flexray || cluster.pdu(list.pdu).max_fragments() > 1) continue;
     const int slot = flexray->pKeySlotId;
     const bool every_cycle = list.at.repetition || list.repetition == 1;
-    if (!every_cycle || (!list.at.instant && (list.slot != slot || list.base_cycle != 0))) continue;
+    if (list.channels != flexray->pChannels || !every_cycle ||
+        (!list.at.instant && (list.slot != slot || list.base_cycle != 0)))
+      continue;
     const bool taken = std::any_of(cluster.frames.begin(), cluster.frames.end(),
                                    [&](const model::FrameSlot& frame) { return frame.slot == slot; });
     const bool promised = std::any_of(lists.begin(), lists.end(), [&](const List& other) {

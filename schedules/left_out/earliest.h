@@ -1,7 +1,8 @@
 // Puts what a cluster file leaves out of its schedule where it follows from the rest: each as early as may be.
 //
 //   sensor   measures at the beginning of the first cycle
-//   task     begins when all lists that it reads are certainly there, and its processor is free. The task that writes the image
+//   task     begins when all lists that it reads are certainly there, and its processor is free for it and all that follow it. Lists
+//            that no instant of the schedule begins do not count. The task that writes the image
 //            begins behind all tasks of its node that fuse
 //   list     has the first free static slots, one behind the other, that begin when its writer has certainly ended
 //

@@ -54,9 +54,12 @@ class Collector {
         const model::Task& task = node.tasks[t];
         if (!by_time(task)) continue;
         const Task& left = parts_.tasks[n][t];
-        add({Place::Kind::kTask, kNoSensor, {static_cast<NodeId>(n), t}, kNoPdu},
+        const TaskId id{static_cast<NodeId>(n), t};
+        Duration executions = task.worst_case;  // with all that follow it
+        for (const TaskId& follower : followers(cluster_, id)) executions += task_at(cluster_, follower).worst_case;
+        add({Place::Kind::kTask, kNoSensor, id, kNoPdu},
             fmt::format("nodes.{}.tasks.{}.activation", node.name, task.name), left.line, task.activation.at.repetition,
-            ticks(g_, analysis::least_apart(cluster_, node, task.worst_case).ns),
+            ticks(g_, analysis::least_apart(cluster_, node, executions).ns),
             left.at.instant ? std::nullopt : std::optional(at(task.activation.at)));
       }
     }

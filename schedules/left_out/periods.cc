@@ -21,8 +21,12 @@ Periods::Periods(model::Cluster& cluster, const std::vector<std::vector<Task>>& 
 void Periods::set(std::vector<List>& lists) {
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
     for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) (void)of({static_cast<NodeId>(n), t});
-  for (List& list : lists)
-    if (list.at.repetition) list.repetition = of_list(list.pdu, model::kFlexRay);
+  for (List& list : lists) {
+    if (!list.at.repetition) continue;
+    const int written = of_list(list.pdu, model::kFlexRay);
+    for (const int repetition : model::frame_repetitions(cluster_.flexray))
+      if (written % repetition == 0) list.repetition = repetition;
+  }
 }
 
 int Periods::of(TaskId id) {

@@ -1,7 +1,8 @@
 // The periods that follow from others.
 //
 //   A task has the shortest repetition of the lists that it reads; without lists, that of the tasks of its node that fuse.
-//   A list has its writer's, and a writer that a sensor activates has the sensor's.
+//   A list has its writer's, or else the largest repetition of a frame that divides it. A writer that a sensor activates has
+//   the sensor's.
 #pragma once
 
 #include <vector>

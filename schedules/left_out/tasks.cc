@@ -24,6 +24,18 @@ bool writes_image(const model::Cluster& cluster, TaskId id) {
                      [&](const auto& out) { return cluster.pdu(out.pdu).sensor == kNoSensor; });
 }
 
+std::vector<TaskId> followers(const model::Cluster& cluster, TaskId id) {
+  const std::vector<model::Task>& tasks = cluster.node(id.node).tasks;
+  std::vector<TaskId> found{id};
+  for (std::size_t i = 0; i < found.size() && found.size() <= tasks.size(); ++i)
+    for (std::size_t t = 0; t < tasks.size(); ++t)
+      if (tasks[t].activation.kind == model::ActivationKind::kCompletion &&
+          tasks[t].activation.after == tasks[found[i].task].name)
+        found.push_back({id.node, t});
+  found.erase(found.begin());
+  return found;
+}
+
 std::optional<TaskId> writer_of(const model::Cluster& cluster, PduId pdu, model::MediumId medium) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     for (std::size_t t = 0; t < cluster.nodes[n].tasks.size(); ++t)

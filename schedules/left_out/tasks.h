@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "core/ids.h"
 #include "schedules/model/cluster.h"
@@ -24,6 +25,9 @@ bool fuses(const model::Cluster& cluster, TaskId id);
 
 // Returns whether the task writes a list of no single sensor, as the image is.
 bool writes_image(const model::Cluster& cluster, TaskId id);
+
+// Returns the tasks that follow this one, each at the end of the one before it.
+std::vector<TaskId> followers(const model::Cluster& cluster, TaskId id);
 
 // Returns the first task that writes the list.
 std::optional<TaskId> writer_of(const model::Cluster& cluster, PduId pdu, model::MediumId medium);

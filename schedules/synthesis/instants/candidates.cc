@@ -121,25 +121,6 @@ std::vector<int> payloads(const Plan& plan) {
   return found;
 }
 
-// Returns the channels that a list on one channel may have: those of its sender and of all its readers.
-std::vector<model::Channels> one_of(const Plan& plan, std::size_t list) {
-  const model::Cluster& cluster = plan.cluster;
-  const PlannedList& planned = plan.lists[list];
-  const auto attached = [](const model::Node& node, model::Channels channel) {
-    return node.flexray && share_a_channel(node.flexray->pChannels, channel);
-  };
-  std::vector<model::Channels> found;
-  for (const model::Channels channel : {model::Channels::kA, model::Channels::kB}) {
-    bool all = attached(cluster.node(planned.sender), channel);
-    for (const model::Node& node : cluster.nodes)
-      for (const model::Task& task : node.tasks)
-        for (const model::PortBinding& in : task.reads)
-          all = all && (in.pdu != planned.pdu || !in.medium.is_flexray() || attached(node, channel));
-    if (all) found.push_back(channel);
-  }
-  return found;
-}
-
 // Whether the channels may change places: nothing else is on one of them alone.
 bool channels_are_alike(const Plan& plan) {
   const auto on_both = [](const auto& sent) { return sent.channels == model::Channels::kAB; };
@@ -153,7 +134,8 @@ std::vector<std::vector<model::Channels>> channel_choices(const Plan& plan) {
   bool alike = channels_are_alike(plan);
   for (const std::size_t list : plan.one_channel) {
     std::vector<std::vector<model::Channels>> longer;
-    const std::vector<model::Channels> possible = one_of(plan, list);
+    const std::vector<model::Channels> possible =
+        plan::channels_to_readers(plan.cluster, plan.lists[list].sender, plan.lists[list].pdu);
     alike = alike && possible.size() == 2;
     for (const auto& choice : found)
       for (const model::Channels channel : possible) {

@@ -140,6 +140,9 @@ void read_one_channel(YamlMap& section, Plan& plan) {
       if (!leaves_out_channels(plan, plan.lists[l]))
         section.fail("one_channel", fmt::format("must name lists whose channels are left out; {} (line {}) says them",
                                                 name, plan.lists[l].line));
+      if (channels_to_readers(plan.cluster, plan.lists[l].sender, *pdu).empty())
+        section.fail("one_channel",
+                     fmt::format("must name lists whose sender and readers share a channel; those of {} do not", name));
       plan.one_channel.push_back(l);
     }
     if (plan.one_channel.size() == before)

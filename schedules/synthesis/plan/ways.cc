@@ -84,4 +84,20 @@ std::vector<Hop> way_to_use(const model::Cluster& cluster, SensorId sensor) {
   return Walker(cluster, sensor).walk([&](TaskId at) { return by_time(task_at(cluster, at)) && fuses(cluster, at); });
 }
 
+std::vector<model::Channels> channels_to_readers(const model::Cluster& cluster, NodeId sender, PduId pdu) {
+  const auto attached = [](const model::Node& node, model::Channels channel) {
+    return node.flexray && share_a_channel(node.flexray->pChannels, channel);
+  };
+  std::vector<model::Channels> found;
+  for (const model::Channels channel : {model::Channels::kA, model::Channels::kB}) {
+    bool all = attached(cluster.node(sender), channel);
+    for (const model::Node& node : cluster.nodes)
+      for (const model::Task& task : node.tasks)
+        for (const model::PortBinding& in : task.reads)
+          all = all && (in.pdu != pdu || !in.medium.is_flexray() || attached(node, channel));
+    if (all) found.push_back(channel);
+  }
+  return found;
+}
+
 }  // namespace ttf::schedules::synthesis::plan

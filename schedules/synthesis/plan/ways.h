@@ -30,4 +30,7 @@ std::vector<Hop> way_to(const model::Cluster& cluster, SensorId sensor, TaskId t
 // fuses; none if neither begins by time.
 std::vector<Hop> way_to_use(const model::Cluster& cluster, SensorId sensor);
 
+// Returns the channels, A and B, that lead from the list's sender to all its readers.
+std::vector<model::Channels> channels_to_readers(const model::Cluster& cluster, NodeId sender, PduId pdu);
+
 }  // namespace ttf::schedules::synthesis::plan

@@ -90,16 +90,14 @@ std::string first_finding(const std::string& words, const std::string& by) {
 }
 
 TEST(FillIn, BothPartsOfAnInstantAreWrittenOrNone) {
-  EXPECT_EQ(
-      first_finding("kind: time", "kind: time, offset: 5"),
-      "nodes.laser_pre.tasks.preprocess.activation.base_cycle: is missing: a file leaves out both offset and it, or "
-      "neither");
-  EXPECT_EQ(
-      first_finding("kind: time", "kind: time, base_cycle: 0"),
-      "nodes.laser_pre.tasks.preprocess.activation.offset: is missing: a file leaves out both base_cycle and it, or "
-      "neither");
+  EXPECT_EQ(first_finding("kind: time", "kind: time, offset: 5"),
+            "nodes.laser_pre.tasks.preprocess.activation.base_cycle: is missing: base_cycle and offset are both "
+            "written, or both left out");
+  EXPECT_EQ(first_finding("kind: time", "kind: time, base_cycle: 0"),
+            "nodes.laser_pre.tasks.preprocess.activation.offset: is missing: base_cycle and offset are both written, "
+            "or both left out");
   EXPECT_EQ(first_finding("pdu: image", "slot: 20, pdu: image"),
-            "frames[5].base_cycle: is missing: a file leaves out both slot and it, or neither");
+            "frames[5].base_cycle: is missing: base_cycle and slot are both written, or both left out");
 }
 
 TEST(FillIn, ABaseCycleIsBelowTheRepetitionThatFollows) {
@@ -169,6 +167,13 @@ TEST(PduLikeAnother, HasWhatItLacks) {
     ASSERT_FALSE(findings.empty());
     EXPECT_EQ(findings[0].key, "pdus.camera_objects.like");
   }
+}
+
+TEST(FillIn, AStatusFrameKeepsOffTheSlotsOfLists) {
+  std::string text = std::regex_replace(without_derived("paper_planned"), std::regex("pKeySlotId: \\d"), "");
+  text = std::regex_replace(text, std::regex("pdu: image"), "slot: 1, base_cycle: 0, pdu: image");
+  const model::Cluster cluster = parse_cluster(text, "cluster.yaml");
+  EXPECT_EQ(cluster.node(*cluster.find_node("laser_pre")).flexray->pKeySlotId, 14);
 }
 
 TEST(FillIn, AnExperimentVariesWhatFollows) {

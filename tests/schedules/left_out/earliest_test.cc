@@ -108,6 +108,30 @@ TEST(EarliestInstants, TasksOfANodeTakeTurns) {
   }
 }
 
+// The image's task follows the one that fuses. Both have the processor, and the image is written by 3.2 ms all the same.
+TEST(EarliestInstants, TasksThatFollowCount) {
+  Small one;
+  one.leave_out_instants();
+  model::Task& publish = one.cluster.nodes[1].tasks[1];
+  publish.activation = {};
+  publish.activation.kind = model::ActivationKind::kCompletion;
+  publish.activation.after = "fuse";
+  one.parts.tasks[1][1].at = {};
+  // The processor is free from 1.5 to 3.55 ms: enough for fusion, and not for both.
+  one.cluster.nodes[1].tasks.push_back(timed("other", {0, 1, Macroticks{3550}}, Duration::microseconds(2950)));
+  one.parts.tasks[1].push_back({});
+  one.put();
+  EXPECT_NE(sentences(one.findings.list()).find("the other tasks of the node leave no time for it"), std::string::npos);
+}
+
+TEST(EarliestInstants, AFrameHasARepetitionThatControllersKnow) {
+  Small one;
+  one.cluster.flexray.gCycleCountMax = 59;
+  one.cluster.sensors[0].at.repetition = 6;
+  one.put();
+  EXPECT_EQ(one.parts.lists[0].repetition, 2);  // of 1, 2, 4, 5, 10, 20
+}
+
 TEST(EarliestInstants, WithoutRoomOrBeginningThereIsASentence) {
   {
     Small one;
