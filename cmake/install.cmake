@@ -53,7 +53,7 @@ install(DIRECTORY scenarios experiments schedules DESTINATION ${data}
   FILES_MATCHING PATTERN "*.yaml" PATTERN "*.dbc" PATTERN schedules/task_sets/*.csv
   PATTERN experiments/campaign EXCLUDE PATTERN experiments/cost EXCLUDE PATTERN experiments/judges EXCLUDE PATTERN experiments/mpi EXCLUDE PATTERN experiments/results EXCLUDE
   PATTERN experiments/sweep EXCLUDE PATTERN schedules/analysis EXCLUDE PATTERN schedules/check EXCLUDE
-  PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/model EXCLUDE PATTERN schedules/modes EXCLUDE
+  PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/left_out EXCLUDE PATTERN schedules/model EXCLUDE PATTERN schedules/modes EXCLUDE
   PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
 install(DIRECTORY schemas DESTINATION ${data})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
