@@ -44,10 +44,7 @@ class FrameLoader {
       derive(frame, "slot", fmt::format("{}", frame.slot));
       cluster_.frames.push_back(frame);
     }
-    std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(),
-                     [](const model::FrameSlot& a, const model::FrameSlot& b) {
-                       return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
-                     });
+    model::order(cluster_.frames);
   }
 
  private:

@@ -18,18 +18,6 @@
 namespace ttf::schedules::left_out {
 namespace {
 
-void add_frames(model::Cluster& cluster, const List& list) {
-  for (int f = 0; f < cluster.pdu(list.pdu).max_fragments(); ++f) {
-    model::FrameSlot frame{list.slot + f, list.channels, list.base_cycle, list.repetition, list.sender, list.pdu, f,
-                           list.line};
-    frame.entry = list.entry;
-    cluster.frames.push_back(frame);
-  }
-  std::stable_sort(cluster.frames.begin(), cluster.frames.end(), [](const auto& a, const auto& b) {
-    return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
-  });
-}
-
 // An item before another one, and the time from its beginning to the earliest of the other.
 struct Wait {
   std::size_t item = 0;
@@ -40,7 +28,9 @@ class Putting {
  public:
   Putting(model::Cluster& cluster, Parts& parts, Findings& findings)
       : cluster_(cluster), parts_(parts), findings_(findings), apart_ns_(analysis::clock_bounds(cluster).apart_ns),
-        sources_(cluster), items_(items_of(cluster, parts)) {}
+        sources_(cluster), items_(items_of(cluster, parts)), earliest_(items_.all.size()) {
+    for (const Item& item : items_.all) needs_.push_back(waits(item));
+  }
 
   void put() {
     for (const List& list : parts_.lists)
@@ -99,14 +89,18 @@ class Putting {
     }
   }
 
-  // Returns when all that the item waits for is there; none while something of it does not stand.
-  std::optional<Ticks> earliest(const std::vector<Wait>& waits) const {
-    Ticks found = 0;
-    for (const Wait& wait : waits) {
-      if (!stands(wait.item)) return std::nullopt;
-      found = std::max(found, *items_.all[wait.item].at + wait.gap);
+  // Returns when all that the item waits for is there; none while something of it does not stand. Gaps are counted once: when all
+  // of it stands.
+  std::optional<Ticks> earliest(std::size_t item) {
+    const std::vector<Wait>& needs = needs_[item];
+    if (!std::all_of(needs.begin(), needs.end(), [&](const Wait& wait) { return stands(wait.item); }))
+      return std::nullopt;
+    std::optional<Ticks>& from = earliest_[item];
+    if (!from) {
+      from = 0;
+      for (const Wait& wait : waits(items_.all[item])) from = std::max(*from, *items_.all[wait.item].at + wait.gap);
     }
-    return found;
+    return from;
   }
 
   // Returns the first beginning at or after `from` that the item may have.
@@ -124,12 +118,12 @@ class Putting {
   bool put_next() {
     Item* best = nullptr;
     Ticks first = 0;
-    for (Item& item : items_.all) {
+    for (std::size_t i = 0; i < items_.all.size(); ++i) {
+      Item& item = items_.all[i];
       if (item.at) continue;
-      const std::vector<Wait> waiting = waits(item);
-      if (waiting.empty() && !item.fixed && item.place.kind != Place::Kind::kMeasurement)
+      if (needs_[i].empty() && !item.fixed && item.place.kind != Place::Kind::kMeasurement)
         return refuse(item, 0, "must be in the file: " + no_beginning(item));
-      const auto from = earliest(waiting);
+      const auto from = earliest(i);
       if (!from) continue;
       const auto start = fitted(item, *from);
       if (!start)
@@ -204,9 +198,9 @@ class Putting {
     std::vector<std::size_t> way{static_cast<std::size_t>(left - items_.all.begin())};
     auto ring = way.end();
     while (ring == way.end()) {
-      const std::vector<Wait> waiting = waits(items_.all[way.back()]);
+      const std::vector<Wait>& needs = needs_[way.back()];
       const std::size_t next =
-          std::find_if(waiting.begin(), waiting.end(), [&](const Wait& wait) { return !stands(wait.item); })->item;
+          std::find_if(needs.begin(), needs.end(), [&](const Wait& wait) { return !stands(wait.item); })->item;
       ring = std::find(way.begin(), way.end(), next);
       if (ring != way.end()) break;
       way.push_back(next);
@@ -223,9 +217,21 @@ class Putting {
   std::int64_t apart_ns_;
   Sources sources_;
   Items items_;
+  std::vector<std::vector<Wait>> needs_;        // by item; their gaps change until these stand
+  std::vector<std::optional<Ticks>> earliest_;  // by item, once all that it needs stands
 };
 
 }  // namespace
+
+void add_frames(model::Cluster& cluster, const List& list) {
+  for (int f = 0; f < cluster.pdu(list.pdu).max_fragments(); ++f) {
+    model::FrameSlot frame{list.slot + f, list.channels, list.base_cycle, list.repetition, list.sender, list.pdu, f,
+                           list.line};
+    frame.entry = list.entry;
+    cluster.frames.push_back(frame);
+  }
+  model::order(cluster.frames);
+}
 
 void use_key_slots(const model::Cluster& cluster, std::vector<List>& lists) {
   for (List& list : lists) {

@@ -27,6 +27,9 @@ void use_key_slots(const model::Cluster& cluster, std::vector<List>& lists);
 // room for it. The cluster must be whole otherwise; `parts.lists` get their values as well.
 void put_earliest(model::Cluster& cluster, Parts& parts, Findings& findings);
 
+// Adds the frames of a whole list, in consecutive slots.
+void add_frames(model::Cluster& cluster, const List& list);
+
 // Sets the deadlines of tasks that are left out: the longest time from activation to end, rounded up to 10 us. Without a bound, the
 // longest execution.
 void set_deadlines(model::Cluster& cluster, const std::vector<std::vector<Task>>& tasks);

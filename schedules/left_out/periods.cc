@@ -34,7 +34,7 @@ int Periods::of(TaskId id) {
   if (known == kAsked) return seldom_;  // a ring: its other lists decide
   if (known != 0) return known;
   known = kAsked;
-  const int found = find(id);
+  const int found = derived(id);
   model::Task& task = cluster_.nodes[index_of(id.node)].tasks[id.task];
   if (by_time(task) && tasks_[index_of(id.node)][id.task].at.repetition) task.activation.at.repetition = found;
   return state_[index_of(id.node)][id.task] = found;
@@ -45,7 +45,7 @@ int Periods::of_list(PduId pdu, model::MediumId medium) {
   return writer ? of(*writer) : seldom_;
 }
 
-int Periods::find(TaskId id) {
+int Periods::derived(TaskId id) {
   const model::Task& task = task_at(cluster_, id);
   if (task.activation.kind == model::ActivationKind::kSensor) {
     const model::Sensor& sensor = cluster_.sensor(task.activation.sensor);

@@ -26,7 +26,7 @@ class Periods {
   int of_list(PduId pdu, model::MediumId medium);
 
  private:
-  int find(TaskId id);
+  int derived(TaskId id);
 
   model::Cluster& cluster_;
   const std::vector<std::vector<Task>>& tasks_;

@@ -23,6 +23,12 @@ std::string_view channels_text(Channels channels) {
   return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
 }
 
+void order(std::vector<FrameSlot>& frames) {
+  std::stable_sort(frames.begin(), frames.end(), [](const FrameSlot& a, const FrameSlot& b) {
+    return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
+  });
+}
+
 bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
   const int common = std::gcd(a.repetition, b.repetition);
   return a.base_cycle % common == b.base_cycle % common;

@@ -58,6 +58,9 @@ struct FrameSlot {
   std::optional<int> entry = std::nullopt;
 };
 
+// Puts frames in the order of Cluster::frames. Equal ones keep theirs.
+void order(std::vector<FrameSlot>& frames);
+
 inline constexpr int kMessageIdBytes = 2;
 
 // Returns whether the instant or frame takes place in a cycle. `cycle` is the cycle counter or a running number,

@@ -40,14 +40,12 @@ model::Cluster with_instants(const Plan& plan, const Timed& timed, const Reading
     const PlannedList& list = timed.lists[l];
     model::CycleInstant at;
     set(at, reading.lists[l]);
-    const int slot = static_cast<int>(at.offset.value / g.gdStaticSlot) + 1;
-    for (int f = 0; f < cluster.pdu(list.pdu).max_fragments(); ++f)
-      cluster.frames.push_back(
-          {slot + f, list.channels, at.base_cycle, list.repetition, list.sender, list.pdu, f, list.line});
+    PlannedList placed = list;
+    placed.base_cycle = at.base_cycle;
+    placed.slot = static_cast<int>(at.offset.value / g.gdStaticSlot) + 1;
+    placed.entry.reset();  // copies of a list have no entry of their own
+    left_out::add_frames(cluster, placed);
   }
-  std::stable_sort(cluster.frames.begin(), cluster.frames.end(), [](const auto& a, const auto& b) {
-    return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
-  });
   left_out::set_deadlines(cluster, plan.tasks);
   return cluster;
 }

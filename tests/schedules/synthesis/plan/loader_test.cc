@@ -217,5 +217,14 @@ TEST(PlanLoader, AListWithChannelsIsNotOnOneThatThePlanChooses) {
   EXPECT_NE(findings[0].expected.find("whose channels are left out"), std::string::npos);
 }
 
+TEST(PlanLoader, OneChannelLeadsFromTheSenderToAllReaders) {
+  std::string text = changed(plan_text("paper"), "plan:\n", "plan:\n  one_channel: [image]\n");
+  text = changed(text, "pKeySlotId: 4", "pKeySlotId: 4, pChannels: A");
+  text = changed(text, "pKeySlotId: 5", "pKeySlotId: 5, pChannels: B");
+  const auto findings = plan_findings(text);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NE(findings[0].expected.find("share a channel; those of image do not"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ttf::schedules::synthesis::plan
