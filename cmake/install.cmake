@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The rooms that other projects may use, for find_package(ttfusion COMPONENTS ...), with their headers by the paths by which
+# The modules that other projects may use, for find_package(ttfusion COMPONENTS ...), with their headers by the paths by which
 # they include each other. A part is a file of targets: ttfusionConfig.cmake.in says what a component needs.
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/ttfusion)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/ttfusion)
@@ -28,7 +28,7 @@ if(TTF_BUILD_PROGRAM)
   ttf_install_part(schedules ttf_schedules)
   ttf_install_part(recording ttf_wire ttf_records ttf_recording ttf_log_proto ttf_perfetto_proto ttf_foxglove_proto
     ttf_plots_proto ttf_osi_proto)
-  # Headers of generated code and of yaml-cpp are the rooms' own.
+  # Headers of generated code and of yaml-cpp are the modules' own.
   install(DIRECTORY core timebase schedules recording DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
     PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE
     PATTERN schedules/synthesis/smt EXCLUDE
@@ -55,7 +55,7 @@ install(DIRECTORY scenarios experiments schedules DESTINATION ${data}
   PATTERN experiments/sweep EXCLUDE PATTERN schedules/analysis EXCLUDE PATTERN schedules/check EXCLUDE
   PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/left_out EXCLUDE PATTERN schedules/model EXCLUDE PATTERN schedules/modes EXCLUDE
   PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
-install(DIRECTORY schemas DESTINATION ${data})
+install(DIRECTORY keys/schemas DESTINATION ${data})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

@@ -28,7 +28,7 @@ constexpr Description kCluster[] = {
     {"nodes.NAME.drift_ppm", "The oscillator deviates by exactly this; absent, by a drawn part of the most.", "50"},
     {"nodes.NAME.tasks", "The node has these tasks."},
     {"nodes.NAME.tasks.NAME.step",
-     "The task runs this code: a step of drives/step_catalog.h, or a library's file name that ends in .so "
+     "The task runs this code: a step of sim/drives/step_catalog.h, or a library's file name that ends in .so "
      "(docs/own_step.md).",
      "fusion"},
     {"nodes.NAME.tasks.NAME.activation", "The task is activated like this."},

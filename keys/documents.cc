@@ -4,14 +4,14 @@
 #include <optional>
 #include <string_view>
 
-#include "drives/scenario.h"
 #include "experiments/campaign/file.h"
 #include "experiments/sweep/file.h"
 #include "faults/plan.h"
 #include "nodes/laser/recorded_scans.h"
-#include "replay/config.h"
+#include "recording/replay/config.h"
 #include "schedules/file/loader.h"
 #include "schedules/synthesis/plan/loader.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::keys {
 namespace {
@@ -88,7 +88,7 @@ std::vector<Document> all() {
   return {
       {"scenario", "Scenario",
        "A scenario says what happens in a drive: world, sensors, tracker, faults, and the cluster of each strategy.",
-       [](const StrictYaml& yaml) { drives::read_scenario(yaml); }, scenario_chapters()},
+       [](const StrictYaml& yaml) { sim::drives::read_scenario(yaml); }, scenario_chapters()},
       {"cluster",
        "Cluster",
        "A cluster file says what happens in a cluster, and when: nodes, tasks, sensors, lists, FlexRay and CAN.",
@@ -114,7 +114,7 @@ std::vector<Document> all() {
       {"track",
        "Track configuration",
        "A track configuration says with which strategy, tracker and sensors `ttfusion track` replays observations.",
-       [](const StrictYaml& yaml) { replay::read_replay_config(yaml, {}, read_scans); },
+       [](const StrictYaml& yaml) { recording::replay::read_replay_config(yaml, {}, read_scans); },
        {{"", track_descriptions()},
         {"scans.preprocessing", laser_preprocessing_descriptions()},
         {"tracker", tracker_descriptions()},

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compares every source with the house's table, tools/house.toml: which room may include which, and by which doors. A test.
+"""Compares every source with the modules' table, tools/modules.toml: which module may include which, and by which public headers. A test.
 
     check_layers.py [REPOSITORY]      exit 1 and one line for every problem
 
-Between rooms, the rule covers every header that a file sees, directly or through others. Between sub-rooms and at doors, it
-covers the file's own includes. Every source lies in a room. The project's own headers are included with quotes, by their path
+Between modules, the rule covers every header that a file sees, directly or through others. Between parts and at public headers, it
+covers the file's own includes. Every source lies in a module. The project's own headers are included with quotes, by their path
 from the top. A source's namespace is its path (core/ is ttf itself); a test has the namespace of the folder that it mirrors.
 No source calls a C function whose state threads share.
 tests/tools/check_layers_test.py tries the ways around.
@@ -23,7 +23,7 @@ SHARED_STATE = {"lgamma": "lgamma_r", "lgammaf": "lgammaf_r", "strerror": "ttf::
                 "gmtime": "gmtime_r", "localtime": "localtime_r", "ctime": "strftime", "asctime": "strftime",
                 "strtok": "strtok_r", "rand": "ttf::RandomStream", "srand": "ttf::RandomStream",
                 "drand48": "ttf::RandomStream", "setlocale": "newlocale", "gethostbyname": "getaddrinfo"}
-# Folders that tests share; they mirror no room.
+# Folders that tests share; they mirror no module.
 SHARED_TESTS = {"laws", "support", "golden", "bench", "fuzz", "tools", "test_bed"}
 
 SOURCES = {".h", ".cc"}
@@ -36,46 +36,46 @@ TOKEN = re.compile(r'''R"(?P<mark>[^(\s"]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"
 DIRECTIVE = re.compile(r"^[ \t]*(?:#|%:|\?\?=)[ \t]*(?:include_next|include|import)\b[ \t]*(.*)$", re.MULTILINE)
 
 
-class House:
+class Modules:
     """The table, and the rules that follow from it."""
 
     def __init__(self, table: dict):
-        self.allowed = {room: list(rooms) for room, rooms in table["may_include"].items()}
-        for leaf, room in table.get("leaves", {}).items():
-            self.allowed[leaf] = self.allowed[room] + [room]
+        self.allowed = {module: list(modules) for module, modules in table["may_include"].items()}
+        for leaf, module in table.get("leaves", {}).items():
+            self.allowed[leaf] = self.allowed[module] + [module]
         everything = list(self.allowed)
         self.allowed["cli"] = everything
         self.allowed["tests"] = everything + ["cli"]
-        self.sub_rooms = table.get("sub_rooms", {})
-        self.doors = table.get("doors", {})
+        self.parts = table.get("parts", {})
+        self.public_headers = table.get("public_headers", {})
         self.threads = table.get("threads", {}).get("allowed", [])
         self.many_sources = table.get("more_than_25_sources", {})
 
-    def room_of(self, path: str) -> str | None:
-        matches = [room for room in self.allowed if path.startswith(room + "/")]
+    def module_of(self, path: str) -> str | None:
+        matches = [module for module in self.allowed if path.startswith(module + "/")]
         return max(matches, key=len) if matches else None
 
-    def sub_room_of(self, path: str) -> str | None:
-        """The room's own name for a file in its own folder."""
-        room = self.room_of(path)
-        if room is None:
+    def part_of(self, path: str) -> str | None:
+        """The module's own name for a file in its own folder."""
+        module = self.module_of(path)
+        if module is None:
             return None
-        rest = path[len(room) + 1:].split("/")
-        return room if len(rest) == 1 else f"{room}/{rest[0]}"
+        rest = path[len(module) + 1:].split("/")
+        return module if len(rest) == 1 else f"{module}/{rest[0]}"
 
     def may_use_threads(self, name: str) -> bool:
         return any(name == place or name.startswith(place + "/") for place in self.threads)
 
-    def place(self, sub_room: str, room: str) -> int | None:
-        """How high a sub-room lies in its room."""
-        name = "." if sub_room == room else sub_room[len(room) + 1:]
-        order = self.sub_rooms.get(room, ["."])
+    def place(self, part: str, module: str) -> int | None:
+        """How high a part lies in its module."""
+        name = "." if part == module else part[len(module) + 1:]
+        order = self.parts.get(module, ["."])
         return order.index(name) if name in order else None
 
 
-def read_house() -> House:
-    with open(pathlib.Path(__file__).parent / "house.toml", "rb") as file:
-        return House(tomllib.load(file))
+def read_modules() -> Modules:
+    with open(pathlib.Path(__file__).parent / "modules.toml", "rb") as file:
+        return Modules(tomllib.load(file))
 
 
 def directives(text: str) -> list[str]:
@@ -98,11 +98,11 @@ def source_files(root: pathlib.Path, folder: str = "") -> list[pathlib.Path]:
     return found
 
 
-def include_problem(house: House, root: pathlib.Path, include: str) -> str | None:
+def include_problem(table: Modules, root: pathlib.Path, include: str) -> str | None:
     """Returns the problem of a quoted include, or None. The including file does not matter."""
     parts = include.split("/")
-    if house.room_of(include) is None or "." in parts or ".." in parts or "" in parts:
-        return "is in no room: includes start with the folder's name"
+    if table.module_of(include) is None or "." in parts or ".." in parts or "" in parts:
+        return "is in no module: includes start with the folder's name"
     if not include.endswith(".h"):
         return "is no header"
     generated = (include.endswith(".pb.h") and (root / include).with_suffix("").with_suffix(".proto").is_file()
@@ -126,58 +126,58 @@ def seen_from(name: str, quoted: dict[str, list[str]]) -> dict[str, list[str]]:
 
 
 def circles(allowed: dict[str, list[str]]) -> list[str]:
-    """Rooms that may, by whatever way, include themselves."""
+    """Modules that may, by whatever way, include themselves."""
     found = []
-    for room in allowed:
-        reached, waiting = set(), list(allowed[room])
+    for module in allowed:
+        reached, waiting = set(), list(allowed[module])
         while waiting:
             target = waiting.pop()
             if target not in reached:
                 reached.add(target)
                 waiting += allowed.get(target, [])
-        if room in reached:
-            found.append(f"table: {room} may include itself, over other rooms")
+        if module in reached:
+            found.append(f"table: {module} may include itself, over other modules")
     return found
 
 
-def inside_problems(house: House, name: str, include: str) -> list[str]:
-    """Between sub-rooms: never upwards within a room, and through doors alone."""
-    room, target_room = house.room_of(name), house.room_of(include)
-    own, target = house.sub_room_of(name), house.sub_room_of(include)
-    if room == "tests" or own == target:
+def inside_problems(table: Modules, name: str, include: str) -> list[str]:
+    """Between parts: never upwards within a module, and through public headers alone."""
+    module, target_module = table.module_of(name), table.module_of(include)
+    own, target = table.part_of(name), table.part_of(include)
+    if module == "tests" or own == target:
         return []
     found = []
-    if room == target_room:
-        here, there = house.place(own, room), house.place(target, room)
+    if module == target_module:
+        here, there = table.place(own, module), table.place(target, module)
         if here is not None and there is not None and there > here:
             found.append(f'{name}: {own} may not include {target} ("{include}"), which lies above it')
-    if target in house.doors and include[len(target) + 1:] not in house.doors[target]:
-        found.append(f'{name}: "{include}" is no door of {target}')
+    if target in table.public_headers and include[len(target) + 1:] not in table.public_headers[target]:
+        found.append(f'{name}: "{include}" is no public header of {target}')
     return found
 
 
-def folder_problems(house: House, files: list[str]) -> list[str]:
+def folder_problems(table: Modules, files: list[str]) -> list[str]:
     found = []
     folders = {}
     for name in files:
         folders.setdefault(name.rsplit("/", 1)[0], []).append(name)
     for folder, sources in sorted(folders.items()):
-        room = house.room_of(folder + "/x")
-        if room is None:
+        module = table.module_of(folder + "/x")
+        if module is None:
             continue
-        if len(sources) > MOST_SOURCES and not folder.startswith("tests/") and folder not in house.many_sources:
-            found.append(f"{folder}: {len(sources)} sources in a folder; at most {MOST_SOURCES}, or a reason in tools/house.toml")
-        sub_room = house.sub_room_of(folder + "/x")
-        if room in house.sub_rooms and house.place(sub_room, room) is None:
-            found.append(f"{folder}: {sub_room} is no sub-room in tools/house.toml")
+        if len(sources) > MOST_SOURCES and not folder.startswith("tests/") and folder not in table.many_sources:
+            found.append(f"{folder}: {len(sources)} sources in a folder; at most {MOST_SOURCES}, or a reason in tools/modules.toml")
+        part = table.part_of(folder + "/x")
+        if module in table.parts and table.place(part, module) is None:
+            found.append(f"{folder}: {part} is no part in tools/modules.toml")
         parts = folder.split("/")[1:]
-        if room == "tests" and parts and parts[0] not in SHARED_TESTS:
-            rooms = house.allowed.keys() | house.doors.keys()
-            if not any("/".join(parts[:length]) in rooms for length in (len(parts), len(parts) - 1)):
-                found.append(f"{folder}: mirrors no room")
-    for folder in house.many_sources:
+        if module == "tests" and parts and parts[0] not in SHARED_TESTS:
+            modules = table.allowed.keys() | table.public_headers.keys()
+            if not any("/".join(parts[:length]) in modules for length in (len(parts), len(parts) - 1)):
+                found.append(f"{folder}: mirrors no module")
+    for folder in table.many_sources:
         if len(folders.get(folder, [])) <= MOST_SOURCES:
-            found.append(f"tools/house.toml: {folder} needs no reason")
+            found.append(f"tools/modules.toml: {folder} needs no reason")
     return found
 
 
@@ -211,16 +211,16 @@ def namespace_problems(name: str, text: str) -> list[str]:
             if space not in own and DEFINITION.search(body)]
 
 
-def problems(root: pathlib.Path, house: House) -> list[str]:
-    found = circles(house.allowed)
+def problems(root: pathlib.Path, table: Modules) -> list[str]:
+    found = circles(table.allowed)
     quoted = {}
     files = source_files(root)
     for file in files:
         name = file.relative_to(root).as_posix()
-        if house.room_of(name) is None:
-            found.append(f"{name}: is in no room")
+        if table.module_of(name) is None:
+            found.append(f"{name}: is in no module")
             continue
-        if file.suffix not in SOURCES and not (file.suffix == ".c" and house.room_of(name) in MAY_BE_IN_C):
+        if file.suffix not in SOURCES and not (file.suffix == ".c" and table.module_of(name) in MAY_BE_IN_C):
             found.append(f"{name}: sources are .h and .cc")
         quoted[name] = []
         text = file.read_text(encoding="utf-8")
@@ -228,32 +228,32 @@ def problems(root: pathlib.Path, house: House) -> list[str]:
         found += shared_state_problems(name, text)
         for argument in directives(text):
             if quotes := re.fullmatch(r'"([^"]+)"', argument):
-                if problem := include_problem(house, root, quotes[1]):
+                if problem := include_problem(table, root, quotes[1]):
                     found.append(f'{name}: "{quotes[1]}" {problem}')
                 else:
                     quoted[name].append(quotes[1])
-                    found += inside_problems(house, name, quotes[1])
+                    found += inside_problems(table, name, quotes[1])
             elif angles := re.fullmatch(r"<([^>]+)>", argument):
                 parts = angles[1].split("/")
-                if ".." in parts or "." in parts or "" in parts or (root / angles[1]).exists() or house.room_of(angles[1]):
+                if ".." in parts or "." in parts or "" in parts or (root / angles[1]).exists() or table.module_of(angles[1]):
                     found.append(f"{name}: <{angles[1]}>: the project's own headers are included with quotes")
-                if angles[1] in THREAD_HEADERS and not house.may_use_threads(name):
+                if angles[1] in THREAD_HEADERS and not table.may_use_threads(name):
                     found.append(f"{name}: <{angles[1]}>: threads live only in the runner, the media, the log writer and "
                                  "the sweep engine")
             else:
                 found.append(f"{name}: #include {argument}: includes name a file")
     for name in quoted:
-        room = house.room_of(name)
+        module = table.module_of(name)
         for include, way in seen_from(name, quoted).items():
-            target = house.room_of(include)
-            if target != room and target not in house.allowed[room]:
+            target = table.module_of(include)
+            if target != module and target not in table.allowed[module]:
                 over = f" over {', '.join(way)}" if way else ""
-                found.append(f'{name}: {room} may not include {target} ("{include}"{over})')
-    return found + folder_problems(house, list(quoted))
+                found.append(f'{name}: {module} may not include {target} ("{include}"{over})')
+    return found + folder_problems(table, list(quoted))
 
 
 if __name__ == "__main__":
     top = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
-    result = problems(top, read_house())
+    result = problems(top, read_modules())
     print("\n".join(result) or "layers: every include obeys the table")
     sys.exit(1 if result else 0)

@@ -13,10 +13,10 @@ clang_warnings() {                                                     # everyth
   cmake --build build/clang --target all benchmarks slow_tests
 }
 sanitizers() { tools/sanitize.sh --slow; }                             # slow tests, and those by the wall clock
-threads() {                                                            # the thread sanitizer, all of these rooms' tests
+threads() {                                                            # the thread sanitizer, all of these modules' tests
   tools/threads.sh test_sweep test_experiments test_runner test_recording test_dds test_dds_network test_dds_live
 }
-tidy() { tools/tidy.sh; }                                              # every source and header of the rooms
+tidy() { tools/tidy.sh; }                                              # every source and header of the modules
 fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
 
 all=(plain_g++ plain_clang++ clang_warnings sanitizers threads tidy fuzz)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the program and the tests with clang++, warnings as errors, AddressSanitizer and UndefinedBehaviorSanitizer, and runs
-# the tests. Those marked UNSANITIZED (cmake/rooms.cmake) are left out. Those of DDS and of a launch by the wall clock have three
+# the tests. Those marked UNSANITIZED (cmake/modules.cmake) are left out. Those of DDS and of a launch by the wall clock have three
 # tries, as in tools/slow_tests.sh. The golden drives must give the same bits as with g++.
 # tools/fuzz.sh uses the same build.
 #   tools/sanitize.sh [--slow]      --slow: also what is slow, and by the wall clock

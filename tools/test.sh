@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets everything up on a fresh Debian 12 and runs the quick tests. The slow ones (cmake/rooms.cmake), those by the wall clock
+# Sets everything up on a fresh Debian 12 and runs the quick tests. The slow ones (cmake/modules.cmake), those by the wall clock
 # (realtime) and the report in a browser run in .ci/run.
 set -euo pipefail
 cd "$(dirname "$0")/.."

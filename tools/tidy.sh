@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs clang-tidy (.clang-tidy) on sources, and compiles each header alone.
-#   tools/tidy.sh             all rooms
+#   tools/tidy.sh             all modules
 #   tools/tidy.sh --changed   the files changed since the long checks last passed (tools/long_checks.passed; if they never did,
 #                             those of the last commit). The newest come first, until 100 seconds are over; long_checks.sh
 #                             has the rest

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Writes docs/keys and schemas anew, as the program prints them; deletes the old ones first. [PROGRAM]
+# Writes docs/keys and keys/schemas anew, as the program prints them; deletes the old ones first. [PROGRAM]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${1:-build/release/ttfusion}
 find docs/keys -name '*.md' ! -name README.md -delete
-find schemas -name '*.schema.json' -delete
+find keys/schemas -name '*.schema.json' -delete
 "$program" keys --format markdown -o docs/keys
-"$program" keys --format json-schema -o schemas
-git status --short docs/keys schemas
+"$program" keys --format json-schema -o keys/schemas
+git status --short docs/keys keys/schemas

@@ -144,17 +144,17 @@ def measured_tree():
         if not known or not (ROOT / name).is_file():
             continue
         _, lengths, found = measure(ROOT / name)
-        room = room_of(name)
-        words[room] += sum(lengths)
-        count[room] += len(lengths)
-        finds[room] += len(found)
-    return {room: {"sentences": count[room], "mean": words[room] / count[room], "finds": finds[room]}
-            for room in sorted(count) if count[room]}
+        module = room_of(name)
+        words[module] += sum(lengths)
+        count[module] += len(lengths)
+        finds[module] += len(found)
+    return {module: {"sentences": count[module], "mean": words[module] / count[module], "finds": finds[module]}
+            for module in sorted(count) if count[module]}
 
 
 def write_bounds(bounds):
     lines = ["# The most that tools/words.py allows: mean words a sentence, and finds. Lowered by tools/words.py --update.", ""]
-    lines += [f'"{room}" = {{ mean = {b["mean"]:.1f}, finds = {b["finds"]} }}' for room, b in sorted(bounds.items())]
+    lines += [f'"{module}" = {{ mean = {b["mean"]:.1f}, finds = {b["finds"]} }}' for module, b in sorted(bounds.items())]
     BOUNDS.write_text("\n".join(lines) + "\n")
 
 
@@ -162,22 +162,22 @@ def check(update):
     today = measured_tree()
     bounds = tomllib.loads(BOUNDS.read_text()) if BOUNDS.exists() else {}
     over = []
-    for room, now in today.items():
+    for module, now in today.items():
         mean, finds = int(now["mean"] * 10 + 0.999) / 10, now["finds"]
-        bound = bounds.get(room)
+        bound = bounds.get(module)
         if update:
             kept = bound or {"mean": mean, "finds": finds}
-            bounds[room] = {"mean": min(kept["mean"], mean), "finds": min(kept["finds"], finds)}
+            bounds[module] = {"mean": min(kept["mean"], mean), "finds": min(kept["finds"], finds)}
         elif bound is None:
-            over.append(f"{room}: has no bound in tools/words.toml")
+            over.append(f"{module}: has no bound in tools/words.toml")
         else:
             if mean > bound["mean"]:
-                over.append(f'{room}: {mean} words a sentence, the bound is {bound["mean"]}')
+                over.append(f'{module}: {mean} words a sentence, the bound is {bound["mean"]}')
             if finds > bound["finds"]:
-                over.append(f'{room}: {finds} finds, the bound is {bound["finds"]}')
-        print(f'{room:12} {now["sentences"]:6} sentences, {now["mean"]:5.1f} words each, {finds:4} finds')
+                over.append(f'{module}: {finds} finds, the bound is {bound["finds"]}')
+        print(f'{module:12} {now["sentences"]:6} sentences, {now["mean"]:5.1f} words each, {finds:4} finds')
     if update:
-        write_bounds({room: bound for room, bound in bounds.items() if room in today})
+        write_bounds({module: bound for module, bound in bounds.items() if module in today})
     for line in over:
         print(f"error: {line}; see tools/words.py FILE", file=sys.stderr)
     return 1 if over else 0

@@ -3,7 +3,7 @@
 // stores frames that it receives.
 //
 // Protocol operation control (bus/poc/poc.h) decides its state: this class hands it events and carries out its
-// actions. The crank or the runner drives it in its own microticks, so that the same controller runs in
+// actions. The engine or the runner drives it in its own microticks, so that the same controller runs in
 // virtual and in real time:
 //
 //   while (running) { wait until controller.next_event() or a reception; advance() / receive(); }

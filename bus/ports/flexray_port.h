@@ -3,7 +3,7 @@
 //
 // The boundary lies between coding and frame processing, as in FlexRay itself (2.1A, chapters 3 and 6). The medium
 // has bits, symbols and CRCs; the controller has slots, cycles and clocks. Instants are microticks of the node
-// that states them. The crank converts them to true time, or the runner to a machine's clock.
+// that states them. The engine converts them to true time, or the runner to a machine's clock.
 //   L1  every transmission reaches every other controller on that channel exactly once, unchanged
 //   L2  a controller does not hear itself
 //   L3  receptions reach one controller in the order of their end; ties: channel (on one channel there are none: L6)

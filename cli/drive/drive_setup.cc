@@ -15,27 +15,28 @@
 #include "core/file_bytes.h"
 #include "core/file_kind.h"
 #include "core/hash.h"
-#include "drives/drive.h"
-#include "drives/step_catalog.h"
 #include "experiments/sweep/driving.h"
 #include "recording/mcap/bytes.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
+#include "sim/drives/drive.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::drive {
 
 schedules::model::Cluster checked_cluster(const std::string& file) {
   schedules::model::Cluster cluster = schedules::file::load_cluster(file);
   if (auto findings = schedules::check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
-  drives::check_described(cluster);
-  drives::check_steps(cluster);
+  sim::drives::check_described(cluster);
+  sim::drives::check_steps(cluster);
   return cluster;
 }
 
-schedules::model::Cluster checked_cluster(const drives::Scenario& scenario, fusion::strategies::StrategyKind strategy) {
+schedules::model::Cluster checked_cluster(const sim::drives::Scenario& scenario,
+                                          fusion::strategies::StrategyKind strategy) {
   const std::string& file = scenario.cluster_files[static_cast<std::size_t>(strategy)];
-  (void)read_named_file(file, drives::cluster_entry(scenario, strategy), "a cluster file");
+  (void)read_named_file(file, sim::drives::cluster_entry(scenario, strategy), "a cluster file");
   return checked_cluster(file);
 }
 
@@ -62,7 +63,7 @@ std::shared_ptr<const recording::osi::TruthTrace> read_truth(const std::string& 
   }
 }
 
-recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
+recording::log::LogManifest manifest_of(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                                         fusion::strategies::StrategyKind strategy, std::uint64_t seed,
                                         const Recording& recording, const nodes::foreign::StepFolder* steps,
                                         const std::vector<NodeId>& externals) {
@@ -96,7 +97,7 @@ recording::log::LogManifest manifest_of(const drives::Scenario& scenario, const 
     manifest.pdu_sensors.push_back(pdu.sensor);
   }
   for (const schedules::model::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
-  manifest.sensor_styles = drives::sensor_styles(scenario.sensors, cluster);
+  manifest.sensor_styles = sim::drives::sensor_styles(scenario.sensors, cluster);
   for (const schedules::model::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
   return manifest;
 }
@@ -120,7 +121,7 @@ std::vector<fusion::strategies::StrategyKind> chosen(const std::string& name) {
 
 std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
                                                      const recording::log::LogManifest& manifest,
-                                                     const drives::Scenario& scenario,
+                                                     const sim::drives::Scenario& scenario,
                                                      const schedules::model::Cluster& cluster) {
   auto log = std::make_unique<recording::log::LogWriter>(path, manifest);
   log->attach(std::filesystem::path(scenario.file).filename().string(), "application/yaml", scenario.text);
@@ -137,7 +138,7 @@ std::uint64_t seed_of(const std::string& text) {
   return seed;
 }
 
-void set_duration(drives::Scenario& scenario, const std::string& name, const std::string& text) {
+void set_duration(sim::drives::Scenario& scenario, const std::string& name, const std::string& text) {
   constexpr std::int64_t kNsPerSecond = 1'000'000'000;
   constexpr Duration kShortest = Duration::milliseconds(100);  // same as in a scenario
   const std::string unit =
@@ -147,23 +148,23 @@ void set_duration(drives::Scenario& scenario, const std::string& name, const std
       Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
 }
 
-std::string named_folder(const drives::Scenario& scenario) {
+std::string named_folder(const sim::drives::Scenario& scenario) {
   if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
     throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/; give --out otherwise"});
   return scenario.name;
 }
 
-std::string folder_of(const drives::Scenario& scenario) { return "out/" + named_folder(scenario); }
+std::string folder_of(const sim::drives::Scenario& scenario) { return "out/" + named_folder(scenario); }
 
-DriveJudge::DriveJudge(const drives::Scenario& scenario, const schedules::model::Cluster& cluster,
+DriveJudge::DriveJudge(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster,
                        fusion::strategies::StrategyKind strategy, std::optional<TrueTime> until)
     : scenario_(scenario), cluster_(cluster), plan_(faults::resolve(scenario.faults, cluster)),
-      measures_(drives::evaluation_start(scenario), evaluation::accuracy::kGate_m, until, scenario.cut_off),
+      measures_(sim::drives::evaluation_start(scenario), evaluation::accuracy::kGate_m, until, scenario.cut_off),
       stages_(schedules::analysis::measurement_ages(cluster), strategy == fusion::strategies::StrategyKind::kBuff,
-              drives::evaluation_start(scenario)),
+              sim::drives::evaluation_start(scenario)),
       startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {
   if (scenario.world.ego && scenario.world.ego->actuator) {
-    driving_.emplace(experiments::sweep::driving_config(scenario, cluster), drives::evaluation_start(scenario));
+    driving_.emplace(experiments::sweep::driving_config(scenario, cluster), sim::drives::evaluation_start(scenario));
   }
 }
 
@@ -179,7 +180,7 @@ void DriveJudge::finish(StrategyResult& result) {
   result.stages = stages_.finish();
   result.startup = startup_.nodes();
   if (driving_) result.driving = driving_->finish();
-  faults_.finish(sim::crank::kFirstCycle + scenario_.duration);
+  faults_.finish(sim::engine::kFirstCycle + scenario_.duration);
   result.faults = faults_.findings();
   result.fault_free = fault_free_nodes(result.faults, plan_, cluster_);
 }

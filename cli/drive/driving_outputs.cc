@@ -127,10 +127,11 @@ nlohmann::ordered_json warnings_json(const WarningFindings& w) {
 
 }  // namespace
 
-report::plots::DrivingOptions driving_options(const drives::Scenario& scenario,
+report::plots::DrivingOptions driving_options(const sim::drives::Scenario& scenario,
                                               const schedules::model::Cluster& cluster, const std::string& title) {
-  report::plots::DrivingOptions options{title, drives::evaluation_start(scenario), drives::drive_end(scenario),
-                                        scenario.world.ego->front, scenario.world.ego->width};
+  report::plots::DrivingOptions options{title, sim::drives::evaluation_start(scenario),
+                                        sim::drives::drive_end(scenario), scenario.world.ego->front,
+                                        scenario.world.ego->width};
   if (const auto lane = experiments::sweep::lane_kept(scenario, cluster))
     options.lane = [lane = evaluation::driving::TrueLane(*lane)](const recording::records::EgoTruth& ego) {
       const evaluation::driving::InLane place = lane.place_of(ego);

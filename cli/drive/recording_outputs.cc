@@ -32,7 +32,7 @@ std::string recordings_text(const std::vector<StrategyResult>& results) {
   std::vector<std::pair<std::string, std::string>> texts;  // names of strategies, and their sentences
   for (const StrategyResult& result : results) {
     if (!result.recording) continue;
-    std::string text = drives::recording_text(*result.recording);
+    std::string text = sim::drives::recording_text(*result.recording);
     const auto same = std::find_if(texts.begin(), texts.end(), [&](const auto& other) { return other.second == text; });
     if (same != texts.end())
       same->first += fmt::format(", {}", name_of(result.strategy));
@@ -47,9 +47,9 @@ std::string recordings_text(const std::vector<StrategyResult>& results) {
 std::vector<std::string> recording_reasons(const StrategyResult& result, const fusion::config::TrackerConfig& tracker) {
   std::vector<std::string> reasons;
   if (!result.recording) return reasons;
-  const drives::RecordingUse& use = *result.recording;
+  const sim::drives::RecordingUse& use = *result.recording;
   std::uint64_t rows = 0, beyond = 0, lists = 0;
-  for (const drives::RecordingUse::OfSensor& of : use.sensors) {
+  for (const sim::drives::RecordingUse::OfSensor& of : use.sensors) {
     rows += of.rows.rows;
     beyond += of.rows.beyond;
     lists += of.rows.lists;
@@ -71,12 +71,12 @@ std::vector<std::string> recording_reasons(const StrategyResult& result, const f
 }
 
 nlohmann::ordered_json recording_json(const StrategyResult& result, const fusion::config::TrackerConfig& tracker) {
-  const drives::RecordingUse& use = *result.recording;
+  const sim::drives::RecordingUse& use = *result.recording;
   nlohmann::ordered_json json{{"ends_after_s", use.ends_after.seconds()},
                               {"ends_early", use.ends_early()},
                               {"made_track", result.made_track},
                               {"reasons", recording_reasons(result, tracker)}};
-  for (const drives::RecordingUse::OfSensor& of : use.sensors)
+  for (const sim::drives::RecordingUse::OfSensor& of : use.sensors)
     json["sensors"].push_back({{"name", of.sensor},
                                {"rows", of.rows.rows},
                                {"lists", of.rows.lists},

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cli/drive/run_outputs.h"
-#include "drives/played_recording.h"
 #include "fusion/config/tracker_config.h"
 #include "recording/records/records.h"
+#include "sim/drives/played_recording.h"
 
 namespace ttf::cli::drive {
 

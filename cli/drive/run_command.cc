@@ -21,11 +21,11 @@
 #include "cli/output.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
-#include "drives/step_catalog.h"
-#include "drives/surroundings.h"
-#include "drives/traced.h"
 #include "recording/log/writer.h"
 #include "recording/records/tee.h"
+#include "sim/drives/step_catalog.h"
+#include "sim/drives/surroundings.h"
+#include "sim/drives/traced.h"
 
 namespace ttf::cli::drive {
 namespace {
@@ -42,7 +42,7 @@ struct RunOptions {
   bool no_pictures = false;
 };
 
-StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& scenario,
+StrategyResult run_strategy(const RunOptions& options, const sim::drives::Scenario& scenario,
                             fusion::strategies::StrategyKind strategy, std::uint64_t seed, const Recording& recording,
                             const std::string& folder, const nodes::foreign::StepFolder* steps) {
   StrategyResult result;
@@ -50,7 +50,7 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
   result.cluster = checked_cluster(scenario, strategy);
   std::optional<TrueTime> until;
   if (recording.rows) {
-    result.recording = drives::recording_use(scenario, result.cluster, *recording.rows);
+    result.recording = sim::drives::recording_use(scenario, result.cluster, *recording.rows);
     until = result.recording->end;
   }
   DriveJudge judge(scenario, result.cluster, strategy, until);
@@ -66,12 +66,12 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
                     result.cluster);
     sinks.push_back(log.get());
   }
-  DriveProgress progress(until ? *until : drives::drive_end(scenario), "driven");
+  DriveProgress progress(until ? *until : sim::drives::drive_end(scenario), "driven");
   sinks.push_back(&progress);
   recording::records::Tee tee(sinks);
-  drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
+  sim::drives::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
   config.steps = steps;
-  result.outcome = drives::run_drive(config, tee);
+  result.outcome = sim::drives::run_drive(config, tee);
   judge.finish(result);
   result.made_track = tracks.any();
   if (log) {
@@ -83,7 +83,7 @@ StrategyResult run_strategy(const RunOptions& options, const drives::Scenario& s
 
 // A scenario to drive, checked.
 struct Planned {
-  drives::Scenario scenario;
+  sim::drives::Scenario scenario;
   std::uint64_t seed = 0;
   std::string folder;
 };
@@ -93,10 +93,10 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
                 const std::shared_ptr<const recording::osi::TruthTrace>& truth,
                 const nodes::foreign::StepFolder* steps) {
   Planned plan;
-  plan.scenario = drives::load_scenario(file);
+  plan.scenario = sim::drives::load_scenario(file);
   plan.seed = options.seed ? seed_of(*options.seed) : plan.scenario.seed;
   if (options.duration) set_duration(plan.scenario, file, *options.duration);
-  if (truth) drives::take_truth(plan.scenario, truth);
+  if (truth) sim::drives::take_truth(plan.scenario, truth);
   const bool alone = options.scenarios.size() == 1;
   if (options.out.empty())
     plan.folder = folder_of(plan.scenario);
@@ -106,13 +106,13 @@ Planned planned(const RunOptions& options, const std::string& file, const Record
   std::vector<schedules::model::Cluster> clusters;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     const schedules::model::Cluster& cluster = clusters.emplace_back(checked_cluster(plan.scenario, strategy));
-    if (warning.empty()) warning = drives::motion_warning(plan.scenario, cluster);
-    drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
+    if (warning.empty()) warning = sim::drives::motion_warning(plan.scenario, cluster);
+    sim::drives::check_fits(plan.scenario, cluster, strategy, recording.rows != nullptr);
     nodes::foreign::check_steps(cluster, steps);
-    if (recording.rows) (void)drives::recording_use(plan.scenario, cluster, *recording.rows);
+    if (recording.rows) (void)sim::drives::recording_use(plan.scenario, cluster, *recording.rows);
   }
   for (const std::string& one :
-       {warning, drives::following_warning(plan.scenario), drives::unused_sections(plan.scenario, clusters)})
+       {warning, sim::drives::following_warning(plan.scenario), sim::drives::unused_sections(plan.scenario, clusters)})
     if (!one.empty()) print_warnings(one);
   return plan;
 }
@@ -137,7 +137,7 @@ std::vector<Planned> all_planned(const RunOptions& options, const Recording& rec
 std::vector<StrategyResult> driven(const RunOptions& options, const Planned& plan, const Recording& recording,
                                    const nodes::foreign::StepFolder* steps) {
   create_folder(plan.folder);
-  if (plan.scenario.truth) fmt::print(stderr, "{}: {}\n", plan.scenario.name, drives::truth_text(plan.scenario));
+  if (plan.scenario.truth) fmt::print(stderr, "{}: {}\n", plan.scenario.name, sim::drives::truth_text(plan.scenario));
   std::vector<StrategyResult> results;
   for (const fusion::strategies::StrategyKind strategy : chosen(options.strategy)) {
     fmt::print(stderr, "{}: {:g} s with {} ...\n", plan.scenario.name, plan.scenario.duration.seconds(),
@@ -151,8 +151,8 @@ std::vector<StrategyResult> driven(const RunOptions& options, const Planned& pla
 
 void print_words(const std::vector<Planned>& plans, const std::vector<ScenarioResults>& all) {
   for (std::size_t s = 0; s < plans.size(); ++s) {
-    const drives::Scenario& scenario = plans[s].scenario;
-    fmt::print("{}{}\n{}{}", plans.size() > 1 ? scenario.name + ": " : "", drives::subject_of(scenario),
+    const sim::drives::Scenario& scenario = plans[s].scenario;
+    fmt::print("{}{}\n{}{}", plans.size() > 1 ? scenario.name + ": " : "", sim::drives::subject_of(scenario),
                recordings_text(all[s].results), startup_text(all[s].results, scenario.startup.cold));
   }
   fmt::print("{}", comparison_table(all));

@@ -14,7 +14,6 @@
 #include "cli/drive/startup_outputs.h"
 #include "cli/drive_progress.h"
 #include "cli/tracking_outputs.h"
-#include "drives/traced.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
 #include "report/drawing/render.h"
@@ -26,6 +25,7 @@
 #include "report/plots/schedule_picture.h"
 #include "report/startup/diagram.h"
 #include "report/timing/diagram.h"
+#include "sim/drives/traced.h"
 
 namespace ttf::cli::drive {
 namespace {
@@ -228,11 +228,11 @@ constexpr const char* kSchedule = "schedule";
 // Files per strategy: STRATEGY_timing and so on.
 constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane", "driving"};
 
-report::plots::PositionOptions position_options(const drives::Scenario& scenario, const StrategyResult& result) {
+report::plots::PositionOptions position_options(const sim::drives::Scenario& scenario, const StrategyResult& result) {
   report::plots::PositionOptions options;
   options.title = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
-  options.from = drives::evaluation_start(scenario);
-  options.to = drives::drive_end(scenario);
+  options.from = sim::drives::evaluation_start(scenario);
+  options.to = sim::drives::drive_end(scenario);
   return options;
 }
 
@@ -304,7 +304,7 @@ std::string comparison_table(const std::vector<ScenarioResults>& scenarios) {
 }
 
 // Values that are not finite become null.
-nlohmann::ordered_json to_json(const drives::Scenario& scenario, std::uint64_t seed,
+nlohmann::ordered_json to_json(const sim::drives::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results) {
   nlohmann::ordered_json json;
   json["scenario"] = scenario.name;
@@ -400,10 +400,10 @@ std::vector<std::string> picture_files(std::string_view strategy) {
   return files;
 }
 
-void write_pictures(const drives::Scenario& scenario, const std::vector<StrategyResult>& results,
+void write_pictures(const sim::drives::Scenario& scenario, const std::vector<StrategyResult>& results,
                     const std::string& folder) {
   std::vector<report::page::IndexEntry> entries;
-  entries.push_back({drives::subject_of(scenario), "", "", comparison_table(results), {"summary.json"}});
+  entries.push_back({sim::drives::subject_of(scenario), "", "", comparison_table(results), {"summary.json"}});
   const auto picture = [&](const std::string& name, const std::string& heading, const std::string& caption,
                            const std::string& svg) {
     report::drawing::write_picture(svg, folder + "/" + name + ".svg");
@@ -417,15 +417,15 @@ void write_pictures(const drives::Scenario& scenario, const std::vector<Strategy
   std::vector<std::string> titles;
   for (const StrategyResult& result : results) {
     report::drawing::Names names = report::drawing::names_of(result.cluster);
-    names.sensor_styles = drives::sensor_styles(scenario.sensors, result.cluster);
+    names.sensor_styles = sim::drives::sensor_styles(scenario.sensors, result.cluster);
     names.drive = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
     const std::string strategy(name_of(result.strategy));
     // The timing diagram shows 160 ms, four images, from the begin of the judged part.
-    const TrueTime from = drives::evaluation_start(scenario);
+    const TrueTime from = sim::drives::evaluation_start(scenario);
     report::timing::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
     plots.push_back(std::make_unique<report::plots::PositionPlots>(names, position_options(scenario, result)));
     report::startup::StartupExtent extent;
-    DriveProgress progress(drives::drive_end(scenario), "read for pictures");
+    DriveProgress progress(sim::drives::drive_end(scenario), "read for pictures");
     std::vector<recording::records::Sink*> readers{&timing, plots.back().get(), &extent, &progress};
     std::optional<report::plots::DrivingPicture> driving;
     if (result.driving) readers.push_back(&driving.emplace(driving_options(scenario, result.cluster, names.drive)));

@@ -26,8 +26,8 @@
 #include "cli/supervision/signal_watch.h"
 #include "cli/supervision/supervisor.h"
 #include "core/decimal.h"
-#include "drives/surroundings.h"
-#include "drives/traced.h"
+#include "sim/drives/surroundings.h"
+#include "sim/drives/traced.h"
 #if TTF_WITH_DDS
 #include "cli/launch/launch_virtual.h"
 #endif
@@ -62,7 +62,7 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}\n{}{}{}", drives::subject_of(set.scenario), startup_text(results, set.scenario.startup.cold),
+  fmt::print("{}\n{}{}{}", sim::drives::subject_of(set.scenario), startup_text(results, set.scenario.startup.cold),
              comparison_table(results), real_time_text(result));
   if (!set.scenario.faults.empty())
     fmt::print("\n{}", drive::faults_text(name_of(set.strategy), result.faults, result.fault_free, set.cluster));
@@ -107,10 +107,10 @@ void remove_earlier(const std::optional<supervision::EarlierLaunch>& earlier, co
 template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
-  if (plan.set.scenario.truth) fmt::print(stderr, "{}\n", drives::truth_text(plan.set.scenario));
-  for (const std::string& warning :
-       {drives::motion_warning(plan.set.scenario, plan.set.cluster), drives::following_warning(plan.set.scenario),
-        drives::unused_sections(plan.set.scenario, {&plan.set.cluster, 1})})
+  if (plan.set.scenario.truth) fmt::print(stderr, "{}\n", sim::drives::truth_text(plan.set.scenario));
+  for (const std::string& warning : {sim::drives::motion_warning(plan.set.scenario, plan.set.cluster),
+                                     sim::drives::following_warning(plan.set.scenario),
+                                     sim::drives::unused_sections(plan.set.scenario, {&plan.set.cluster, 1})})
     if (!warning.empty()) print_warnings(warning);
   const auto earlier = supervision::earlier_launch(plan.set.folder);
   supervision::LaunchFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());

@@ -11,11 +11,11 @@
 #include "cli/launch/launch_result.h"
 #include "cli/node_set/node_drive.h"
 #include "cli/node_set/vehicle.h"
-#include "drives/observer.h"
-#include "drives/surroundings.h"
 #include "evaluation/cluster/bus_use.h"
 #include "recording/log/writer.h"
 #include "recording/merge/merge.h"
+#include "sim/drives/observer.h"
+#include "sim/drives/surroundings.h"
 
 namespace ttf::cli::launch {
 namespace {
@@ -45,10 +45,10 @@ class LoggedCommands final : public recording::records::Sink {
 };
 
 // Nodes do not know the truth: it is computed at the instants of the nodes' records.
-void write_truth(const node_set::NodeSet& set, const drives::Surroundings& around,
+void write_truth(const node_set::NodeSet& set, const sim::drives::Surroundings& around,
                  const recording::merge::MergedLogs& nodes, const std::string& path) {
   const auto log = drive::begin_log(path, nodes.manifest(), set.scenario, set.cluster);
-  drives::Observer observer(*around.scene, set.cluster.nodes.size(), *log);
+  sim::drives::Observer observer(*around.scene, set.cluster.nodes.size(), *log);
   around.show(observer, set.scenario, set.cluster);
   nodes.read(observer);
   log->close();
@@ -57,7 +57,7 @@ void write_truth(const node_set::NodeSet& set, const drives::Surroundings& aroun
 }  // namespace
 
 LiveLaunch::LiveLaunch(const LaunchPlan& plan)
-    : set_(plan.set), around_(drives::surroundings_of(set_.scenario, set_.cluster, set_.seed, 0, nullptr)),
+    : set_(plan.set), around_(sim::drives::surroundings_of(set_.scenario, set_.cluster, set_.seed, 0, nullptr)),
       vehicle_(node_set::vehicle_line_of_launch(set_, around_)),
       processes_(plan.set.cluster.nodes.size() - plan.set.externals.size()) {
   if (!plan.set.externals.empty()) hearing_.emplace(plan.set, plan.set.externals);
@@ -155,7 +155,7 @@ std::optional<drive::StrategyResult> LiveLaunch::result(const std::vector<std::s
   const recording::merge::MergedLogs nodes(all);
   // The launch has heard each command itself, even those of a killed process. If not, the logs have them.
   if (vehicle_ && !vehicle_->counts().whole) {
-    LoggedCommands logged(*around_.world->world().driven(), drives::drive_start(set_.cluster));
+    LoggedCommands logged(*around_.world->world().driven(), sim::drives::drive_start(set_.cluster));
     nodes.read(logged);
   }
   write_truth(set_, around_, nodes, truth);

@@ -16,8 +16,8 @@
 #include "cli/launch/launch_plan.h"
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/supervisor.h"
-#include "drives/surroundings.h"
 #include "nodes/runner/vehicle/line.h"
+#include "sim/drives/surroundings.h"
 
 namespace ttf::cli::launch {
 
@@ -47,14 +47,14 @@ class LiveLaunch {
 
   const node_set::NodeSet& set_;
   std::optional<external::Hearing> hearing_;  // if there are external nodes
-  drives::Surroundings around_;
+  sim::drives::Surroundings around_;
   std::unique_ptr<nodes::runner::vehicle::Line> vehicle_;  // if commands drive it; it hears of all of them
   std::map<std::size_t, std::string> vehicle_problems_;    // by node, the last reported
   const std::size_t processes_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence
   std::optional<bus::ports::MachineTime> origin_, last_done_;
   std::optional<bus::ports::MachineTime> ended_;  // the first of the nodes that ended together at last
-  drives::DriveOutcome outcome_;
+  sim::drives::DriveOutcome outcome_;
 };
 
 }  // namespace ttf::cli::launch

@@ -20,7 +20,7 @@
 #include "cli/supervision/shell_text.h"
 #include "core/errors.h"
 #include "core/hash.h"
-#include "drives/step_catalog.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::launch {
 namespace {

@@ -9,13 +9,13 @@
 #include "cli/launch/verdict.h"
 #include "cli/output.h"
 #include "core/errors.h"
-#include "drives/drive.h"
 #include "evaluation/accuracy/service_account.h"
 #include "evaluation/lateness/lateness_account.h"
 #include "recording/log/content_hash.h"
 #include "recording/merge/merge.h"
 #include "recording/merge/stored_log.h"
 #include "recording/records/tee.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::cli::launch {
 
@@ -44,7 +44,7 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   result.content_hash = recording::log::ContentHash::text(merged.content_hash().value());
   drive::DriveJudge judge(set.scenario, set.cluster, set.strategy);
   evaluation::lateness::LatenessAccount lateness(set.cluster, evaluation::lateness::real_time_drive(merged));
-  evaluation::accuracy::ServiceAccount service(drives::evaluation_start(set.scenario),
+  evaluation::accuracy::ServiceAccount service(sim::drives::evaluation_start(set.scenario),
                                                promised_ages(set.cluster, set.strategy, set.time_scale_ppm));
   std::vector<recording::records::Sink*> sinks = judge.sinks();
   sinks.push_back(&lateness);
@@ -54,7 +54,7 @@ drive::StrategyResult merged_result(const node_set::NodeSet& set, const std::vec
   read_shown(merged, tee);
   judge.finish(result);
   result.real_time = lateness.finish();
-  result.service = service.finish(drives::drive_end(set.scenario));
+  result.service = service.finish(sim::drives::drive_end(set.scenario));
   return result;
 }
 

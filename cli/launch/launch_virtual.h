@@ -33,7 +33,7 @@ class VirtualLaunch {
  private:
   const node_set::NodeSet& set_;
   bus::dds::exchange::ExchangeSupervisor exchange_;
-  drives::DriveOutcome outcome_;
+  sim::drives::DriveOutcome outcome_;
 };
 
 }  // namespace ttf::cli::launch

@@ -16,7 +16,7 @@ Attached attached_to(const recording::merge::MergedLogs& drive, const std::strin
     if (one.media_type != "application/yaml") continue;
     try {
       const std::optional<FileKind> kind = kind_of(StrictYaml::parse(one.bytes, one.name));
-      if (kind == FileKind::kScenario) found.scenario = drives::parse_scenario(one.bytes, one.name);
+      if (kind == FileKind::kScenario) found.scenario = sim::drives::parse_scenario(one.bytes, one.name);
       if (kind == FileKind::kCluster) found.cluster = schedules::file::parse_cluster(one.bytes, one.name);
     } catch (const InputError& error) {
       // An older version's scenario, or a damaged one.

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "drives/scenario.h"
 #include "recording/merge/merge.h"
 #include "schedules/model/cluster.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::cli::logs {
 
 struct Attached {
-  std::optional<drives::Scenario> scenario;
+  std::optional<sim::drives::Scenario> scenario;
   std::optional<schedules::model::Cluster> cluster;
 };
 

@@ -1,11 +1,11 @@
 #include "cli/logs/told_stages.h"
 
 #include "cli/logs/attached.h"
-#include "drives/drive.h"
 #include "evaluation/ages/stage_account.h"
 #include "fusion/strategies/strategy.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::cli::logs {
 namespace {
@@ -28,7 +28,7 @@ std::vector<ToldStages> told_stages(const recording::merge::MergedLogs& drive, s
   const Attached attached = attached_to(drive, "the latency by stage is left out", warnings);
   if (!attached.cluster || !schedules::check::check(*attached.cluster).empty()) return {};
   const bool held = drive.manifest().strategy == name_of(fusion::strategies::StrategyKind::kBuff);
-  const TrueTime from = attached.scenario ? drives::evaluation_start(*attached.scenario) : TrueTime{};
+  const TrueTime from = attached.scenario ? sim::drives::evaluation_start(*attached.scenario) : TrueTime{};
   evaluation::ages::StageAccount account(schedules::analysis::measurement_ages(*attached.cluster), held, from);
   drive.read(account);
   std::vector<ToldStages> all;

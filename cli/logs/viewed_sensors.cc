@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "cli/logs/attached.h"
-#include "drives/step_catalog.h"
 #include "report/drawing/names.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::logs {
 namespace {
@@ -31,7 +31,7 @@ void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor)
   if (!attached.scenario || !attached.cluster || index >= attached.cluster->sensors.size()) return;
   const schedules::model::Sensor& of = attached.cluster->sensors[index];
   sensor.odometry = of.kind == schedules::model::SensorKind::kOdometry;
-  if (!drives::is_recorded(*attached.cluster)) {
+  if (!sim::drives::is_recorded(*attached.cluster)) {
     switch (of.kind) {
       case schedules::model::SensorKind::kLaser:
         return place_emulated(attached.scenario->sensors.lasers.of(of.name).model, sensor);

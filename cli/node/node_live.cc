@@ -23,14 +23,14 @@
 #include "cli/supervision/signal_watch.h"
 #include "core/decimal.h"
 #include "core/errors.h"
-#include "drives/startup.h"
-#include "drives/step_catalog.h"
-#include "drives/surroundings.h"
 #include "nodes/runner/health_teller.h"
 #include "nodes/runner/kernel_clock.h"
 #include "nodes/runner/runner.h"
 #include "nodes/runner/thread_privileges.h"
 #include "recording/records/tee.h"
+#include "sim/drives/startup.h"
+#include "sim/drives/step_catalog.h"
+#include "sim/drives/surroundings.h"
 
 namespace ttf::cli::node {
 namespace {
@@ -132,15 +132,15 @@ nodes::runner::RunnerConfig config_of(const NodeOptions& options, const Start& s
   config.node = options.node;
   config.clock = nodes::runner::DriveClock(start.origin, set.time_scale_ppm);
   config.seed = set.seed;
-  config.first_cycle = sim::crank::kFirstCycle;
-  config.end = drives::drive_end(set.scenario);
+  config.first_cycle = sim::engine::kFirstCycle;
+  config.end = sim::drives::drive_end(set.scenario);
   config.stop_descriptor = stop_descriptor;
   if (start.rejoins) {
     config.power_on = TrueTime{};
   } else if (set.scenario.startup.cold) {
-    config.cold = drives::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
-    config.power_on = config.cold.how == nodes::host::ColdStart::kSleeps ? sim::crank::kFirstCycle
-                                                                         : sim::crank::kFirstCycle + config.cold.after;
+    config.cold = sim::drives::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
+    config.power_on = config.cold.how == nodes::host::ColdStart::kSleeps ? sim::engine::kFirstCycle
+                                                                         : sim::engine::kFirstCycle + config.cold.after;
   }
   return config;
 }
@@ -167,11 +167,12 @@ int run_node_live(const NodeOptions& options) {
   }
   if (set.topics) check_topics(set);
   create_folder(set.folder);
-  const drives::Surroundings around = drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
+  const sim::drives::Surroundings around =
+      sim::drives::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
   const auto vehicle = node_set::vehicle_line(set, options.node, around);
-  const drives::NodeSetConfig code{
+  const sim::drives::NodeSetConfig code{
       &set.scenario, &set.cluster, set.strategy, set.seed, 0, around.scene, nullptr, drive::pointer_to(set.steps)};
-  auto steps = drives::make_steps(code, options.node);
+  auto steps = sim::drives::make_steps(code, options.node);
   const auto medium =
       set.bus.medium->make({set.cluster, options.node, set.bus.interfaces, set.can_interfaces, set.session,
                             supervisor ? kLivePatience : std::chrono::milliseconds{0}, set.externals});

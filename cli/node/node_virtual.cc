@@ -46,7 +46,7 @@ int run_node_virtual(const NodeOptions& options) {
   const node_set::NodeDrive drive{&set.scenario, &set.cluster, set.strategy,
                                   set.seed,      &none,        drive::pointer_to(set.steps),
                                   options.node,  options.log};
-  const drives::DriveOutcome outcome = run_node_drive(drive, exchange);
+  const sim::drives::DriveOutcome outcome = run_node_drive(drive, exchange);
   exchange.leave();
   const nlohmann::ordered_json json = node_set::outcome_json(outcome);
   if (supervisor) supervisor->done(json);

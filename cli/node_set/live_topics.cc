@@ -10,7 +10,7 @@
 
 #include "bus/can/confinement.h"
 #include "bus/dds/ros/publisher.h"
-#include "drives/observer.h"
+#include "sim/drives/observer.h"
 
 namespace ttf::cli::node_set {
 namespace {
@@ -54,7 +54,7 @@ bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::Dr
   options.images = runs(set, node, "image_output");
   options.tracks = runs(set, node, "fusion");
   if (tells_truth(set, node)) {
-    const drives::Scenario& scenario = set.scenario;
+    const sim::drives::Scenario& scenario = set.scenario;
     options.truth_objects =
         static_cast<std::uint16_t>(scenario.truth ? scenario.truth->objects.size() : scenario.world.objects.size());
     options.truth_period = period_of(set, set.cluster.sensors.front(), clock);
@@ -66,7 +66,8 @@ std::string us(Duration duration) { return fmt::format("{:.1f}", in_us(duration)
 
 class DdsTopics final : public LiveTopics {
  public:
-  DdsTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock, const drives::Surroundings& around)
+  DdsTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
+            const sim::drives::Surroundings& around)
       : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, node)) {
     if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
   }
@@ -81,7 +82,7 @@ class DdsTopics final : public LiveTopics {
  private:
   std::string name_;
   bus::dds::ros::RosPublisher publisher_;
-  std::optional<drives::Observer> truth_;
+  std::optional<sim::drives::Observer> truth_;
 };
 
 void DdsTopics::health(const nodes::runner::Health& health, TrueTime at) {
@@ -124,7 +125,7 @@ void try_topics(const NodeSet& set) {
 }
 
 std::unique_ptr<LiveTopics> make_topics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
-                                        const drives::Surroundings& around) {
+                                        const sim::drives::Surroundings& around) {
   return std::make_unique<DdsTopics>(set, node, clock, around);
 }
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "cli/node_set/node_set.h"
-#include "drives/surroundings.h"
 #include "nodes/runner/drive_clock.h"
 #include "nodes/runner/runner.h"
 #include "recording/records/records.h"
+#include "sim/drives/surroundings.h"
 
 namespace ttf::cli::node_set {
 
@@ -28,6 +28,6 @@ class LiveTopics {
 
 // `around` must outlive the topics. Throws std::runtime_error if DDS does not start.
 std::unique_ptr<LiveTopics> make_topics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
-                                        const drives::Surroundings& around);
+                                        const sim::drives::Surroundings& around);
 
 }  // namespace ttf::cli::node_set

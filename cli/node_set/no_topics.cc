@@ -13,7 +13,7 @@ namespace {
 void check_topics(const NodeSet&) { refuse(); }
 void try_topics(const NodeSet&) { refuse(); }
 std::unique_ptr<LiveTopics> make_topics(const NodeSet&, NodeId, const nodes::runner::DriveClock&,
-                                        const drives::Surroundings&) {
+                                        const sim::drives::Surroundings&) {
   refuse();
 }
 

@@ -25,16 +25,16 @@ static_assert(sizeof(ExecutiveCounts) == std::size(kCounts) * sizeof(std::uint64
 
 }  // namespace
 
-drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange) {
+sim::drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange) {
   const auto log = drive::begin_log(
       drive.log_path,
       manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording, drive.steps),
       *drive.scenario, *drive.cluster);
   sim::processes::TurnTaking others(*drive.cluster, drive.node, exchange);
-  drives::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
-                             drive.recording->rows, &others};
+  sim::drives::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
+                                  drive.recording->rows, &others};
   config.steps = drive.steps;
-  drives::DriveOutcome outcome = drives::run_drive(config, *log);
+  sim::drives::DriveOutcome outcome = sim::drives::run_drive(config, *log);
   log->close();
   return outcome;
 }
@@ -53,7 +53,7 @@ void add_counts(ExecutiveCounts& sum, const nlohmann::json& one) {
   }
 }
 
-nlohmann::ordered_json outcome_json(const drives::DriveOutcome& outcome) {
+nlohmann::ordered_json outcome_json(const sim::drives::DriveOutcome& outcome) {
   nlohmann::ordered_json json{{"counts", counts_json(outcome.counts)}};
   json["flexray_load"] = outcome.flexray_load;
   json["can_load"] = outcome.can_load;
@@ -61,7 +61,7 @@ nlohmann::ordered_json outcome_json(const drives::DriveOutcome& outcome) {
   return json;
 }
 
-void add_outcome(drives::DriveOutcome& sum, const nlohmann::json& one) {
+void add_outcome(sim::drives::DriveOutcome& sum, const nlohmann::json& one) {
   try {
     add_counts(sum.counts, one.at("counts"));
     sum.flexray_load = one.at("flexray_load").get<double>();

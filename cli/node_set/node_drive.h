@@ -8,15 +8,15 @@
 #include "bus/ports/exchange.h"
 #include "cli/drive/drive_setup.h"
 #include "core/ids.h"
-#include "drives/drive.h"
-#include "drives/scenario.h"
 #include "fusion/strategies/strategy.h"
 #include "schedules/model/cluster.h"
+#include "sim/drives/drive.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::cli::node_set {
 
 struct NodeDrive {
-  const drives::Scenario* scenario = nullptr;
+  const sim::drives::Scenario* scenario = nullptr;
   const schedules::model::Cluster* cluster = nullptr;
   fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;
@@ -27,7 +27,7 @@ struct NodeDrive {
 };
 
 // Runs the drive to its end. Throws std::runtime_error if the exchange fails or the log cannot be written.
-drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange);
+sim::drives::DriveOutcome run_node_drive(const NodeDrive& drive, bus::ports::Exchange& exchange);
 
 // Convert a node's counts on the way from its process to the launch, which adds them up. add_counts() throws
 // std::runtime_error for JSON of another form.
@@ -35,8 +35,8 @@ nlohmann::ordered_json counts_json(const nodes::host::ExecutiveCounts& counts);
 void add_counts(nodes::host::ExecutiveCounts& sum, const nlohmann::json& one);
 
 // Converts an outcome on that way: the node's own part (its counts), and the part common to all (loads, faults).
-nlohmann::ordered_json outcome_json(const drives::DriveOutcome& outcome);
+nlohmann::ordered_json outcome_json(const sim::drives::DriveOutcome& outcome);
 // Adds `one` to the sum of the nodes. Throws std::runtime_error for JSON of another form.
-void add_outcome(drives::DriveOutcome& sum, const nlohmann::json& one);
+void add_outcome(sim::drives::DriveOutcome& sum, const nlohmann::json& one);
 
 }  // namespace ttf::cli::node_set

@@ -19,10 +19,10 @@
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
-#include "drives/drive.h"
-#include "drives/step_catalog.h"
-#include "drives/traced.h"
 #include "schedules/check/real_time_rules.h"
+#include "sim/drives/drive.h"
+#include "sim/drives/step_catalog.h"
+#include "sim/drives/traced.h"
 
 namespace ttf::cli::node_set {
 namespace {
@@ -32,10 +32,10 @@ constexpr std::size_t kLongestHost = 255;
 constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};  // to the end of 2099
 
 // The drive of a cluster without a scenario: the paper's first, with this cluster for every strategy.
-drives::Scenario default_scene(const schedules::model::Cluster& cluster) {
+sim::drives::Scenario default_scene(const schedules::model::Cluster& cluster) {
   const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
   const std::string file = quoted(std::filesystem::absolute(cluster.file).string());
-  return drives::parse_scenario(fmt::format(R"(name: {}
+  return sim::drives::parse_scenario(fmt::format(R"(name: {}
 description: "The default scene: a car ahead accelerates along the sensor vehicle's axis, from 30 m to 40 m within 1.5 s"
 seed: 1
 duration: 3 s
@@ -55,8 +55,8 @@ world:
         - {{duration: 1500 ms, acceleration: 2.89}}
 reference: {{}}
 )",
-                                            quoted(cluster.name), file, file, file),
-                                "default_scene.yaml");
+                                                 quoted(cluster.name), file, file, file),
+                                     "default_scene.yaml");
 }
 
 // Returns the system's name of this machine.
@@ -119,7 +119,7 @@ std::vector<NodeId> external_nodes(const std::string& text, const NodeSet& set) 
 }
 
 void check_fit_for_real_time(const NodeSet& set) {
-  if (const auto actuator = drives::actuator_node(set.cluster);
+  if (const auto actuator = sim::drives::actuator_node(set.cluster);
       actuator && std::ranges::find(set.externals, *actuator) != set.externals.end())
     throw external_refused(set.cluster.node(*actuator).name,
                            "must not name the node with the actuator, whose process moves the vehicle");
@@ -196,10 +196,10 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     set.scenario = default_scene(set.cluster);
     drive = "the default scene";
   } else {
-    set.scenario = drives::load_scenario(set.file);
+    set.scenario = sim::drives::load_scenario(set.file);
     set.cluster = drive::checked_cluster(set.scenario, set.strategy);
   }
-  if (drives::is_recorded(set.cluster))
+  if (sim::drives::is_recorded(set.cluster))
     throw InputError({set.file, 0, "clusters", set.cluster.file,
                       "must be a cluster with sensors; recordings are for `ttfusion run --input`"});
   set.seed = arguments.seed ? drive::seed_of(*arguments.seed) : set.scenario.seed;
@@ -209,10 +209,10 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   else if (arguments.duration)
     drive::set_duration(set.scenario, drive, *arguments.duration);
   if (const auto truth = drive::read_truth(arguments.truth)) {
-    drives::take_truth(set.scenario, truth);
+    sim::drives::take_truth(set.scenario, truth);
     set.until_stopped = false;  // it ends with the trace
   }
-  drives::check_fits(set.scenario, set.cluster, set.strategy, false);
+  sim::drives::check_fits(set.scenario, set.cluster, set.strategy, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (arguments.external) set.externals = external_nodes(*arguments.external, set);
   if (!set.virtual_time) check_fit_for_real_time(set);

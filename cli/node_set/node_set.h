@@ -11,9 +11,9 @@
 #include "cli/live_media/bus.h"
 #include "core/ids.h"
 #include "core/time.h"
-#include "drives/scenario.h"
 #include "fusion/strategies/strategy.h"
 #include "schedules/model/cluster.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::cli::node_set {
 
@@ -41,7 +41,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
 
 struct NodeSet {
   std::string file;                   // scenario or cluster, as given
-  drives::Scenario scenario;          // with the given duration and trace
+  sim::drives::Scenario scenario;     // with the given duration and trace
   bool until_stopped = false;         // has the longest duration: a signal is the usual end; in real time only
   schedules::model::Cluster cluster;  // the strategy's, checked
   fusion::strategies::StrategyKind strategy{};

@@ -9,7 +9,7 @@
 
 #include "cli/output.h"
 #include "core/counted.h"
-#include "drives/drive.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::cli::node_set {
 namespace {
@@ -18,7 +18,7 @@ using nodes::runner::vehicle::Line;
 
 constexpr std::chrono::milliseconds kPatience{1'000};
 
-std::unique_ptr<Line> line_of(const NodeSet& set, std::size_t self, const drives::Surroundings& around) {
+std::unique_ptr<Line> line_of(const NodeSet& set, std::size_t self, const sim::drives::Surroundings& around) {
   sim::world::vehicle::Driven* const driven = around.world ? around.world->world().driven() : nullptr;
   if (driven == nullptr) return nullptr;
   std::vector<std::size_t> others = nodes::runner::vehicle::processes_of(set.cluster);
@@ -27,17 +27,17 @@ std::unique_ptr<Line> line_of(const NodeSet& set, std::size_t self, const drives
   others.push_back(launch);
   std::erase(others, self);
   return std::make_unique<Line>(
-      nodes::runner::vehicle::LinePlan{set.session, self, std::move(others), drives::drive_start(set.cluster)},
+      nodes::runner::vehicle::LinePlan{set.session, self, std::move(others), sim::drives::drive_start(set.cluster)},
       *driven);
 }
 
 }  // namespace
 
-std::unique_ptr<Line> vehicle_line(const NodeSet& set, NodeId node, const drives::Surroundings& around) {
+std::unique_ptr<Line> vehicle_line(const NodeSet& set, NodeId node, const sim::drives::Surroundings& around) {
   return line_of(set, index_of(node), around);
 }
 
-std::unique_ptr<Line> vehicle_line_of_launch(const NodeSet& set, const drives::Surroundings& around) {
+std::unique_ptr<Line> vehicle_line_of_launch(const NodeSet& set, const sim::drives::Surroundings& around) {
   return line_of(set, set.cluster.nodes.size(), around);
 }
 

@@ -7,18 +7,18 @@
 #include <string>
 
 #include "cli/node_set/node_set.h"
-#include "drives/surroundings.h"
 #include "nodes/runner/vehicle/line.h"
+#include "sim/drives/surroundings.h"
 
 namespace ttf::cli::node_set {
 
 // Returns the line of a node's process; null if no commands drive the vehicle, or the node needs no state of it.
 // `around` outlives the line.
 std::unique_ptr<nodes::runner::vehicle::Line> vehicle_line(const NodeSet& set, NodeId node,
-                                                           const drives::Surroundings& around);
+                                                           const sim::drives::Surroundings& around);
 // Returns the line of a launch, which hears all nodes; null likewise.
 std::unique_ptr<nodes::runner::vehicle::Line> vehicle_line_of_launch(const NodeSet& set,
-                                                                     const drives::Surroundings& around);
+                                                                     const sim::drives::Surroundings& around);
 // For a process that joins a running drive: waits for the missed commands, and warns if they did not come.
 void catch_up(nodes::runner::vehicle::Line& line);
 

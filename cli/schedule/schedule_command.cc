@@ -19,8 +19,6 @@
 #include "cli/schedule/task_set_check.h"
 #include "cli/shipped.h"
 #include "core/errors.h"
-#include "drives/scenario.h"
-#include "drives/step_catalog.h"
 #include "report/drawing/render.h"
 #include "report/plots/schedule_picture.h"
 #include "schedules/analysis/ages.h"
@@ -36,6 +34,8 @@
 #include "schedules/model/ports.h"
 #include "schedules/modes/stated.h"
 #include "schedules/modes/text.h"
+#include "sim/drives/scenario.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::schedule {
 namespace {
@@ -104,7 +104,7 @@ schedules::model::Cluster consistent_cluster(const std::string& file) {
 schedules::model::Cluster checked_schedule(const ScheduleOptions& options) {
   try {
     schedules::model::Cluster cluster = consistent_cluster(options.file);
-    drives::check_steps(cluster);
+    sim::drives::check_steps(cluster);
     return cluster;
   } catch (const InputError& error) {
     if (options.json) print_findings(error);
@@ -122,7 +122,7 @@ nlohmann::ordered_json contributions_json(const std::vector<schedules::analysis:
 // Returns the dead time of the scenario's actuator; zero without a scenario.
 Duration dead_time_in(const std::string& scenario) {
   if (scenario.empty()) return {};
-  const drives::Scenario read = drives::load_scenario(file_named(scenario, {kScenarios}));
+  const sim::drives::Scenario read = sim::drives::load_scenario(file_named(scenario, {kScenarios}));
   if (!read.world.ego || !read.world.ego->actuator)
     throw InputError({"command line", 0, "--scenario", scenario, "must have a vehicle with world.ego.actuator"});
   return read.world.ego->actuator->dead_time;

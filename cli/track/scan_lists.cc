@@ -42,7 +42,7 @@ void check_frames(const std::vector<recording::rows::RecordedScan>& scans, Durat
 }  // namespace
 
 ScanLists lists_of(const std::vector<recording::rows::RecordedScan>& scans,
-                   const nodes::laser::RecordedScansConfig& how, const replay::ReplayConfig& config,
+                   const nodes::laser::RecordedScansConfig& how, const recording::replay::ReplayConfig& config,
                    const std::string& name) {
   check_frames(scans, how.period, name);
   ScanLists lists;
@@ -62,7 +62,7 @@ ScanLists lists_of(const std::vector<recording::rows::RecordedScan>& scans,
     account.returns += points.size();
     account.fates += preprocessor.fates();
     account.left_out += keep_nearest(objects, config.tracker.max_observations);
-    replay::RecordedList& list = lists.recorded.lists.emplace_back();
+    recording::replay::RecordedList& list = lists.recorded.lists.emplace_back();
     list.id = {SensorId{0}, number++};
     list.measured = list.arrival = nodes::laser::instant_of(scan, how);
     for (const LaserObject& object : objects) {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "nodes/laser/recorded_scans.h"
+#include "recording/replay/config.h"
+#include "recording/replay/recorded_lists.h"
 #include "recording/rows/scan_file.h"
-#include "replay/config.h"
-#include "replay/recorded_lists.h"
 
 namespace ttf::cli::track {
 
@@ -21,14 +21,14 @@ struct ScanAccount {
 };
 
 struct ScanLists {
-  replay::RecordedLists recorded;
+  recording::replay::RecordedLists recorded;
   ScanAccount account;
 };
 
 // Returns the lists of the configuration's only sensor, one a scan. Frame n is at n periods, unless scans have a time.
 // `name` is the file's. Throws InputError if a frame is too late.
 ScanLists lists_of(const std::vector<recording::rows::RecordedScan>& scans,
-                   const nodes::laser::RecordedScansConfig& how, const replay::ReplayConfig& config,
+                   const nodes::laser::RecordedScansConfig& how, const recording::replay::ReplayConfig& config,
                    const std::string& name);
 
 }  // namespace ttf::cli::track

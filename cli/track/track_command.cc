@@ -25,22 +25,22 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
-#include "drives/scenario.h"
 #include "fusion/tracks/own_axes.h"
 #include "nodes/laser/recorded_scans.h"
 #include "nodes/sensing/recorded.h"
+#include "recording/replay/config.h"
+#include "recording/replay/recorded_ego.h"
+#include "recording/replay/recorded_lists.h"
+#include "recording/replay/replay.h"
+#include "recording/replay/sensor_timing.h"
+#include "recording/replay/verdict.h"
 #include "recording/rows/ego_rows.h"
 #include "recording/rows/laser_radar_file.h"
 #include "recording/rows/observation_rows.h"
 #include "recording/rows/scan_file.h"
 #include "recording/rows/track_rows.h"
-#include "replay/config.h"
-#include "replay/recorded_ego.h"
-#include "replay/recorded_lists.h"
-#include "replay/replay.h"
-#include "replay/sensor_timing.h"
-#include "replay/verdict.h"
 #include "report/drawing/render.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::cli::track {
 namespace {
@@ -51,8 +51,8 @@ void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {
   for (const Finding& finding : findings.list()) print_warnings(finding.sentence());
 }
 
-replay::SensorSetup usual_sensor(bool laser_radar) {
-  replay::SensorSetup setup;
+recording::replay::SensorSetup usual_sensor(bool laser_radar) {
+  recording::replay::SensorSetup setup;
   if (!laser_radar) return setup;
   const nodes::sensing::RecordedNoise documented;
   setup.noise.position = documented.position_m;
@@ -82,7 +82,7 @@ Recording read_recording(const TrackOptions& options, Findings& findings) {
 }
 
 // Scans are of one sensor, and of a street: its tracks must not overlap, unless the configuration says so.
-void prepare_for_scans(replay::ReplayConfig& config, const replay::SensorSetup& usual) {
+void prepare_for_scans(recording::replay::ReplayConfig& config, const recording::replay::SensorSetup& usual) {
   if (config.sensors.empty()) config.sensors.emplace_back("laser", usual);
   // The other methods for late lists cannot end tracks for good.
   if (!config.tracker.end_overlaps) config.tracker.end_overlaps = config.tracker.late == fusion::oosm::Kind::kRewind;
@@ -120,11 +120,11 @@ void check_options(const TrackOptions& options) {
 }
 
 // A box comes of many returns, which are the rows of scans.
-replay::RowCounts row_counts(const replay::RecordedLists& recorded, const std::optional<ScanAccount>& scans,
-                             const Findings& findings) {
-  replay::RowCounts counts{scans ? scans->returns : 0, findings.size()};
+recording::replay::RowCounts row_counts(const recording::replay::RecordedLists& recorded,
+                                        const std::optional<ScanAccount>& scans, const Findings& findings) {
+  recording::replay::RowCounts counts{scans ? scans->returns : 0, findings.size()};
   if (scans) return counts;
-  for (const replay::RecordedList& list : recorded.lists) counts.sound += list.observations.size();
+  for (const recording::replay::RecordedList& list : recorded.lists) counts.sound += list.observations.size();
   return counts;
 }
 
@@ -144,7 +144,7 @@ std::uint64_t seconds_between(GlobalTime from, GlobalTime to) {
 
 // Returns the tracks in the vehicle's axes at their instant, in `own`.
 std::span<const fusion::tracks::TrackView> in_own_axes(std::span<const fusion::tracks::TrackView> tracks,
-                                                       const replay::RecordedEgo& ego,
+                                                       const recording::replay::RecordedEgo& ego,
                                                        std::vector<fusion::tracks::TrackView>& own) {
   own.assign(tracks.begin(), tracks.end());
   for (fusion::tracks::TrackView& view : own)
@@ -154,12 +154,12 @@ std::span<const fusion::tracks::TrackView> in_own_axes(std::span<const fusion::t
 
 int run_track(const TrackOptions& options) {
   check_options(options);
-  const replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
+  const recording::replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
   const bool of_scans = options.format == "scans";
-  replay::ReplayConfig config;
+  recording::replay::ReplayConfig config;
   nodes::laser::RecordedScansConfig scanner;
   if (!options.config.empty())
-    config = replay::load_replay_config(options.config, usual, [&](YamlMap& root) {
+    config = recording::replay::load_replay_config(options.config, usual, [&](YamlMap& root) {
       std::optional<YamlMap> scans = root.map_if("scans");
       if (!scans) return;
       if (!of_scans) root.fail("scans", "goes with --format scans only");
@@ -170,17 +170,17 @@ int run_track(const TrackOptions& options) {
   Findings findings;
   Recording input = read_recording(options, findings);
   std::vector<recording::rows::ObservationRow>& rows = input.rows;
-  std::optional<replay::RecordedEgo> ego;
+  std::optional<recording::replay::RecordedEgo> ego;
   if (!options.ego.empty())
-    ego = replay::recorded_ego_of(recording::rows::read_ego_rows(options.ego), options.ego, config);
+    ego = recording::replay::recorded_ego_of(recording::rows::read_ego_rows(options.ego), options.ego, config);
   else if (config.tracker.odometry)
     throw InputError(
         {config.file, config.tracker.odometry_line, "tracker.odometry", "", "must be absent without --ego"});
   if (of_scans)
     prepare_for_scans(config, usual);
   else
-    replay::list_sensors(config, rows, usual, options.observations);
-  replay::SimulatedArrivals simulated;
+    recording::replay::list_sensors(config, rows, usual, options.observations);
+  recording::replay::SimulatedArrivals simulated;
   try {
     apply_sensor_options(options, config);
     simulated = simulated_arrivals(options, config);
@@ -190,23 +190,24 @@ int run_track(const TrackOptions& options) {
     throw;
   }
   TrackResult result;
-  replay::RecordedLists recorded;
+  recording::replay::RecordedLists recorded;
   if (of_scans) {
     ScanLists lists = lists_of(input.scans, scanner, config, options.observations);
     recorded = std::move(lists.recorded);
     result.scans = lists.account;
   } else {
-    recorded = replay::recorded_lists_of(rows, config, options.observations, findings);
+    recorded = recording::replay::recorded_lists_of(rows, config, options.observations, findings);
   }
   tell_damage(findings, options.skip_damaged, recorded.lists.size());
-  if (ego) replay::carry(recorded, rows, *ego, options.observations);
-  replay::simulate(recorded, simulated);
+  if (ego) recording::replay::carry(recorded, rows, *ego, options.observations);
+  recording::replay::simulate(recorded, simulated);
 
   result.strategy = std::string(name_of(config.strategy));
   result.sensors = recorded.sensors;
   result.damaged = findings.size();
-  const replay::ReplaySetup setup{config.strategy, config.tracker,
-                                  replay::sensor_timings(recorded, config, config.strategy), options.predict};
+  const recording::replay::ReplaySetup setup{config.strategy, config.tracker,
+                                             recording::replay::sensor_timings(recorded, config, config.strategy),
+                                             options.predict};
   std::string tracks(recording::rows::track_heading());
   TrackJudge judge(rows, config.cut_off);
   TrackLives lives;
@@ -216,8 +217,8 @@ int run_track(const TrackOptions& options) {
   std::optional<Progress> progress(std::in_place, "s of the recording");
   const GlobalTime first = recorded.lists.empty() ? GlobalTime{} : recorded.lists.front().arrival;
   const std::uint64_t whole = recorded.lists.empty() ? 0 : seconds_between(first, recorded.lists.back().arrival);
-  result.account =
-      replay::replay(recorded, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
+  result.account = recording::replay::replay(
+      recorded, setup, [&](GlobalTime known, std::span<const fusion::tracks::TrackView> views) {
         const std::uint64_t done = seconds_between(first, known);
         (*progress)(done, whole, done);
         judge.take(known, views);
@@ -225,12 +226,13 @@ int run_track(const TrackOptions& options) {
         if (of_scans) lives.take(views);
         if (picture) picture->take(views);
         for (const fusion::tracks::TrackView& view : views)
-          tracks += recording::rows::track_line(replay::track_row_of(view, known, recorded.classes));
+          tracks += recording::rows::track_line(recording::replay::track_row_of(view, known, recorded.classes));
       });
 
   progress.reset();
   result.accuracy = judge.finish();
-  result.verdict = replay::judge(rows, row_counts(recorded, result.scans, findings), recorded, setup, result.account);
+  result.verdict =
+      recording::replay::judge(rows, row_counts(recorded, result.scans, findings), recorded, setup, result.account);
   if (of_scans) {
     result.lives = lives.summary();
     judge_scans(scanner.preprocessing, result);

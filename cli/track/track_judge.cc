@@ -29,10 +29,10 @@ void TrackJudge::take(GlobalTime known, std::span<const fusion::tracks::TrackVie
 }
 
 void TrackJudge::judge(const Shown& shown) {
-  const std::vector<replay::TrueObject> truths = truth_.at(shown.at);
+  const std::vector<recording::replay::TrueObject> truths = truth_.at(shown.at);
   std::vector<Named> objects;
   std::vector<fusion::metrics::Point> is, seen;
-  for (const replay::TrueObject& object : truths) objects.push_back(object.is), is.push_back(object.is.at);
+  for (const recording::replay::TrueObject& object : truths) objects.push_back(object.is), is.push_back(object.is.at);
   for (const Named& track : shown.tracks) seen.push_back(track.at);
   judge_.judge(TrueTime{shown.known.ns}, objects, shown.tracks);
   const std::vector<fusion::metrics::ObjectPair> pairs = fusion::metrics::object_pairs(is, seen, kGate_m);
@@ -40,7 +40,7 @@ void TrackJudge::judge(const Shown& shown) {
   sums_.missed += is.size() - pairs.size();
   sums_.spurious += seen.size() - pairs.size();
   for (const fusion::metrics::ObjectPair& pair : pairs) {
-    const replay::TrueObject& truth = truths[pair.truth];
+    const recording::replay::TrueObject& truth = truths[pair.truth];
     const auto& [vx, vy] = shown.velocities[pair.estimate];
     position_squares_ += std::pow(distance_m(is[pair.truth], seen[pair.estimate]), 2);
     velocity_squares_ += std::pow(vx - truth.vx, 2) + std::pow(vy - truth.vy, 2);

@@ -11,7 +11,7 @@
 #include "evaluation/accuracy/tracking_judge.h"
 #include "fusion/metrics/cut_off.h"
 #include "fusion/tracks/track.h"
-#include "replay/truth.h"
+#include "recording/replay/truth.h"
 
 namespace ttf::cli::track {
 
@@ -39,7 +39,7 @@ class TrackJudge {
   };
   void judge(const Shown& shown);
 
-  replay::Truth truth_;
+  recording::replay::Truth truth_;
   evaluation::accuracy::TrackingJudge judge_;
   std::optional<Shown> waiting_;
   TrackAccuracy sums_;

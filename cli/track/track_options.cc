@@ -18,7 +18,7 @@
 namespace ttf::cli::track {
 namespace {
 
-using replay::ReplayConfig;
+using recording::replay::ReplayConfig;
 
 [[noreturn]] void refuse_option(const char* option, const std::string& text, std::string expected) {
   throw InputError({"command line", 0, option, text, std::move(expected)});
@@ -62,8 +62,9 @@ void apply_noise(const std::string& text, ReplayConfig& config) {
     refuse_option(option, text, "must be SENSOR:WHAT=SIGMA, as in radar:range=0.3");
   const std::size_t s = sensor_named(option, text, text.substr(0, colon), config);
   const std::string what = text.substr(colon + 1, equals - colon - 1);
-  const replay::NamedSigma sigma = replay::sigma_of(config.sensors[s].second.noise, what);
-  if (sigma.value == nullptr) refuse_option(option, text, fmt::format("must name one of {}", replay::sigma_names()));
+  const recording::replay::NamedSigma sigma = recording::replay::sigma_of(config.sensors[s].second.noise, what);
+  if (sigma.value == nullptr)
+    refuse_option(option, text, fmt::format("must name one of {}", recording::replay::sigma_names()));
   const char* end = text.data() + text.size();
   double value = 0;
   const auto [read, error] = std::from_chars(text.data() + equals + 1, end, value);
@@ -80,25 +81,26 @@ void apply_sensor_options(const TrackOptions& options, ReplayConfig& config) {
   for (const std::string& text : options.worst_delay) {
     const OfSensor given = of_sensor("--worst-delay", text, config);
     config.sensors[given.sensor].second.worst_delay =
-        duration_option("--worst-delay", text, given.value, replay::kDelayAllowed);
+        duration_option("--worst-delay", text, given.value, recording::replay::kDelayAllowed);
   }
   for (const std::string& text : options.period) {
     const OfSensor given = of_sensor("--period", text, config);
-    config.sensors[given.sensor].second.period = duration_option("--period", text, given.value, replay::kPeriodAllowed);
+    config.sensors[given.sensor].second.period =
+        duration_option("--period", text, given.value, recording::replay::kPeriodAllowed);
   }
 }
 
-replay::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const ReplayConfig& config) {
-  replay::SimulatedArrivals simulated;
+recording::replay::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const ReplayConfig& config) {
+  recording::replay::SimulatedArrivals simulated;
   simulated.delays.resize(config.sensors.size());
   for (const std::string& text : options.delay) {
     const OfSensor given = of_sensor("--delay", text, config);
     const std::size_t dots = given.value.find("..");
     const std::string_view value = given.value;
-    const Duration least = duration_option("--delay", text, value.substr(0, dots), replay::kDelayAllowed);
-    const Duration most = dots == std::string::npos
-                              ? least
-                              : duration_option("--delay", text, value.substr(dots + 2), replay::kDelayAllowed);
+    const Duration least = duration_option("--delay", text, value.substr(0, dots), recording::replay::kDelayAllowed);
+    const Duration most = dots == std::string::npos ? least
+                                                    : duration_option("--delay", text, value.substr(dots + 2),
+                                                                      recording::replay::kDelayAllowed);
     if (most < least) refuse_option("--delay", text, "must be LEAST..MOST");
     if (simulated.delays[given.sensor]) refuse_option("--delay", text, "must name each sensor once");
     simulated.delays[given.sensor] = {least, most};

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/paper_size.h"
-#include "replay/config.h"
-#include "replay/recorded_lists.h"
+#include "recording/replay/config.h"
+#include "recording/replay/recorded_lists.h"
 
 namespace ttf::cli::track {
 
@@ -28,7 +28,8 @@ struct TrackOptions {
 // Applies the options about sensors to the configuration. Throws InputError with the option, the value and
 // the allowed values; also for a sensor that is not in the configuration. The last of several --worst-delay,
 // --period or --noise counts.
-void apply_sensor_options(const TrackOptions& options, replay::ReplayConfig& config);
-replay::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const replay::ReplayConfig& config);
+void apply_sensor_options(const TrackOptions& options, recording::replay::ReplayConfig& config);
+recording::replay::SimulatedArrivals simulated_arrivals(const TrackOptions& options,
+                                                        const recording::replay::ReplayConfig& config);
 
 }  // namespace ttf::cli::track

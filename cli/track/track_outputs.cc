@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::array<const char*, 3> kQuartiles{"lower quartile", "median", "upper quartile"};
 
-replay::SensorAccount sum_of(const std::vector<replay::SensorAccount>& accounts) {
-  replay::SensorAccount sum;
-  for (const replay::SensorAccount& one : accounts) {
+recording::replay::SensorAccount sum_of(const std::vector<recording::replay::SensorAccount>& accounts) {
+  recording::replay::SensorAccount sum;
+  for (const recording::replay::SensorAccount& one : accounts) {
     sum.lists += one.lists;
     sum.observations += one.observations;
     sum.in_order += one.in_order;
@@ -31,7 +31,7 @@ replay::SensorAccount sum_of(const std::vector<replay::SensorAccount>& accounts)
   return sum;
 }
 
-void add_row(report::drawing::Table& table, const std::string& name, const replay::SensorAccount& account) {
+void add_row(report::drawing::Table& table, const std::string& name, const recording::replay::SensorAccount& account) {
   std::vector<std::string> row{name};
   for (const std::uint64_t count : {account.lists, account.observations, account.in_order, account.late,
                                     account.too_old, account.duplicates, account.held})
@@ -41,7 +41,7 @@ void add_row(report::drawing::Table& table, const std::string& name, const repla
   table.add(std::move(row));
 }
 
-nlohmann::ordered_json account_json(const replay::SensorAccount& account) {
+nlohmann::ordered_json account_json(const recording::replay::SensorAccount& account) {
   return {{"lists", account.lists},
           {"observations", account.observations},
           {"fused_in_order", account.in_order},

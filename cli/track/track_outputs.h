@@ -10,17 +10,17 @@
 #include "cli/track/scan_lists.h"
 #include "cli/track/track_judge.h"
 #include "cli/track/track_lives.h"
-#include "replay/replay.h"
-#include "replay/verdict.h"
+#include "recording/replay/replay.h"
+#include "recording/replay/verdict.h"
 
 namespace ttf::cli::track {
 
 struct TrackResult {
   std::string strategy;
   std::vector<std::string> sensors;
-  replay::ReplayAccount account;
+  recording::replay::ReplayAccount account;
   std::size_t damaged = 0;  // number of damaged rows, which are left out
-  replay::ReplayVerdict verdict;
+  recording::replay::ReplayVerdict verdict;
   std::optional<TrackAccuracy> accuracy;  // only for a recording with truth
   std::optional<ScanAccount> scans;       // only for scans
   std::optional<LivesSummary> lives;      // only for scans

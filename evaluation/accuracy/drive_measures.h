@@ -99,7 +99,7 @@ struct DriveSummary {
   std::uint64_t duplicates = 0;
   std::uint64_t odometry_samples = 0, odometry_stops = 0;  // samples taken in; times that no newer one came
   std::uint64_t warnings = 0;                              // uses with a warning about an object
-  // Measures that need the scenario; other rooms fill them in.
+  // Measures that need the scenario; other modules fill them in.
   double position_mse_reference_corrected =
       kNotMeasured;  // without the DGPS' own error (evaluation/accuracy/reference_judge.h)
   // Without sampling (experiments/sweep/expected_drive.h).

@@ -14,8 +14,6 @@
 #include "core/random.h"
 #include "core/strict_yaml.h"
 #include "core/yaml_edit.h"
-#include "drives/drive.h"
-#include "drives/step_catalog.h"
 #include "evaluation/accuracy/drive_measures.h"
 #include "experiments/sweep/driving.h"
 #include "experiments/sweep/expected_drive.h"
@@ -26,6 +24,8 @@
 #include "schedules/file/inherit.h"
 #include "schedules/file/vary.h"
 #include "schedules/model/ports.h"
+#include "sim/drives/drive.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -110,8 +110,8 @@ void SweepDrives::read_files() {
            {sweep_.file, paradigm.cluster_line, fmt::format("paradigms.{}.cluster", paradigm.name), "", ""},
            kClusterFile);
     for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s) {
-      const drives::Scenario scenario = drives::parse_scenario(texts_.at(scenarios[s]), scenarios[s]);
-      const Finding entry = drives::cluster_entry(scenario, paradigm.strategy);
+      const sim::drives::Scenario scenario = sim::drives::parse_scenario(texts_.at(scenarios[s]), scenarios[s]);
+      const Finding entry = sim::drives::cluster_entry(scenario, paradigm.strategy);
       read(entry.value, entry, kClusterFile);
     }
   }
@@ -203,7 +203,7 @@ schedules::file::ClusterText SweepDrives::edited(const std::vector<Edit>& edits,
 }
 
 // Takes the faults as if the scenario had them.
-void SweepDrives::plan_faults(const std::string& file, drives::Scenario& scenario) const {
+void SweepDrives::plan_faults(const std::string& file, sim::drives::Scenario& scenario) const {
   if (!scenario.faults.empty())
     throw InputError({scenario.file, 0, "faults", "", "must be absent, since " + file + " has the faults"});
   const std::string& text = texts_.at(file);
@@ -217,7 +217,7 @@ PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector
   const std::string* scenario = file_of(edits, kScenarioFile);
   const std::string& scenario_file = scenario != nullptr ? *scenario : sweep_.scenario_file;
   PreparedDrive drive;
-  drive.scenario = drives::parse_scenario(edited(edits, false, scenario_file).text, scenario_file);
+  drive.scenario = sim::drives::parse_scenario(edited(edits, false, scenario_file).text, scenario_file);
   if (const std::string* faults = file_of(edits, kFaultsFile)) plan_faults(*faults, drive.scenario);
   drive.strategy = paradigm.strategy;
   std::string& file = drive.scenario.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
@@ -225,8 +225,8 @@ PreparedDrive SweepDrives::prepare(const results::RowKey& key, const std::vector
   if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
   drive.cluster = schedules::file::parse_cluster(edited(edits, true, file));
   if (auto findings = schedules::check::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
-  drives::check_steps(drive.cluster);
-  drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
+  sim::drives::check_steps(drive.cluster);
+  sim::drives::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
   nodes::foreign::check_steps(drive.cluster, steps_);
   return drive;
 }
@@ -250,7 +250,7 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     const auto asked_for = [this](std::string_view measure) {
       return std::find(sweep_.measures.begin(), sweep_.measures.end(), measure) != sweep_.measures.end();
     };
-    evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario),
+    evaluation::accuracy::DriveMeasures measures(sim::drives::evaluation_start(drive.scenario),
                                                  evaluation::accuracy::kGate_m, std::nullopt, drive.scenario.cut_off);
     std::vector<recording::records::Sink*> sinks{&measures};
     std::optional<ExpectedError> expected;
@@ -259,15 +259,15 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
       sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
     std::optional<evaluation::driving::DrivingAccount> driving;
     if (is_driven(drive.scenario))
-      sinks.push_back(
-          &driving.emplace(driving_config(drive.scenario, drive.cluster), drives::evaluation_start(drive.scenario)));
+      sinks.push_back(&driving.emplace(driving_config(drive.scenario, drive.cluster),
+                                       sim::drives::evaluation_start(drive.scenario)));
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);
-    drives::DriveConfig config{
+    sim::drives::DriveConfig config{
         &drive.scenario, &drive.cluster, drive.strategy, sweep_.seed,
         key.replication, nullptr,        nullptr,        listener != nullptr || asked_for("precision")};
     config.steps = steps_;
-    const drives::DriveOutcome outcome = drives::run_drive(config, tee);
+    const sim::drives::DriveOutcome outcome = sim::drives::run_drive(config, tee);
     evaluation::accuracy::DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
                                                expected_square(drive.scenario.reference, summary.reference_weights);

@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "core/text_place.h"
-#include "drives/scenario.h"
 #include "experiments/results/store.h"
 #include "experiments/sweep/file.h"
 #include "nodes/foreign/libraries.h"
 #include "recording/records/records.h"
 #include "schedules/file/inherit.h"
 #include "schedules/model/cluster.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::experiments::sweep {
 
 struct PreparedDrive {
-  drives::Scenario scenario;
+  sim::drives::Scenario scenario;
   schedules::model::Cluster cluster;
   fusion::strategies::StrategyKind strategy{};
 };
@@ -60,7 +60,7 @@ class SweepDrives {
   // Applies the edits of a cluster, or of a scenario, to the text of the file `name`.
   TextOrigins origins_of(const std::string& file) const;
   schedules::file::ClusterText edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
-  void plan_faults(const std::string& file, drives::Scenario& scenario) const;
+  void plan_faults(const std::string& file, sim::drives::Scenario& scenario) const;
 
   const SweepFile& sweep_;
   const nodes::foreign::StepFolder* steps_;

@@ -16,14 +16,14 @@ const schedules::model::Task* task_of(const schedules::model::Cluster& cluster, 
 
 }  // namespace
 
-std::optional<evaluation::driving::LaneConfig> lane_kept(const drives::Scenario& scenario,
+std::optional<evaluation::driving::LaneConfig> lane_kept(const sim::drives::Scenario& scenario,
                                                          const schedules::model::Cluster& cluster) {
   const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
   if (!ego.on || !scenario.world.road || !schedules::model::has_step(cluster, "lane_keeping")) return std::nullopt;
   return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
 }
 
-evaluation::driving::DrivingConfig driving_config(const drives::Scenario& scenario,
+evaluation::driving::DrivingConfig driving_config(const sim::drives::Scenario& scenario,
                                                   const schedules::model::Cluster& cluster) {
   evaluation::driving::DrivingConfig config;
   config.front_m = scenario.world.ego->front;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "drives/drive.h"
 #include "evaluation/accuracy/plane.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -30,7 +30,7 @@ Eigen::Matrix2d assumed_density(const fusion::config::TrackerConfig& tracker) {
 
 // Converts the world's noise to white noise: the acceleration along the heading, and across it the turn rate's
 // effect at this speed.
-PointMotion motion_of(const drives::Scenario& scenario) {
+PointMotion motion_of(const sim::drives::Scenario& scenario) {
   const sim::world::ObjectConfig& object = scenario.world.objects.front();
   PointMotion motion = PointMotion::known(scenario.tracker.process_noise, scenario.tracker.initial_velocity_sigma);
   motion.assumed = assumed_density(scenario.tracker);
@@ -81,7 +81,7 @@ bool knows_size(const fusion::config::Sizes& prior, const sim::world::ObjectConf
          prior.width_sigma <= kKnown_m;
 }
 
-bool shows_one_face(const drives::Scenario& scenario) {
+bool shows_one_face(const sim::drives::Scenario& scenario) {
   const sim::world::ObjectConfig& object = scenario.world.objects.front();
   return shows_one_face(object, scenario.sensors.lasers) && shows_one_face(object, scenario.sensors.cameras);
 }
@@ -126,19 +126,19 @@ double distance_to_outline(const recording::records::TruthState& box, double x, 
 
 }  // namespace
 
-bool ExpectedError::is_defined(const drives::Scenario& scenario) {
+bool ExpectedError::is_defined(const sim::drives::Scenario& scenario) {
   if (scenario.world.objects.size() != 1 || scenario.tracker.motion != fusion::config::MotionModel::kConstantVelocity ||
       scenario.tracker.extent_noise > 0.0 || scenario.world.ego || scenario.world.objects.front().on)
     return false;
   return knows_size(scenario.tracker.sizes, scenario.world.objects.front()) || shows_one_face(scenario);
 }
 
-ExpectedError::ExpectedError(const drives::Scenario& scenario, const schedules::model::Cluster& cluster)
+ExpectedError::ExpectedError(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster)
     : sensors_(scenario.sensors), tracker_(scenario.tracker), of_cluster_(cluster.sensors),
       drawn_(moments_of(scenario.world.objects.front().size,
                         {scenario.world.objects.front().length, scenario.world.objects.front().width})),
       prior_(moments_of(scenario.tracker.sizes)), face_(face_in_view(scenario.world.objects.front())),
-      alone_(shows_one_face(scenario)), from_(drives::evaluation_start(scenario)), motion_(motion_of(scenario)),
+      alone_(shows_one_face(scenario)), from_(sim::drives::evaluation_start(scenario)), motion_(motion_of(scenario)),
       recursion_(motion_), size_(drawn_, prior_), heading_(scenario.tracker) {}
 
 double ExpectedError::mean_of(double sum) const {

@@ -25,12 +25,12 @@
 #include <optional>
 #include <vector>
 
-#include "drives/scenario.h"
 #include "evaluation/accuracy/box.h"
 #include "experiments/sweep/expected_error.h"
 #include "experiments/sweep/expected_heading.h"
 #include "experiments/sweep/expected_size.h"
 #include "recording/records/records.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::experiments::sweep {
 
@@ -39,8 +39,8 @@ class ExpectedError final : public recording::records::Sink {
   // Returns whether the scenario has one object and a tracker of constant velocity, to which sizes are constants. All
   // measurements are then positions in its plane. Besides, the object shows all sensors one face alone at the start, whatever
   // size is drawn, or the tracker knows its nominal size.
-  static bool is_defined(const drives::Scenario& scenario);
-  ExpectedError(const drives::Scenario& scenario, const schedules::model::Cluster& cluster);
+  static bool is_defined(const sim::drives::Scenario& scenario);
+  ExpectedError(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster);
 
   // Return the expected squares of the errors [m^2] of the visible face's middle and of the centre. They are over the first
   // uses of images from the scenario's evaluate_from on; not a number if there are none.
@@ -85,7 +85,7 @@ class ExpectedError final : public recording::records::Sink {
   Eigen::Index shown() const { return 1 - hidden(); }
   double half_hidden() const { return 0.5 * prior_.mean(hidden()); }
 
-  drives::Sensors sensors_;
+  sim::drives::Sensors sensors_;
   fusion::config::TrackerConfig tracker_;
   std::vector<schedules::model::Sensor> of_cluster_;  // by SensorId
   SizeMoments drawn_, prior_;

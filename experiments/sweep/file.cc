@@ -11,10 +11,10 @@
 #include "core/counted.h"
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
-#include "drives/scenario.h"
 #include "experiments/sweep/keys.h"
 #include "experiments/sweep/measures.h"
 #include "experiments/sweep/read_comparison.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::experiments::sweep {
 namespace {

@@ -7,17 +7,17 @@
 #include <cstdint>
 #include <string_view>
 
-#include "drives/drive.h"
 #include "evaluation/accuracy/drive_measures.h"
 #include "evaluation/driving/driving_account.h"
 #include "recording/records/records.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::experiments::sweep {
 
 // A drive's findings. `driving` is null unless commands drive the vehicle.
 struct MeasuredDrive {
   const evaluation::accuracy::DriveSummary& summary;
-  const drives::DriveOutcome& outcome;
+  const sim::drives::DriveOutcome& outcome;
   const evaluation::driving::DrivingFindings* driving = nullptr;
 };
 

@@ -1,11 +1,11 @@
 // One node at work: its controllers, its CNI buffers and its tasks, driven from outside in its own microticks.
 //
-// One law holds under every crank: a task reads its inputs at its start, and its outputs become visible at its
+// One law holds under every engine: a task reads its inputs at its start, and its outputs become visible at its
 // end. The parts are the operating system, which runs tasks (nodes/host/processor.h), the wiring, which moves
 // lists (nodes/host/wiring.h), the sensor ends, which trigger and measure (nodes/host/sensor_ends.h), and the
 // node's records (nodes/host/node_records.h).
 //
-// At one microtick the order is: arrivals (by the crank), ends of tasks, the bus controller, activations,
+// At one microtick the order is: arrivals (by the engine), ends of tasks, the bus controller, activations,
 // starts. So an output that becomes visible at a tick is still sent or read at that tick. A sleeping node does
 // nothing, and hears only a wake-up pattern.
 //   L1  after advance(t) and without further arrivals, next_event() is after t

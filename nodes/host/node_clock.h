@@ -1,4 +1,4 @@
-// The clocks with which a node begins, the same under every crank. The oscillator is drawn from the drive's
+// The clocks with which a node begins, the same under every engine. The oscillator is drawn from the drive's
 // seed unless the cluster sets it; a node that begins integrated also has a clock of the cluster.
 #pragma once
 

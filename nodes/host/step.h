@@ -1,7 +1,7 @@
 // The code of a task: a pure step from the contents of its input ports at its start to those of its output
 // ports at its end.
 //
-// A step receives its instants and never asks for them, so it runs under every crank. Its outputs become
+// A step receives its instants and never asks for them, so it runs under every engine. Its outputs become
 // visible at the task's end, even if the computation took no time.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The crank in real time: drives one node of a cluster by the machine's clock, on a medium that carries its
+// The engine in real time: drives one node of a cluster by the machine's clock, on a medium that carries its
 // frames to the processes of the other nodes.
 //
 // The node lives in its own microticks, as in virtual time. Everything is done at the instant it is due, one

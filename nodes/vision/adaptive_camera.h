@@ -8,7 +8,7 @@
 //
 // A camera without a picture costs its detection and a step. A detection takes at most as long as the task may hold a
 // list (schedules::model::Task::holds), in whole steps. Then the detector gives what it has. The mean time of a whole
-// picture is not cut: drives/detectors.h refuses that. If the task missed executions for so long, the detection is
+// picture is not cut: sim/drives/detectors.h refuses that. If the task missed executions for so long, the detection is
 // dropped.
 //
 // A task with modes does not plan (nodes/vision/mode_camera.h).

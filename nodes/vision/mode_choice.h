@@ -20,7 +20,7 @@ using CameraSet = std::uint32_t;
 
 class ModeChoice {
  public:
-  // The rows' cameras and modes are those of the task (drives/detectors.h).
+  // The rows' cameras and modes are those of the task (sim/drives/detectors.h).
   ModeChoice(const schedules::model::Task& task, const std::vector<ModeOfRegions>& rows);
   // Returns the place of the mode among the task's.
   std::size_t of(CameraSet with_region) const;

@@ -1,4 +1,4 @@
-// Numbers of the pcapng and pcap formats, shared by writer and reader. Private to the room.
+// Numbers of the pcapng and pcap formats, shared by writer and reader. Private to the module.
 #pragma once
 
 #include <cstddef>

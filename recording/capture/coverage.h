@@ -1,4 +1,4 @@
-// Tracks which owned slots of a capture's cycles have a frame. Private to the room.
+// Tracks which owned slots of a capture's cycles have a frame. Private to the module.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The common part of the readers of pcap and pcapng. Private to the room.
+// The common part of the readers of pcap and pcapng. Private to the module.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Finds captured frames that were sent outside the slot of their id. Private to the room.
+// Finds captured frames that were sent outside the slot of their id. Private to the module.
 //
 // The header gives a frame's slot, the stamp its instant. Minus their slots' offsets in the cycle, the stamps
 // of static frames are whole cycles apart. A frame that is off by more than half a slot was in another slot.

@@ -1,4 +1,4 @@
-// Reads a logged frame's header for rooms that do not include bus/wire.
+// Reads a logged frame's header for modules that do not include bus/wire.
 #pragma once
 
 #include "recording/records/records.h"

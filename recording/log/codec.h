@@ -1,4 +1,4 @@
-// Records to protobuf messages and back. Private to the room, as it includes generated code.
+// Records to protobuf messages and back. Private to the module, as it includes generated code.
 //
 // An encoder reuses its messages. It sets every field and never calls Clear(), which would free nested
 // messages. It uses no heap once the lists have had their largest size. A Decoder checks that every number fits

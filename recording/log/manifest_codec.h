@@ -1,4 +1,4 @@
-// The manifest as an MCAP metadata record's list of (key, value), and back. Private to the room.
+// The manifest as an MCAP metadata record's list of (key, value), and back. Private to the module.
 #pragma once
 
 #include <string>

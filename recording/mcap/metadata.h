@@ -1,4 +1,4 @@
-// Metadata records: a name, and entries of a key and a value. Private to the room.
+// Metadata records: a name, and entries of a key and a value. Private to the module.
 //
 // A metadata record is consistent if its entries fill it exactly. In a damaged file a candidate may begin at any byte.
 // Its entries may reach to the file's end. Candidates whose entries meet share all further ones. They are followed

@@ -1,4 +1,4 @@
-// Walks through the untrusted bytes of an MCAP file. Private to the room.
+// Walks through the untrusted bytes of an MCAP file. Private to the module.
 //
 // Every record must be consistent (its fields fill its length exactly) before it is used. After an inconsistent
 // one, the walk goes on at the next place where a consistent record begins, so damage costs only the damaged

@@ -1,4 +1,4 @@
-// The place of a record in the canonical order of merged logs. Private to the room.
+// The place of a record in the canonical order of merged logs. Private to the module.
 //
 // Records are ordered by (true time, rank of the kind, subject), then:
 //   records of a node                 in the order of that node's reports; repetitions in other logs, by payload

@@ -1,4 +1,4 @@
-// Walks through the records of several logs in their canonical order. Private to the room.
+// Walks through the records of several logs in their canonical order. Private to the module.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The messages of a trace file, and their type. Private to the room.
+// The messages of a trace file, and their type. Private to the module.
 //
 // `.osi` does not name the type of its messages, and neither may the file's name. So the type is that in which a
 // message makes sense. A GroundTruth has a stamp and a moving object with id and position. A SensorView has such a

@@ -188,7 +188,7 @@ constexpr Constraint kConstraints[] = {
      [](S s) { return number(s.p.pOffsetCorrectionOut); },
      [](S s) {
        return fmt::format(
-           "must be {}..{} microticks: from the assumed precision to the room after gOffsetCorrectionStart at the "
+           "must be {}..{} microticks: from the assumed precision to the module after gOffsetCorrectionStart at the "
            "fastest rate",
            analysis::least_offset_correction(s), analysis::most_offset_correction(s));
      }},

@@ -13,7 +13,7 @@
 #include "core/random.h"
 #include "faults/plan.h"
 #include "schedules/model/cluster.h"
-#include "sim/crank/plant.h"
+#include "sim/engine/plant.h"
 #include "sim/medium/disturbance.h"
 
 namespace ttf::sim::faults {
@@ -34,7 +34,7 @@ struct FaultSetting {
   const ttf::faults::Fault& fault;  // resolved
   std::uint32_t index = 0;          // in the plan
   const schedules::model::Cluster& cluster;
-  crank::Plant& plant;
+  engine::Plant& plant;
   FaultLog& log;
   TrueTime from{}, until{};
   std::uint64_t seed = 0;
@@ -61,7 +61,7 @@ class ActiveFault : public medium::CanDisturbance {
   const ttf::faults::Fault& fault() const { return setting_.fault; }
   const schedules::model::Cluster& cluster() const { return setting_.cluster; }
   const schedules::model::GlobalParameters& flexray() const { return setting_.cluster.flexray; }
-  crank::Plant& plant() { return setting_.plant; }
+  engine::Plant& plant() { return setting_.plant; }
   TrueTime now() const { return setting_.plant.now(); }
   TrueTime from() const { return setting_.from; }
   TrueTime until() const { return setting_.until; }

@@ -8,7 +8,7 @@
 
 namespace ttf::sim::faults {
 
-Injector::Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, crank::Plant& plant,
+Injector::Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, engine::Plant& plant,
                    std::uint64_t seed, std::uint32_t replication, recording::records::Sink& sink, TrueTime origin)
     : plan_(std::move(plan)), cluster_(cluster), plant_(plant), sink_(sink), activations_(plan_.faults.size()) {
   foreseen_.reserve(kForeseen);

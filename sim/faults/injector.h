@@ -20,7 +20,7 @@
 #include "faults/plan.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
-#include "sim/crank/plant.h"
+#include "sim/engine/plant.h"
 #include "sim/faults/active_fault.h"
 #include "sim/medium/disturbance.h"
 
@@ -31,7 +31,7 @@ class Injector final : public medium::Disturbance, private FaultLog {
   // `plan` is resolved for the cluster; its times count from `origin`. All arguments but the plan outlive the
   // injector. The simulation gets the injector by set_disturbance(), and at its construction the schedules that
   // its nodes believe in (faults/believed_schedule.h).
-  Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, crank::Plant& plant,
+  Injector(ttf::faults::FaultPlan plan, const schedules::model::Cluster& cluster, engine::Plant& plant,
            std::uint64_t seed, std::uint32_t replication, recording::records::Sink& sink, TrueTime origin = {});
   ~Injector() override;
 
@@ -76,7 +76,7 @@ class Injector final : public medium::Disturbance, private FaultLog {
 
   ttf::faults::FaultPlan plan_;
   const schedules::model::Cluster& cluster_;
-  crank::Plant& plant_;
+  engine::Plant& plant_;
   recording::records::Sink& sink_;
   std::vector<Entry> entries_;  // by index in the plan, like the vectors below
   std::vector<Activation> activations_;

@@ -12,7 +12,7 @@ using bus::guardian::GuardianReason;
 using bus::poc::PocKind;
 using bus::ports::Signal;
 
-// One signal is forwarded, but many may be emitted. Those beyond this room are handled at once.
+// One signal is forwarded, but many may be emitted. Those beyond this module are handled at once.
 constexpr std::size_t kHearingRoom = 16;
 // A leading coldstart node is alone in its first cycles (bus/poc/poc.h).
 constexpr std::int64_t kLeaderAlone = 4;

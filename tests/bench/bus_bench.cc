@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "core/random.h"
-#include "sim/crank/bus_simulation.h"
+#include "sim/engine/bus_simulation.h"
 #include "tests/bench/yardstick.h"
-#include "tests/sim/crank/bus_clusters.h"
+#include "tests/sim/engine/bus_clusters.h"
 
 namespace ttf::sim {
 namespace {
 
 // All 64 static slots of a 5 ms cycle are owned, by the nodes in turn.
 schedules::model::Cluster full_cluster(int nodes) {
-  schedules::model::Cluster cluster = crank::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
+  schedules::model::Cluster cluster = engine::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
   for (int slot = nodes + 1; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
     cluster.frames.push_back(
         {slot, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % nodes), kNoPdu, 0, 0});
@@ -42,19 +42,19 @@ void report(benchmark::State& state, const schedules::model::Cluster& cluster, i
 
 void run(benchmark::State& state, const schedules::model::Cluster& cluster, int slots_per_cycle,
          bool transparent = false) {
-  std::vector<crank::BusNode> nodes;
+  std::vector<engine::BusNode> nodes;
   std::vector<Problems> seen(cluster.nodes.size());
   std::vector<bus::controller::ControllerEvents*> events;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     RandomStream draw({1, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
     const std::int64_t ppb = draw.integer(-100'000, 100'000);
-    crank::BusNode node{timebase::Oscillator(25'000, ppb, draw.integer(0, 24'999))};
+    engine::BusNode node{timebase::Oscillator(25'000, ppb, draw.integer(0, 24'999))};
     node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}),
-                                               static_cast<int>(ppb * crank::kMicroPerCycle / 1'000'000'000)};
+                                               static_cast<int>(ppb * engine::kMicroPerCycle / 1'000'000'000)};
     nodes.push_back(node);
     events.push_back(&seen[n]);
   }
-  crank::BusSimulation simulation(cluster, std::move(nodes), std::move(events));
+  engine::BusSimulation simulation(cluster, std::move(nodes), std::move(events));
   simulation.medium().set_transparent(transparent);
   simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
   constexpr std::int64_t kCycles = 20;
@@ -76,7 +76,7 @@ BENCHMARK(StaticSlots)
 // One slot per node, as in start-up tests and fault campaigns: unassigned slots cost nothing.
 void OneSlotPerNode(benchmark::State& state) {
   const int nodes = static_cast<int>(state.range(0));
-  const schedules::model::Cluster cluster = crank::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
+  const schedules::model::Cluster cluster = engine::bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
   run(state, cluster, nodes, state.range(1) != 0);
 }
 BENCHMARK(OneSlotPerNode)

@@ -8,12 +8,12 @@
 
 #include "recording/log/writer.h"
 #include "tests/bench/yardstick.h"
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf {
 namespace {
 
-using drives::Drive;
+using sim::drives::Drive;
 
 // A folder of this program's own, gone with it.
 class ScratchFolder {
@@ -40,7 +40,7 @@ void PaperDriveMeasured(benchmark::State& state) {
   drive.scenario.evaluate_from = Duration{};
   std::uint64_t seed = 0;
   for (auto _ : state) {
-    evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
+    evaluation::accuracy::DriveMeasures measures(sim::drives::evaluation_start(drive.scenario));
     drive.run(measures, ++seed, false);
     benchmark::DoNotOptimize(measures.finish().position_rmse_truth);
   }

@@ -18,13 +18,13 @@
 #include "fusion/motion/ctrv.h"
 #include "fusion/oosm/any_method.h"
 #include "fusion/sensors/position.h"
-#include "sim/crank/bus_simulation.h"
+#include "sim/engine/bus_simulation.h"
 #include "sim/world/camera.h"
 #include "sim/world/world.h"
 #include "tests/bench/crowd.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/fusion/oosm/timelines.h"
-#include "tests/sim/crank/bus_clusters.h"
+#include "tests/sim/drives/drive_fixture.h"
+#include "tests/sim/engine/bus_clusters.h"
 
 namespace ttf {
 namespace {
@@ -176,29 +176,29 @@ void frame_decode() {
 
 // Four nodes, all 64 static slots in use on both channels, one cycle.
 void bus_cycle() {
-  schedules::model::Cluster cluster = sim::crank::bus_cluster(4, 3, 4);
+  schedules::model::Cluster cluster = sim::engine::bus_cluster(4, 3, 4);
   for (int slot = 5; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
     cluster.frames.push_back(
         {slot, schedules::model::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % 4), kNoPdu, 0, 0});
   bus::controller::ControllerEvents nobody;
-  std::vector<sim::crank::BusNode> nodes;
+  std::vector<sim::engine::BusNode> nodes;
   for (int n = 0; n < 4; ++n) {
-    sim::crank::BusNode node{timebase::Oscillator(25'000, 10'000 * n, 0)};
+    sim::engine::BusNode node{timebase::Oscillator(25'000, 10'000 * n, 0)};
     node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}), 0};
     nodes.push_back(node);
   }
-  sim::crank::BusSimulation simulation(cluster, std::move(nodes),
-                                       std::vector<bus::controller::ControllerEvents*>(4, &nobody));
+  sim::engine::BusSimulation simulation(cluster, std::move(nodes),
+                                        std::vector<bus::controller::ControllerEvents*>(4, &nobody));
   simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
   counted([&] { simulation.run_until(simulation.now() + cluster.cycle()); });
 }
 
 // The paper's drive of 1.5 s as an experiment drives it: the whole cluster, measured, without a log.
 void paper_drive() {
-  drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
+  sim::drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.scenario.duration = Duration::milliseconds(1500);
   drive.scenario.evaluate_from = Duration{};
-  evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
+  evaluation::accuracy::DriveMeasures measures(sim::drives::evaluation_start(drive.scenario));
   counted([&] { drive.run(measures, 1, false); });
 }
 

@@ -73,22 +73,22 @@ done
 
 grep -qi 'fmt\|yaml' "$work/defaults/CMakeCache.txt" && fail "ttfusion::fusion needs more than Eigen"
 
-# Other rooms.
-if cmake -G Ninja -S "$source/examples/rooms" -B "$work/rooms" "-DCMAKE_PREFIX_PATH=$prefix" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-  >"$work/rooms.txt" 2>&1 && cmake --build "$work/rooms" >>"$work/rooms.txt" 2>&1; then
+# Other modules.
+if cmake -G Ninja -S "$source/examples/modules" -B "$work/modules" "-DCMAKE_PREFIX_PATH=$prefix" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
+  >"$work/modules.txt" 2>&1 && cmake --build "$work/modules" >>"$work/modules.txt" 2>&1; then
   for flag in ' -W' ' -march' ' -mno-fma' ' -ffp-contract' ' --param' ' -O'; do
-    grep -q -- "\"command\".*$flag" "$work/rooms/compile_commands.json" && fail "a room's user is compiled with $flag"
+    grep -q -- "\"command\".*$flag" "$work/modules/compile_commands.json" && fail "a module's user is compiled with $flag"
   done
-  program=$work/rooms/check_schedule
+  program=$work/modules/check_schedule
   expect 0 '^laser: used [0-9.]+ to [0-9.]+ ms after the measurement$' "$share/ttfusion/schedules/paper_synchronised.yaml"
   sed 's/gdNIT: .*/gdNIT: 900 us/' "$share/ttfusion/schedules/paper_synchronised.yaml" >"$work/wrong.yaml"
   expect 2 'wrong.yaml:[0-9]+: flexray.gdNIT = ' "$work/wrong.yaml"
-  program=$work/rooms/read_log
+  program=$work/modules/read_log
   expect 0 '^paper_scenario1 by tt: [1-9][0-9]* uses of an image$' out/paper_scenario1/tt.mcap
   expect 2 'is not a log' "$source/README.md"
   program=$prefix/bin/ttfusion
 else
-  fail "the example of rooms does not build: $(tail -n 30 "$work/rooms.txt")"
+  fail "the example of modules does not build: $(tail -n 30 "$work/modules.txt")"
 fi
 mkdir "$work/unknown"
 printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(unknown LANGUAGES CXX)' \

@@ -12,7 +12,7 @@ expect 0 '^flexray.gdStaticSlot: whole number 4..661 macroticks, optional' keys 
 expect 2 '^error: command line: kind = voyage: must be one of scenario, cluster, plan, experiment, track, faults$' keys voyage
 expect 2 '^error: command line: --format = json-schema: goes with one kind' keys --format json-schema
 expect 0 '^wrote .*/faults.json$' keys faults --format json-schema -o "$work/faults.json"
-cmp -s "$work/faults.json" "$source/schemas/faults.schema.json" || fail "keys writes another schema than the one kept"
+cmp -s "$work/faults.json" "$source/keys/schemas/faults.schema.json" || fail "keys writes another schema than the one kept"
 expect 0 '^wrote .*/keys$' keys --format markdown -o "$work/keys"
 [[ -s $work/keys/scenario_sensors_NAME.md ]] || fail "keys --format markdown writes no page of the sensors"
 

@@ -5,12 +5,12 @@
 
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
-#include "drives/step_catalog.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
 #include "schedules/check/real_time_rules.h"
 #include "schedules/exchange/text.h"
 #include "schedules/file/loader.h"
+#include "sim/drives/step_catalog.h"
 #include "tests/fuzz/fibex_laws.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/nothing_there.h"
@@ -69,20 +69,21 @@ void check_cluster(const std::string& text) {
     return check_refusal(InputError(findings), kClusterFile);
   schedules::exchange::show_text(cluster);
   check_time_scale(cluster);
-  if (!accepted(kClusterFile, [&] { schedules::model::bind_ports(cluster, drives::step_ports()); })) return;
+  if (!accepted(kClusterFile, [&] { schedules::model::bind_ports(cluster, sim::drives::step_ports()); })) return;
   for (const schedules::model::PduLayout& layout : cluster.pdus) {
     check_signals(layout, layout.header);
     check_signals(layout, layout.element);
   }
   check_ages(cluster);
   check_fibex_round_trip(cluster);
-  drives::Scenario scenario;
+  sim::drives::Scenario scenario;
   scenario.duration = Duration::milliseconds(1'000);
   const auto rows = std::make_shared<const recording::rows::RecordedInput>(some_recording());
   for (std::size_t node = 0; node < cluster.nodes.size(); ++node)
     accepted(kClusterFile, [&] {
-      drives::make_steps({&scenario, &cluster, fusion::strategies::StrategyKind::kAdva, 1, 0, nothing_there(), rows},
-                         static_cast<NodeId>(node));
+      sim::drives::make_steps(
+          {&scenario, &cluster, fusion::strategies::StrategyKind::kAdva, 1, 0, nothing_there(), rows},
+          static_cast<NodeId>(node));
     });
 }
 

@@ -12,11 +12,11 @@
 
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
-#include "drives/step_catalog.h"
 #include "nodes/host/executive.h"
 #include "nodes/host/node_clock.h"
 #include "nodes/runner/arrival_window.h"
 #include "schedules/file/loader.h"
+#include "sim/drives/step_catalog.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
@@ -26,7 +26,7 @@ using namespace ttf;
 const schedules::model::Cluster& the_cluster() {
   static const schedules::model::Cluster kCluster = [] {
     auto cluster = schedules::file::parse_cluster(fuzz::shipped_cluster("paper_synchronised"), "paper_synchronised");
-    schedules::model::bind_ports(cluster, drives::step_ports());
+    schedules::model::bind_ports(cluster, sim::drives::step_ports());
     return cluster;
   }();
   return kCluster;

@@ -13,10 +13,10 @@
 #include "core/check.h"
 #include "core/csv.h"
 #include "core/decimal.h"
+#include "recording/replay/recorded_lists.h"
+#include "recording/replay/replay.h"
+#include "recording/replay/sensor_timing.h"
 #include "recording/rows/observation_rows.h"
-#include "replay/recorded_lists.h"
-#include "replay/replay.h"
-#include "replay/sensor_timing.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
@@ -62,28 +62,29 @@ void check_rows(const std::vector<ObservationRow>& rows) {
 }
 
 void check_tracks(const std::vector<ObservationRow>& rows) {
-  replay::ReplayConfig config;
+  recording::replay::ReplayConfig config;
   config.tracker.history_scans = 8;  // little to set up, and soon too old
-  replay::RecordedLists arrivals;
+  recording::replay::RecordedLists arrivals;
   Findings findings;
   if (!fuzz::accepted(kFile, [&] {
-        replay::list_sensors(config, rows, {}, kFile);
-        arrivals = replay::recorded_lists_of(rows, config, kFile, findings);
+        recording::replay::list_sensors(config, rows, {}, kFile);
+        arrivals = recording::replay::recorded_lists_of(rows, config, kFile, findings);
         findings.throw_if_any();
       }))
     return;
-  for (const replay::RecordedList& list : arrivals.lists)
+  for (const recording::replay::RecordedList& list : arrivals.lists)
     TTF_CHECK(list.arrival >= list.measured && !list.observations.empty(), "list of {} ns", list.measured.ns);
   for (const auto strategy : {fusion::strategies::StrategyKind::kAdva, fusion::strategies::StrategyKind::kBuff}) {
     std::uint64_t fates = 0;
-    const replay::ReplaySetup setup{strategy, config.tracker, replay::sensor_timings(arrivals, config, strategy), true};
-    const replay::ReplayAccount account =
-        replay::replay(arrivals, setup, [](GlobalTime, std::span<const fusion::tracks::TrackView> tracks) {
+    const recording::replay::ReplaySetup setup{strategy, config.tracker,
+                                               recording::replay::sensor_timings(arrivals, config, strategy), true};
+    const recording::replay::ReplayAccount account =
+        recording::replay::replay(arrivals, setup, [](GlobalTime, std::span<const fusion::tracks::TrackView> tracks) {
           for (const fusion::tracks::TrackView& track : tracks)
             TTF_CHECK(track.state.allFinite() && track.covariance.allFinite() && std::isfinite(track.heading),
                       "track {} at {} ns", index_of(track.id), track.valid_at.ns);
         });
-    for (const replay::SensorAccount& one : account.sensors)
+    for (const recording::replay::SensorAccount& one : account.sensors)
       fates += one.in_order + one.late + one.too_old + one.duplicates;
     TTF_CHECK(fates == arrivals.lists.size(), "{} fates of {} lists", fates, arrivals.lists.size());
   }

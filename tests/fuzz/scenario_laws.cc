@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "drives/scenario.h"
 #include "nodes/sensing/scene.h"
+#include "sim/drives/scenario.h"
 #include "tests/fuzz/harness.h"
 
 namespace ttf::fuzz {
@@ -18,8 +18,8 @@ constexpr Duration kLongestDrawn = Duration::milliseconds(2'000);  // longer wor
 }  // namespace
 
 bool check_scenario(const std::string& text) {
-  drives::Scenario scenario;
-  if (!accepted(kScenarioFile, [&] { scenario = drives::parse_scenario(text, kScenarioFile); })) return false;
+  sim::drives::Scenario scenario;
+  if (!accepted(kScenarioFile, [&] { scenario = sim::drives::parse_scenario(text, kScenarioFile); })) return false;
   TTF_CHECK(scenario.evaluate_from <= scenario.duration, "evaluated from {}, {} long", scenario.evaluate_from.ns,
             scenario.duration.ns);
   for (const faults::Fault& fault : scenario.faults.faults) {

@@ -13,8 +13,8 @@
 #include "bus/cni/list_buffer.h"
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
-#include "drives/step_catalog.h"
 #include "schedules/file/loader.h"
+#include "sim/drives/step_catalog.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/nothing_there.h"
 
@@ -59,12 +59,12 @@ struct Finite final : recording::records::Sink {
 // A node's buffers and tasks, without its clock: the input decides when a task runs.
 class Host {
  public:
-  Host(const drives::NodeSetConfig& config, NodeId id)
+  Host(const sim::drives::NodeSetConfig& config, NodeId id)
       : cluster_(*config.cluster), id_(id), strobes_(cluster_.sensors.size()) {
     for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
       cans_.push_back(std::make_unique<bus::cni::CanController>(cluster_, id, b, mute_));
     for (const PduLayout& layout : cluster_.pdus) slots_.emplace_back(layout);
-    const auto steps = drives::make_steps(config, id);
+    const auto steps = sim::drives::make_steps(config, id);
     const auto& described = cluster_.node(id).tasks;
     for (std::size_t t = 0; t < described.size(); ++t) {
       Task& task = tasks_.emplace_back(Task{&described[t], steps[t], {}, {}, 0});
@@ -131,7 +131,7 @@ class Host {
 
 class Cluster {
  public:
-  explicit Cluster(const drives::NodeSetConfig& config) : cluster_(*config.cluster) {
+  explicit Cluster(const sim::drives::NodeSetConfig& config) : cluster_(*config.cluster) {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       hosts_.push_back(std::make_unique<Host>(config, static_cast<NodeId>(n)));
   }
@@ -205,8 +205,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const schedules::model::Cluster kClusters[] = {
       schedules::file::parse_cluster(fuzz::shipped_cluster("paper_synchronised"), "paper"),
       schedules::file::parse_cluster(fuzz::shipped_cluster("laser_radar_synchronised"), "recorded")};
-  static const drives::Scenario kScenario = [] {
-    drives::Scenario scenario;
+  static const sim::drives::Scenario kScenario = [] {
+    sim::drives::Scenario scenario;
     scenario.duration = Duration::milliseconds(1'000);
     return scenario;
   }();

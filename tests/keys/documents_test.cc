@@ -125,11 +125,11 @@ TEST(Documents, PagesAndSchemasAreThoseInTheTree) {
       expect_committed(std::filesystem::path("docs/keys") / page.file, page.text);
       files.insert(page.file);
     }
-    expect_committed(std::filesystem::path("schemas") / schema_file(document),
+    expect_committed(std::filesystem::path("keys/schemas") / schema_file(document),
                      json_schema(document, outline_of(document)));
     files.insert(schema_file(document));
   }
-  for (const char* folder : {"docs/keys", "schemas"})
+  for (const char* folder : {"docs/keys", "keys/schemas"})
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TTF_SOURCE_DIR) / folder))
       EXPECT_TRUE(files.contains(entry.path().filename().string())) << entry.path() << " belongs to no document";
 }

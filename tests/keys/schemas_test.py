@@ -35,7 +35,7 @@ Loader.add_implicit_resolver("tag:yaml.org,2002:float",
 Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
 Loader.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(node.value))
 
-SCHEMAS = {path.name.split(".")[0]: json.loads(path.read_text()) for path in (SOURCE / "schemas").glob("*.json")}
+SCHEMAS = {path.name.split(".")[0]: json.loads(path.read_text()) for path in (SOURCE / "keys/schemas").glob("*.json")}
 
 
 def refusals(kind: str, text: str) -> list[str]:

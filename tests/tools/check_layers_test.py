@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The layer check, tried on small houses: houses that obey the table pass, every violation is named."""
+"""The layer check, tried on small trees: those that obey the table pass, every violation is named."""
 
 import pathlib
 import sys
@@ -9,8 +9,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 import check_layers  # noqa: E402
 
-# A house with the rooms of ours; sub-rooms and doors as a test needs them.
-ROOMS = {
+# A tree with the modules of ours; parts and public headers as a test needs them.
+MODULES = {
     "may_include": {
         "core": [], "timebase": ["core"], "schedules": ["core"], "fusion": ["core"], "recording/records": ["core"],
         "bus/wire": ["core", "schedules"], "bus": ["core", "bus/wire"], "recording": ["core", "bus/wire"],
@@ -23,15 +23,15 @@ ROOMS = {
 
 
 class CheckLayers(unittest.TestCase):
-    def problems(self, files, table=ROOMS):
+    def problems(self, files, table=MODULES):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             for name, text in files.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text, encoding="utf-8")
-            return check_layers.problems(root, check_layers.House(table))
+            return check_layers.problems(root, check_layers.Modules(table))
 
-    def expect(self, files, *expected, table=ROOMS):
+    def expect(self, files, *expected, table=MODULES):
         """One problem for each expected text, in any order, and no other."""
         found = self.problems(files, table)
         for text in expected:
@@ -40,7 +40,7 @@ class CheckLayers(unittest.TestCase):
             found.remove(match[0])
         self.assertEqual(found, [])
 
-    def test_a_house_in_order(self):
+    def test_a_tree_in_order(self):
         self.expect({
             "core/time.h": "#pragma once\n#include <cstdint>\n",
             "schedules/cluster.h": '#include "core/time.h"\n',
@@ -55,13 +55,13 @@ class CheckLayers(unittest.TestCase):
             "tools/js/node_modules/x/y.c": '#include "nowhere.h"\n',
         })
 
-    def test_a_room_that_is_not_allowed(self):
+    def test_a_module_that_is_not_allowed(self):
         self.expect({"sim/drive.h": "", "fusion/filter.cc": '#include "sim/drive.h"\n'},
                     'fusion/filter.cc: fusion may not include sim ("sim/drive.h")')
 
-    def test_the_longest_prefix_is_the_room(self):
+    def test_the_longest_prefix_is_the_module(self):
         self.expect({"bus/port.h": "", "bus/wire/frame.cc": '#include "bus/port.h"\n'}, "bus/wire may not include bus")
-        self.expect({"core_extra/x.h": ""}, "core_extra/x.h: is in no room")
+        self.expect({"core_extra/x.h": ""}, "core_extra/x.h: is in no module")
 
     def test_only_the_program_and_the_tests_name_a_leaf(self):
         leaf = {"nodes/runner/run.h": "", "bus/dds/port.h": ""}
@@ -106,10 +106,10 @@ class CheckLayers(unittest.TestCase):
             with self.subTest(text):
                 self.expect({"sim/drive.h": "", "fusion/a.cc": text + "\n"})
 
-    def test_files_outside_the_rooms(self):
+    def test_files_outside_the_modules(self):
         self.expect({"extra/a.cc": "", "b.h": "", "docs/c.cc": ""}, "extra/a.cc: ", "b.h: ", "docs/c.cc: ")
 
-    def test_nothing_hides_in_a_room(self):
+    def test_nothing_hides_in_a_module(self):
         self.expect({"sim/drive.h": "", "fusion/build/a.cc": '#include "sim/drive.h"\n',
                      "fusion/.b/c.cc": '#include "sim/drive.h"\n'}, "fusion/build/a.cc: ", "fusion/.b/c.cc: ")
 
@@ -135,33 +135,33 @@ class CheckLayers(unittest.TestCase):
                 self.expect({refused: f"#  include <{header}>\n"}, "threads live only")
 
     def test_a_circle_in_the_table(self):
-        self.assertEqual(check_layers.circles(check_layers.read_house().allowed), [])
+        self.assertEqual(check_layers.circles(check_layers.read_modules().allowed), [])
         self.assertEqual(len(check_layers.circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]})), 3)
         self.assertEqual(len(check_layers.circles({"a": ["a"]})), 1)
 
-    def test_sub_rooms_are_included_downwards(self):
-        table = {**ROOMS, "sub_rooms": {"schedules": ["model", "check"]}, "doors": {}}
+    def test_parts_are_included_downwards(self):
+        table = {**MODULES, "parts": {"schedules": ["model", "check"]}, "public_headers": {}}
         self.expect({"schedules/model/a.h": "", "schedules/check/b.cc": '#include "schedules/model/a.h"\n'}, table=table)
         self.expect({"schedules/check/a.h": "", "schedules/model/b.cc": '#include "schedules/check/a.h"\n'},
                     "schedules/model may not include schedules/check", table=table)
         self.expect({"schedules/check/deep/a.h": "", "schedules/check/b.h": '#include "schedules/check/deep/a.h"\n',
                      "schedules/check/deep/c.cc": '#include "schedules/check/b.h"\n'}, table=table)
-        self.expect({"schedules/new/a.cc": ""}, "schedules/new is no sub-room", table=table)
+        self.expect({"schedules/new/a.cc": ""}, "schedules/new is no part", table=table)
 
-    def test_doors(self):
-        table = {**ROOMS, "sub_rooms": {"fusion": ["filters", "tracks"]}, "doors": {"fusion/filters": ["kalman.h"]}}
-        house = {"fusion/filters/kalman.h": '#include "fusion/filters/inner.h"\n', "fusion/filters/inner.h": ""}
-        self.expect({**house, "fusion/tracks/a.cc": '#include "fusion/filters/kalman.h"\n',
+    def test_public_headers(self):
+        table = {**MODULES, "parts": {"fusion": ["filters", "tracks"]}, "public_headers": {"fusion/filters": ["kalman.h"]}}
+        tree = {"fusion/filters/kalman.h": '#include "fusion/filters/inner.h"\n', "fusion/filters/inner.h": ""}
+        self.expect({**tree, "fusion/tracks/a.cc": '#include "fusion/filters/kalman.h"\n',
                      "tests/fusion/filters/b.cc": '#include "fusion/filters/inner.h"\n'}, table=table)
         for name in ("fusion/tracks/a.cc", "nodes/a.cc"):
-            self.expect({**house, name: '#include "fusion/filters/inner.h"\n'},
-                        '"fusion/filters/inner.h" is no door of fusion/filters', table=table)
+            self.expect({**tree, name: '#include "fusion/filters/inner.h"\n'},
+                        '"fusion/filters/inner.h" is no public header of fusion/filters', table=table)
 
     def test_a_folder_with_many_sources(self):
         files = {f"sim/a{number}.cc": "" for number in range(26)}
         self.expect(files, "sim: 26 sources in a folder")
-        self.expect(files, table={**ROOMS, "more_than_25_sources": {"sim": "a reason"}})
-        self.expect({"sim/a.cc": ""}, "sim needs no reason", table={**ROOMS, "more_than_25_sources": {"sim": "a reason"}})
+        self.expect(files, table={**MODULES, "more_than_25_sources": {"sim": "a reason"}})
+        self.expect({"sim/a.cc": ""}, "sim needs no reason", table={**MODULES, "more_than_25_sources": {"sim": "a reason"}})
 
     def test_namespaces_are_paths(self):
         def source(space, body="int a();"):
@@ -183,16 +183,16 @@ class CheckLayers(unittest.TestCase):
         self.expect({"core/a.cc": "// lgamma(x)\nint a = b.rand() + c->ctime() + operand(1) + lgamma_r(x, &s); // strtok()\n"
                                   'const char* d = "setlocale()";\n'})
 
-    def test_tests_mirror_rooms(self):
+    def test_tests_mirror_modules(self):
         self.expect({"tests/bus/wire/a.cc": "", "tests/sim/some_kind/a.cc": "", "tests/support/a.h": ""})
-        self.expect({"tests/wires/a.cc": ""}, "tests/wires: mirrors no room")
+        self.expect({"tests/wires/a.cc": ""}, "tests/wires: mirrors no module")
 
-    def test_this_house_stands(self):
+    def test_this_tree_stands(self):
         top = pathlib.Path(__file__).resolve().parents[2]
-        house = check_layers.read_house()
-        for sub_room, doors in house.doors.items():
-            for door in doors:
-                self.assertTrue((top / sub_room / door).is_file(), f"{sub_room}/{door}")
+        table = check_layers.read_modules()
+        for part, headers in table.public_headers.items():
+            for header in headers:
+                self.assertTrue((top / part / header).is_file(), f"{part}/{header}")
 
 
 if __name__ == "__main__":

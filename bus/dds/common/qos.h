@@ -1,5 +1,5 @@
 // Qualities of service, released with their holder, and the partition that separates sessions. Only sources of
-// this room include it.
+// this module include it.
 #pragma once
 
 #include <dds/dds.h>

@@ -8,7 +8,7 @@
 #include "cli/live_media/live_media.h"
 #include "core/counted.h"
 #include "nodes/runner/drive_clock.h"
-#include "sim/crank/cluster_simulation.h"
+#include "sim/engine/cluster_simulation.h"
 
 namespace ttf::cli::launch::external {
 namespace {
@@ -31,7 +31,7 @@ void Hearing::begin(bus::ports::MachineTime origin) {
   origin_ = origin;
   if (set_.scenario.startup.cold) return;  // the cluster's first cycle begins when it will
   const nodes::runner::DriveClock clock(origin, set_.time_scale_ppm);
-  judge_.begin(clock.machine_time(sim::crank::kFirstCycle));
+  judge_.begin(clock.machine_time(sim::engine::kFirstCycle));
 }
 
 void Hearing::take_in() {

@@ -12,7 +12,6 @@
 #include "cli/shipped.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "drives/step_catalog.h"
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/file/loader.h"
 #include "schedules/synthesis/explanation/explain.h"
@@ -20,6 +19,7 @@
 #include "schedules/synthesis/plan/loader.h"
 #include "schedules/synthesis/smt/z3_prover.h"
 #include "schedules/synthesis/trade/binding.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::schedule::planning {
 namespace {
@@ -147,7 +147,7 @@ int synthesize_plan(const std::string& typed, const PlanOutputs& outputs) {
   const Synthesis made = instants::synthesize(plan, z3.there() ? &z3 : nullptr, judges.by_goal());
   if (!made.found) return explain(file, plan, made, outputs.json);
   try {
-    drives::check_steps(made.cluster);
+    sim::drives::check_steps(made.cluster);
   } catch (const InputError& error) {
     throw InputError(in_the_files(plan, error.findings()));
   }

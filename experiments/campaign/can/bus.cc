@@ -7,11 +7,11 @@
 
 #include "core/errors.h"
 #include "core/random.h"
-#include "drives/drive.h"
 #include "evaluation/faults/can_checks.h"
 #include "experiments/campaign/can/draw.h"
 #include "schedules/analysis/can_load.h"
 #include "schedules/check/checker.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::experiments::campaign::can {
 namespace {
@@ -55,7 +55,7 @@ Words words_of_a_can() {
 schedules::model::Cluster checked_cluster(const CampaignFile& campaign) {
   schedules::model::Cluster cluster = read_cluster_of(campaign);
   if (auto wrong = schedules::check::check(cluster); !wrong.empty()) throw InputError(std::move(wrong));
-  drives::check_described(cluster);
+  sim::drives::check_described(cluster);
   return cluster;
 }
 

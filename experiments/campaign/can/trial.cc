@@ -13,7 +13,7 @@
 #include "core/random.h"
 #include "evaluation/faults/can_judge.h"
 #include "experiments/campaign/full_list.h"
-#include "sim/crank/can_simulation.h"
+#include "sim/engine/can_simulation.h"
 #include "sim/faults/injector.h"
 
 namespace ttf::experiments::campaign::can {
@@ -30,7 +30,7 @@ evaluation::faults::CanJudgeSettings judge_settings(const Setting& setting, cons
           fault.duration == faults::Fault::kToTheEnd ? kNever<TrueTime> : from + fault.duration};
 }
 
-class Trial final : public sim::crank::CanHosts, public recording::records::Sink {
+class Trial final : public sim::engine::CanHosts, public recording::records::Sink {
  public:
   Trial(const Setting& setting, const Variant& variant, const faults::Fault& fault, std::uint32_t index, Story* story,
         Witness* witness)
@@ -154,7 +154,7 @@ class Trial final : public sim::crank::CanHosts, public recording::records::Sink
   Story* story_;
   Witness* witness_;
   CanJudge judge_;
-  sim::crank::CanSimulation simulation_;
+  sim::engine::CanSimulation simulation_;
   sim::faults::Injector injector_;
   std::vector<std::unique_ptr<Host>> hosts_;  // by NodeId
   std::vector<TrueTime> restart_at_;          // by NodeId

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/counted.h"
-#include "drives/drive.h"
 #include "evaluation/faults/checks.h"
 #include "experiments/campaign/flexray/draw.h"
 #include "experiments/campaign/flexray/story_in_words.h"
 #include "experiments/campaign/flexray/trial.h"
 #include "schedules/check/checker.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::experiments::campaign::flexray {
 namespace {
@@ -69,7 +69,7 @@ schedules::model::Cluster cluster_of(const CampaignFile& campaign, const Variant
   if (variant.channels == Channels::kA)
     for (schedules::model::FrameSlot& frame : cluster.frames) frame.channels = Channels::kA;
   if (auto wrong = schedules::check::check(cluster); !wrong.empty()) throw InputError(std::move(wrong));
-  drives::check_described(cluster);
+  sim::drives::check_described(cluster);
   return cluster;
 }
 

@@ -21,13 +21,13 @@ timebase::Oscillator TrialDraws::oscillator(std::size_t entity, std::int64_t mic
   return {microtick_ps, fixed_ppb.value_or(ppb), draw.integer(0, microtick_ps - 1)};
 }
 
-sim::crank::BusNode TrialDraws::node(std::size_t n) const {
+sim::engine::BusNode TrialDraws::node(std::size_t n) const {
   const schedules::model::Node& node = cluster_.nodes[n];
   return {oscillator(n, node.microtick_ps, node.drift_ppb, node.max_drift_ppb)};
 }
 
-std::vector<sim::crank::BusNode> TrialDraws::starting() const {
-  std::vector<sim::crank::BusNode> nodes;
+std::vector<sim::engine::BusNode> TrialDraws::starting() const {
+  std::vector<sim::engine::BusNode> nodes;
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
     const std::int64_t latest = cluster_.cycle().ns * kCyclesToPowerOn;
     nodes.push_back(node(n));
@@ -37,10 +37,10 @@ std::vector<sim::crank::BusNode> TrialDraws::starting() const {
 }
 
 // The rate correction cancels the drift to a microtick per cycle, as after start-up.
-std::vector<sim::crank::BusNode> TrialDraws::integrated(TrueTime origin) const {
-  std::vector<sim::crank::BusNode> nodes;
+std::vector<sim::engine::BusNode> TrialDraws::integrated(TrueTime origin) const {
+  std::vector<sim::engine::BusNode> nodes;
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
-    sim::crank::BusNode& made = nodes.emplace_back(node(n));
+    sim::engine::BusNode& made = nodes.emplace_back(node(n));
     const Microticks begins = made.oscillator.ticks_at(origin);
     const std::int64_t thousand = (made.oscillator.ticks_at(origin + cluster_.cycle() * 1000) - begins).value;
     made.clock = {begins + Microticks{1},

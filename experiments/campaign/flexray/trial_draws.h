@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "core/time.h"
 #include "schedules/model/cluster.h"
-#include "sim/crank/bus_simulation.h"
+#include "sim/engine/bus_simulation.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::experiments::campaign::flexray {
@@ -21,15 +21,15 @@ class TrialDraws {
 
   // Nodes by NodeId: powered on within some cycles, or integrated in a cluster whose cycle 0 starts at
   // `origin`.
-  std::vector<sim::crank::BusNode> starting() const;
-  std::vector<sim::crank::BusNode> integrated(TrueTime origin) const;
+  std::vector<sim::engine::BusNode> starting() const;
+  std::vector<sim::engine::BusNode> integrated(TrueTime origin) const;
   std::vector<timebase::Oscillator> guardians() const;  // by channel
 
  private:
   RandomStream stream(Purpose purpose, std::size_t entity) const;
   timebase::Oscillator oscillator(std::size_t entity, std::int64_t microtick_ps, std::optional<std::int64_t> fixed_ppb,
                                   std::int64_t most_ppb) const;
-  sim::crank::BusNode node(std::size_t n) const;
+  sim::engine::BusNode node(std::size_t n) const;
 
   std::uint64_t seed_;
   std::uint32_t index_;

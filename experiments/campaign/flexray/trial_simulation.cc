@@ -5,7 +5,7 @@
 
 #include "experiments/campaign/flexray/trial_draws.h"
 #include "experiments/campaign/flexray/trial_host.h"
-#include "sim/crank/clock_spread.h"
+#include "sim/engine/clock_spread.h"
 
 namespace ttf::experiments::campaign::flexray {
 namespace {
@@ -69,7 +69,7 @@ TrialSimulation::TrialSimulation(const TrialSetting& setting, const std::optiona
   const schedules::model::Cluster& cluster = setting.cluster;
   const TrueTime origin = trial_origin(judge.starts_up);
   const TrialDraws draws(campaign.seed, setting.index, cluster);
-  std::vector<sim::crank::BusNode> nodes = judge.starts_up ? draws.starting() : draws.integrated(origin);
+  std::vector<sim::engine::BusNode> nodes = judge.starts_up ? draws.starting() : draws.integrated(origin);
   std::vector<bus::controller::ControllerEvents*> events;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
@@ -77,7 +77,7 @@ TrialSimulation::TrialSimulation(const TrialSetting& setting, const std::optiona
     events.push_back(witnesses_.emplace_back(std::make_unique<Witness>(*this, node)).get());
   }
   simulation_ =
-      std::make_unique<sim::crank::BusSimulation>(cluster, std::move(nodes), std::move(events), draws.guardians());
+      std::make_unique<sim::engine::BusSimulation>(cluster, std::move(nodes), std::move(events), draws.guardians());
   injector_ =
       std::make_unique<sim::faults::Injector>(plan_, cluster, *this, campaign.seed, setting.index, *this, origin);
   simulation_->set_disturbance(this);
@@ -118,7 +118,7 @@ void TrialSimulation::state_changed(NodeId node, PocKind from, const bus::poc::P
 }
 
 void TrialSimulation::sample_precision() {
-  sim::crank::ClockSpread spread(setting_.cluster);
+  sim::engine::ClockSpread spread(setting_.cluster);
   for (std::size_t n = 0; n < setting_.cluster.nodes.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
     if (faulty_[n] || !powered(node) || !simulation_->controller(node).synchronised()) continue;

@@ -15,8 +15,8 @@
 #include "faults/believed_schedule.h"
 #include "faults/plan.h"
 #include "recording/records/records.h"
-#include "sim/crank/bus_simulation.h"
-#include "sim/crank/plant.h"
+#include "sim/engine/bus_simulation.h"
+#include "sim/engine/plant.h"
 #include "sim/faults/injector.h"
 #include "sim/medium/disturbance.h"
 
@@ -34,7 +34,7 @@ struct TrialSetting {
 TrueTime trial_origin(bool starts_up);
 
 class TrialSimulation final : public sim::medium::Disturbance,
-                              public sim::crank::Plant,
+                              public sim::engine::Plant,
                               public recording::records::Sink {
  public:
   // `fault`: absent for the same simulation without one. `story` may be null.
@@ -84,7 +84,7 @@ class TrialSimulation final : public sim::medium::Disturbance,
   TrialStory* story_;
   std::vector<TrueTime> restart_at_;  // by NodeId
   std::vector<std::unique_ptr<Witness>> witnesses_;
-  std::unique_ptr<sim::crank::BusSimulation> simulation_;
+  std::unique_ptr<sim::engine::BusSimulation> simulation_;
   std::unique_ptr<sim::faults::Injector> injector_;
 };
 

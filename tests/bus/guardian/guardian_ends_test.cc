@@ -1,5 +1,5 @@
 // A guardian ends forwarded frames in the dynamic segment (bus/guardian/guardian.h G9). Here it is a pure
-// rule; running clusters: tests/sim/crank/guardian_ends_test.cc.
+// rule; running clusters: tests/sim/engine/guardian_ends_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -125,7 +125,7 @@ TEST(RealTimeOutputs, InVirtualTimeThereIsNothingToTell) {
   result.real_time.reset();
   EXPECT_EQ(real_time_text(result), "");
   EXPECT_TRUE(real_time_json(result).is_null());
-  const drives::Scenario scenario;
+  const sim::drives::Scenario scenario;
   EXPECT_FALSE(to_json(scenario, 1, {result})["strategies"][0].contains("real_time"));
   EXPECT_EQ(to_json(scenario, 1, {a_drive()})["strategies"][0]["real_time"], real_time_json(a_drive()));
 }
@@ -136,7 +136,7 @@ TEST(RealTimeOutputs, ThePageShowsTableAndPicture) {
   const auto page_of = [&](StrategyResult result) {
     result.log_path = (folder / "tt.mcap").string();
     recording::log::LogWriter(result.log_path, {}).close();
-    write_pictures(drives::Scenario{}, {result}, folder.string());
+    write_pictures(sim::drives::Scenario{}, {result}, folder.string());
     std::ifstream file(folder / "index.html");
     return std::string(std::istreambuf_iterator<char>(file), {});
   };

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 // Two sensors of 100 rows each, all of which were played and fused within 10 s.
 StrategyResult sound() {
   StrategyResult result;
-  drives::RecordingUse use;
+  sim::drives::RecordingUse use;
   use.duration = use.ends_after = Duration::milliseconds(10'000);
   for (const char* sensor : {"laser", "radar"}) {
     use.sensors.push_back({sensor, {}});

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "evaluation/accuracy/drive_measures.h"
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::evaluation::accuracy {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 class Rows : public testing::TestWithParam<const char*> {};
 
 TEST_P(Rows, OfADriveComeToItsMeasures) {
-  const drives::Drive drive(GetParam(), fusion::strategies::StrategyKind::kAdva);
+  const sim::drives::Drive drive(GetParam(), fusion::strategies::StrategyKind::kAdva);
   DriveRows rows;
   DriveMeasures measures(TrueTime{});
   recording::records::Tee both({&rows, &measures});

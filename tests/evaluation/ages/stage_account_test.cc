@@ -11,7 +11,7 @@
 #include "evaluation/accuracy/plane.h"
 #include "recording/records/tee.h"
 #include "schedules/analysis/ages.h"
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::evaluation::ages {
 namespace {
@@ -42,9 +42,9 @@ class FirstUses final : public accuracy::ImageUses {
 
 bool holds(StrategyKind strategy) { return strategy == StrategyKind::kBuff; }
 
-std::vector<SensorStages> stages_of(const drives::Drive& drive, const std::vector<AgePath>& paths,
+std::vector<SensorStages> stages_of(const sim::drives::Drive& drive, const std::vector<AgePath>& paths,
                                     FirstUses* uses = nullptr) {
-  StageAccount account(paths, holds(drive.strategy), drives::evaluation_start(drive.scenario));
+  StageAccount account(paths, holds(drive.strategy), sim::drives::evaluation_start(drive.scenario));
   std::vector<recording::records::Sink*> sinks{&account};
   if (uses != nullptr) sinks.push_back(uses);
   recording::records::Tee tee(sinks);
@@ -55,7 +55,7 @@ std::vector<SensorStages> stages_of(const drives::Drive& drive, const std::vecto
 TEST(StageAccount, ShippedDrivesAreWithinTheBoundsOfTheirSchedules) {
   for (const char* scenario : {"scenarios/paper_scenario1.yaml", "scenarios/two_lasers.yaml"})
     for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
-      const drives::Drive drive(scenario, strategy);
+      const sim::drives::Drive drive(scenario, strategy);
       const auto paths = schedules::analysis::measurement_ages(drive.cluster);
       const std::vector<SensorStages> all = stages_of(drive, paths);
       ASSERT_EQ(all.size(), paths.size());
@@ -80,8 +80,8 @@ TEST(StageAccount, ShippedDrivesAreWithinTheBoundsOfTheirSchedules) {
 
 TEST(StageAccount, StagesAddUpToTheAgeThatTheMeasuresTell) {
   for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
-    const drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    FirstUses uses(drives::evaluation_start(drive.scenario));
+    const sim::drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    FirstUses uses(sim::drives::evaluation_start(drive.scenario));
     for (const SensorStages& sensor : stages_of(drive, schedules::analysis::measurement_ages(drive.cluster), &uses)) {
       SCOPED_TRACE(std::string(name_of(strategy)) + ", " + drive.cluster.sensor(sensor.sensor).name);
       Duration sum{};
@@ -102,7 +102,7 @@ TEST(StageAccount, StagesAddUpToTheAgeThatTheMeasuresTell) {
 
 TEST(StageAccount, HoldingForOrderIsAStageOfItsOwn) {
   const auto held = [](StrategyKind strategy) {
-    const drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    const sim::drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
     Duration most{};
     for (const SensorStages& sensor : stages_of(drive, schedules::analysis::measurement_ages(drive.cluster)))
       for (const StageFinding& stage : sensor.stages)
@@ -114,7 +114,7 @@ TEST(StageAccount, HoldingForOrderIsAStageOfItsOwn) {
 }
 
 TEST(StageAccount, AnAgeBeyondItsBoundIsCounted) {
-  const drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
+  const sim::drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   std::vector<AgePath> paths = schedules::analysis::measurement_ages(drive.cluster);
   paths[0].waypoints.back().worst = paths[0].waypoints.back().best;
   paths[1].waypoints.front().best = Duration::milliseconds(900);

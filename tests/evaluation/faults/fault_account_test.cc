@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sim/medium/disturbance.h"
-#include "tests/drives/living_drive.h"
 #include "tests/evaluation/faults/fault_findings.h"
+#include "tests/sim/drives/living_drive.h"
 
 namespace ttf::evaluation::faults {
 namespace {
@@ -38,10 +38,10 @@ struct Deaf final : sim::medium::Disturbance {
 struct Reported {
   schedules::model::Cluster cluster;
   FaultAccount report;
-  drives::LivingDrive drive;
+  sim::drives::LivingDrive drive;
 
   explicit Reported(FaultKind kind, const char* node = nullptr)
-      : cluster(schedules::file::load_cluster(drives::shipped("schedules/paper_synchronised.yaml"))),
+      : cluster(schedules::file::load_cluster(sim::drives::shipped("schedules/paper_synchronised.yaml"))),
         report(cluster, plan(kind, node), true), drive(StrategyKind::kTt, &report) {}
   ttf::faults::FaultPlan plan(FaultKind kind, const char* node) const {
     ttf::faults::FaultPlan plan;
@@ -63,8 +63,8 @@ struct Reported {
   }
   void begins(double at, NodeId faulty = kNoNode) {
     drive.run_to(at);
-    says(recording::records::kFaultBegins, drives::at_s(at), faulty, "");
-    says(recording::records::kFaultActs, drives::at_s(at), faulty, "it acts");
+    says(recording::records::kFaultBegins, sim::drives::at_s(at), faulty, "");
+    says(recording::records::kFaultActs, sim::drives::at_s(at), faulty, "it acts");
   }
   const FaultSeen& fault() const { return report.findings().faults.at(0); }
   const FaultEffects& unattributed() const { return report.findings().unattributed; }
@@ -112,7 +112,7 @@ TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
     deaf.sender = run.node("gateway");
     deaf.receiver = run.node("feature");
     deaf.channels = both ? std::vector{Channel::kA, Channel::kB} : std::vector{Channel::kB};
-    deaf.from = drives::at_s(0.5) + Duration::milliseconds(1);
+    deaf.from = sim::drives::at_s(0.5) + Duration::milliseconds(1);
     deaf.to = deaf.from + Duration::milliseconds(100);
     deaf.acted = [&](TrueTime at) { run.says(recording::records::kFaultActs, at, kNoNode, "it acts"); };
     run.drive.simulation->set_disturbance(&deaf);
@@ -141,7 +141,7 @@ TEST(FaultAccount, WhatFitsNoFaultIsUnattributed) {
   deaf.sender = run.node("gateway");
   deaf.receiver = run.node("feature");
   deaf.channels = {Channel::kA, Channel::kB};
-  deaf.from = drives::at_s(0.5) + Duration::milliseconds(1);
+  deaf.from = sim::drives::at_s(0.5) + Duration::milliseconds(1);
   deaf.to = deaf.from + Duration::milliseconds(100);
   run.drive.simulation->set_disturbance(&deaf);
   run.begins(0.5, run.node("laser_pre"));
@@ -160,13 +160,13 @@ TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
     deaf.sender = run.node("gateway");
     deaf.receiver = run.node("feature");
     deaf.channels = {Channel::kA, Channel::kB};
-    deaf.from = sim::crank::kFirstCycle + run.cluster.cycle() * 200 - Duration::microseconds(100);
+    deaf.from = sim::engine::kFirstCycle + run.cluster.cycle() * 200 - Duration::microseconds(100);
     deaf.to = deaf.from + Duration::milliseconds(100);
     deaf.acted = [&](TrueTime at) { run.says(recording::records::kFaultActs, at, kNoNode, "it acts"); };
     run.drive.simulation->set_disturbance(&deaf);
     run.begins(0.5);
     const TrueTime end =
-        sim::crank::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(told ? 3'500 : 3'000);
+        sim::engine::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(told ? 3'500 : 3'000);
     run.drive.simulation->run_until(end);
     EXPECT_FALSE(run.harmed()) << "it is settled when the run is over";
     run.report.finish(end);
@@ -182,8 +182,8 @@ TEST(FaultAccount, WhatTheFaultyNodeMissesHarmsNobody) {
   deaf.sender = run.node("gateway");
   deaf.receiver = run.node("feature");
   deaf.channels = {Channel::kA, Channel::kB};
-  deaf.from = drives::at_s(0.5);
-  deaf.to = drives::at_s(0.6);
+  deaf.from = sim::drives::at_s(0.5);
+  deaf.to = sim::drives::at_s(0.6);
   run.drive.simulation->set_disturbance(&deaf);
   run.begins(0.5, deaf.receiver);
   run.drive.run_to(1.5);
@@ -244,7 +244,7 @@ struct Forged final : recording::records::Sink {
 
 TEST(FaultAccount, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
   Forged forged;
-  drives::LivingDrive drive(StrategyKind::kTt, &forged);
+  sim::drives::LivingDrive drive(StrategyKind::kTt, &forged);
   ttf::faults::FaultPlan plan;
   ttf::faults::Fault& fault = plan.faults.emplace_back();
   fault.kind = FaultKind::kMasquerading;
@@ -253,7 +253,7 @@ TEST(FaultAccount, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
   FaultAccount report(drive.drive.cluster, plan, true);
   forged.to = &report;
   forged.sender = *drive.drive.cluster.find_node("gateway");
-  forged.from = sim::crank::kFirstCycle + drive.drive.cluster.cycle() * 100;
+  forged.from = sim::engine::kFirstCycle + drive.drive.cluster.cycle() * 100;
   forged.until = forged.from + drive.drive.cluster.cycle();
   drive.simulation->run_until(forged.from);
   recording::records::FaultActivity activity{forged.from,    0, recording::records::kFaultBegins, fault.node,

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/sim/crank/bus_clusters.h"
+#include "tests/sim/engine/bus_clusters.h"
 
 namespace ttf::evaluation::faults {
 namespace {
@@ -17,7 +17,7 @@ constexpr NodeId kAda{0}, kBen{1}, kCleo{2}, kDan{3};
 constexpr TrueTime us(std::int64_t count) { return TrueTime{count * 1'000}; }
 
 struct Plan {
-  schedules::model::Cluster cluster = sim::crank::bus_cluster(4, 4, 4);
+  schedules::model::Cluster cluster = sim::engine::bus_cluster(4, 4, 4);
   ttf::faults::FaultPlan plan;
   std::optional<FaultCauses> causes;
 

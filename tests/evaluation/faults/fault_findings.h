@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "evaluation/faults/fault_account.h"
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::evaluation::faults {
 
@@ -29,7 +29,7 @@ inline std::set<NodeId> harmed_nodes(const FaultEffects& effects, Harm kind) {
 
 // A drive with the injector's acts of a plan.
 struct Planned {
-  drives::Drive drive;
+  sim::drives::Drive drive;
   std::optional<FaultAccount> report;
 
   explicit Planned(const char* scenario = "scenarios/paper_scenario1.yaml")
@@ -49,7 +49,7 @@ struct Planned {
     report.emplace(drive.cluster, ttf::faults::resolve(drive.scenario.faults, drive.cluster),
                    !drive.scenario.startup.cold);
     drive.run(*report);
-    report->finish(drives::drive_end(drive.scenario));
+    report->finish(sim::drives::drive_end(drive.scenario));
     return report->findings();
   }
   NodeId node(const char* name) const { return *drive.cluster.find_node(name); }

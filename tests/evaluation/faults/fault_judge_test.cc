@@ -5,7 +5,7 @@
 
 #include "evaluation/faults/reach.h"
 #include "faults/plan.h"
-#include "tests/sim/crank/bus_clusters.h"
+#include "tests/sim/engine/bus_clusters.h"
 
 namespace ttf::evaluation::faults {
 namespace {
@@ -55,7 +55,7 @@ class Story : public testing::Test {
   const Judgement& end() { return judge_.finish(in_cycle(10)); }
   const std::optional<Judgement::Harmed>& harm(Harm harm) { return end().harms[static_cast<std::size_t>(harm)]; }
 
-  schedules::model::Cluster cluster_ = sim::crank::bus_cluster(3, 3, 3);
+  schedules::model::Cluster cluster_ = sim::engine::bus_cluster(3, 3, 3);
   FaultJudge judge_;
 };
 
@@ -202,7 +202,7 @@ TEST_F(Story, ReintegrationCountsFromTheFaultsEndOrFromLeavingIfThatWasLater) {
 }
 
 TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {
-  const schedules::model::Cluster cluster = sim::crank::bus_cluster(3, 3, 3);
+  const schedules::model::Cluster cluster = sim::engine::bus_cluster(3, 3, 3);
   JudgeSettings settings;
   settings.faulty = {true, false, false};
   settings.settled = in_cycle(8);
@@ -224,7 +224,7 @@ TEST(FaultNames, AreThoseWhoseBitsAreSetJoinedByPlus) {
 }
 
 TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {
-  const schedules::model::Cluster cluster = sim::crank::bus_cluster(4, 2, 3);
+  const schedules::model::Cluster cluster = sim::engine::bus_cluster(4, 2, 3);
   ttf::faults::Fault fault;
   fault.kind = ttf::faults::FaultKind::kNoise;
   EXPECT_EQ(named_by(fault, cluster), (std::vector{false, false, false, false}));
@@ -239,7 +239,7 @@ TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {
 }
 
 TEST(OwnerOf, IsWhoSendsThereInThisCycleOnThisChannel) {
-  schedules::model::Cluster cluster = sim::crank::bus_cluster(3, 3, 3);
+  schedules::model::Cluster cluster = sim::engine::bus_cluster(3, 3, 3);
   cluster.frames.push_back({9, schedules::model::Channels::kA, 1, 4, NodeId{2}, kNoPdu, 0, 0});
   EXPECT_EQ(owner_of(cluster, 2, Channel::kB, 17), NodeId{1});
   EXPECT_EQ(owner_of(cluster, 9, Channel::kA, 5), NodeId{2});

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "tests/drives/living_drive.h"
+#include "tests/sim/drives/living_drive.h"
 
 namespace ttf::evaluation::faults {
 namespace {
 
-using drives::LivingDrive;
 using fusion::strategies::StrategyKind;
+using sim::drives::LivingDrive;
 
 // The clocks' distance from frames, against the simulator's own, which covers a whole double cycle.
 struct Spread final : recording::records::Sink {
@@ -33,7 +33,7 @@ struct Spread final : recording::records::Sink {
 };
 
 TEST(FrameClocks, TellTheDistanceOfTheClocks) {
-  const auto cluster = schedules::file::load_cluster(drives::shipped("schedules/paper_synchronised.yaml"));
+  const auto cluster = schedules::file::load_cluster(sim::drives::shipped("schedules/paper_synchronised.yaml"));
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Spread spread(cluster);
     LivingDrive drive(StrategyKind::kTt, &spread, seed);

@@ -239,20 +239,20 @@ struct Endless final : sim::medium::Disturbance {
 };
 
 TEST(FaultAccount, WhatGuardiansCutIsTold) {
-  drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
+  sim::drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   drive.cluster.topology = schedules::model::Topology::kStar;
   drive.cluster.guardian = true;
   Interventions interventions;
-  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, sim::crank::kFirstCycle);
-  const drives::NodeSetConfig set{&drive.scenario, &drive.cluster, StrategyKind::kTt, 1, 0, scene, nullptr};
-  sim::crank::SimulationConfig config;
+  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, sim::engine::kFirstCycle);
+  const sim::drives::NodeSetConfig set{&drive.scenario, &drive.cluster, StrategyKind::kTt, 1, 0, scene, nullptr};
+  sim::engine::SimulationConfig config;
   config.cluster = &drive.cluster;
   config.seed = 1;
-  config.make_steps = [&](NodeId node) { return drives::make_steps(set, node); };
-  sim::crank::ClusterSimulation simulation(config, interventions);
+  config.make_steps = [&](NodeId node) { return sim::drives::make_steps(set, node); };
+  sim::engine::ClusterSimulation simulation(config, interventions);
   Endless endless;
   endless.sender = *drive.cluster.find_node("laser_pre");
-  endless.from = sim::crank::kFirstCycle + drive.cluster.cycle() * 20;
+  endless.from = sim::engine::kFirstCycle + drive.cluster.cycle() * 20;
   endless.to = endless.from + drive.cluster.cycle();
   simulation.set_disturbance(&endless);
   simulation.run_until(endless.from - Duration::microseconds(100));
@@ -285,7 +285,7 @@ TEST(FaultAccount, IsTheSameFromTheLog) {
   log.close();
   recording::log::read_log(path, logged);
   std::filesystem::remove(path);
-  for (FaultAccount* report : {&live, &logged}) report->finish(drives::drive_end(run.drive.scenario));
+  for (FaultAccount* report : {&live, &logged}) report->finish(sim::drives::drive_end(run.drive.scenario));
   const FaultFindings &a = live.findings(), &b = logged.findings();
   ASSERT_EQ(a.faults.size(), run.drive.scenario.faults.faults.size());
   ASSERT_EQ(b.faults.size(), a.faults.size());

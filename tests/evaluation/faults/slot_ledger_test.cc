@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/sim/crank/bus_clusters.h"
+#include "tests/sim/engine/bus_clusters.h"
 
 namespace ttf::evaluation::faults {
 namespace {
@@ -45,7 +45,7 @@ class Ledger : public testing::Test {
       if (lost) misses(cycle, channel);
   }
 
-  schedules::model::Cluster cluster_ = sim::crank::bus_cluster(3, 3, 3);
+  schedules::model::Cluster cluster_ = sim::engine::bus_cluster(3, 3, 3);
   std::vector<SlotLoss> losses_;
   Standings standings_{cluster_, true};
   SlotLedger ledger_{cluster_, standings_, [this](const SlotLoss& loss) { losses_.push_back(loss); }};

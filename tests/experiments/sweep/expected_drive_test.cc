@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/file_bytes.h"
-#include "drives/drive.h"
 #include "schedules/file/loader.h"
+#include "sim/drives/drive.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -43,7 +43,7 @@ tracker:
   sizes: {length: 4.4, length_sigma: 0.5, width: 1.8, width_sigma: 0.15, correlation: 0}
 )";
 
-drives::Scenario scenario_with(const std::vector<std::pair<std::string_view, std::string>>& changes = {}) {
+sim::drives::Scenario scenario_with(const std::vector<std::pair<std::string_view, std::string>>& changes = {}) {
   const std::string file = TTF_SOURCE_DIR "/scenarios/behind.yaml";
   std::string text = kScenario;
   for (const auto& [before, after] : changes) {
@@ -51,7 +51,7 @@ drives::Scenario scenario_with(const std::vector<std::pair<std::string_view, std
     EXPECT_NE(at, std::string::npos) << before;
     text.replace(at, before.size(), after);
   }
-  return drives::parse_scenario(text, file);
+  return sim::drives::parse_scenario(text, file);
 }
 
 const schedules::model::Cluster& cluster() {
@@ -91,8 +91,8 @@ TEST(ExpectedDrive, IsDefinedWhereOneFaceShowsOrTheSizeIsKnown) {
 // Records of a drive that is judged from 1500 ms on.
 class ByHand {
  public:
-  explicit ByHand(const drives::Scenario& scenario)
-      : object_(scenario.world.objects.front()), begin_(drives::evaluation_start(scenario)),
+  explicit ByHand(const sim::drives::Scenario& scenario)
+      : object_(scenario.world.objects.front()), begin_(sim::drives::evaluation_start(scenario)),
         expected(scenario, cluster()) {}
 
   // A list of this sensor, measured at the instant, with these observations; it is fused 20 ms later.
@@ -166,7 +166,7 @@ constexpr double kRear = 30.0 - 0.5 * 4.39;
 
 // The camera cannot see the object. Its lists have other things, or nothing. Only the laser's lists enter.
 TEST(ExpectedDrive, OnlyTheListsOfSensorsThatSeeTheObjectCount) {
-  const drives::Scenario scenario = scenario_with();
+  const sim::drives::Scenario scenario = scenario_with();
   ByHand alone(scenario), beside(scenario);
   for (int n = 0; n < 12; ++n) {
     const std::vector<ByHand::Observed> rear{{kRear, 0.0, 0.0004, 0.0016}};
@@ -192,7 +192,7 @@ TEST(ExpectedDrive, OnlyTheListsOfSensorsThatSeeTheObjectCount) {
 
 // It follows from covariances and instants alone.
 TEST(ExpectedDrive, TheFacesErrorIsThatOfTheRecursion) {
-  const drives::Scenario scenario = scenario_with({{"  speed_memory: 500 ms\n", ""}});
+  const sim::drives::Scenario scenario = scenario_with({{"  speed_memory: 500 ms\n", ""}});
   ByHand hand(scenario);
   PointMotion motion = PointMotion::known(0.04, scenario.tracker.initial_velocity_sigma);
   motion.actual = Eigen::Vector2d(0.04, 0.0).asDiagonal();
@@ -211,7 +211,7 @@ TEST(ExpectedDrive, TheFacesErrorIsThatOfTheRecursion) {
 // The nominal length is 0.01 m less than the prior's. The heading swings half of the assumed length. A laser tells it, or the
 // velocity across it.
 TEST(ExpectedDrive, TheHeadingSwingsTheCentre) {
-  const drives::Scenario scenario = scenario_with({{"  speed_memory: 500 ms\n", ""}});
+  const sim::drives::Scenario scenario = scenario_with({{"  speed_memory: 500 ms\n", ""}});
   const double half = 0.5 * 4.4, length = 0.25 * 0.01 * 0.01;
   ByHand standing(scenario), moving(scenario);
   standing.list(kLaser, 0.0, {{kRear, 0.0, 0.0004, 0.0016}});
@@ -276,7 +276,7 @@ TEST(ExpectedDrive, ADrawnLengthShiftsTheCentre) {
 
 // A returning fusion node has forgotten widths, too.
 TEST(ExpectedDrive, ARestartForgets) {
-  const drives::Scenario scenario = scenario_with({{"draw: nominal", "draw: normal"}});
+  const sim::drives::Scenario scenario = scenario_with({{"draw: nominal", "draw: normal"}});
   ByHand once(scenario), again(scenario);
   for (int n = 0; n < 10; ++n) again.list(kCamera, 800.0 + 40.0 * n, {{kRear, 0.0, 0.01, 0.01}});
   for (ByHand* hand : {&once, &again}) {

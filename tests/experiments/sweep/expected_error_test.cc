@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "core/random.h"
-#include "drives/scenario.h"
 #include "experiments/results/statistics.h"
 #include "fusion/strategies/strategy.h"
 #include "schedules/sequence/expected_error.h"
+#include "sim/drives/scenario.h"
 #include "tests/experiments/sweep/known_lists.h"
 
 namespace ttf::experiments::sweep {

@@ -46,7 +46,7 @@ TEST(ShippedSweeps, CanBeDriven) {
 }
 
 // Whether a sensor sees there. The whole car must be ahead of it.
-bool is_in_sight(const drives::Scenario& scenario, const schedules::model::Sensor& sensor,
+bool is_in_sight(const sim::drives::Scenario& scenario, const schedules::model::Sensor& sensor,
                  const sim::world::ObjectState& object) {
   const auto sees = [&](const auto& model) {
     std::vector<sim::world::ObjectState> seen{object};
@@ -158,7 +158,7 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
 }
 
 // The same cameras behind a car ahead, of the size that `size` draws. Errors of 1 % of the range keep the cluster linear.
-drives::Scenario behind_a_car(const std::string& size, const std::string& sizes) {
+sim::drives::Scenario behind_a_car(const std::string& size, const std::string& sizes) {
   const std::string file = TTF_SOURCE_DIR "/scenarios/twin_cameras.yaml";
   std::string text = read_file(file);
   const auto line = [&](const std::string& begin, const std::string& with) {
@@ -173,7 +173,7 @@ drives::Scenario behind_a_car(const std::string& size, const std::string& sizes)
        "miss_probability: 0.0, clutter_per_frame: 0.0}");
   line("camera: {bearing_sigma: 0.01", "camera: {bearing_sigma: 0.004, disparity_sigma: 0.22}");
   line("sizes:", "sizes: " + sizes + "\n  turn_noise: 0.000001\n  initial_turn_rate_sigma: 0.001");
-  return drives::parse_scenario(std::move(text), file);
+  return sim::drives::parse_scenario(std::move(text), file);
 }
 
 // Both are within 10 % of the sampled ones. Widths tell of lengths, or they do not. The centre's error is mostly one draw a
@@ -209,7 +209,7 @@ TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
   const results::Row settled = drives.run({0, 0, 2});
   PreparedDrive drive = drives.prepare({0, 0, 2});
   std::string text = drive.scenario.text + "faults:\n  - {kind: crash, node: fusion, from: 700 ms, duration: 300 ms}\n";
-  drive.scenario = drives::parse_scenario(std::move(text), sweep.scenario_file);
+  drive.scenario = sim::drives::parse_scenario(std::move(text), sweep.scenario_file);
   const results::Row crashed = drives.run({0, 0, 2}, drive);
   ASSERT_EQ(settled.status, results::kDone);
   ASSERT_EQ(crashed.status, results::kDone);

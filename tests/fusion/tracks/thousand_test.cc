@@ -1,4 +1,4 @@
-// 1,000 objects in the tracker alone; through a whole cluster: tests/drives/thousand_test.cc.
+// 1,000 objects in the tracker alone; through a whole cluster: tests/sim/drives/thousand_test.cc.
 #include <gtest/gtest.h>
 
 #include <cmath>

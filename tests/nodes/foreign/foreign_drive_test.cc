@@ -10,9 +10,9 @@
 #include "core/errors.h"
 #include "schedules/check/checker.h"
 #include "schedules/model/ports.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/nodes/foreign/one_task.h"
 #include "tests/recording/record_text.h"
+#include "tests/sim/drives/drive_fixture.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::nodes::foreign {
@@ -20,16 +20,16 @@ namespace {
 
 using ttf::fusion::strategies::StrategyKind;
 
-std::vector<std::string> records_of(const drives::Drive& drive) {
+std::vector<std::string> records_of(const sim::drives::Drive& drive) {
   recording::TextSink sink;
-  drives::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, nullptr};
+  sim::drives::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, nullptr};
   config.steps = &kSteps;
-  drives::run_drive(config, sink);
+  sim::drives::run_drive(config, sink);
   return std::move(sink.lines);
 }
 
-drives::Drive paper(StrategyKind strategy) {
-  drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+sim::drives::Drive paper(StrategyKind strategy) {
+  sim::drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
   drive.scenario.duration = Duration::milliseconds(700);
   return drive;
 }
@@ -38,12 +38,12 @@ void let_libraries_copy(schedules::model::Cluster& cluster) {
   for (schedules::model::Node& node : cluster.nodes)
     for (schedules::model::Task& task : node.tasks)
       if (task.step == "gateway") task.step = "copy.so";
-  schedules::model::bind_ports(cluster, drives::step_ports());
+  schedules::model::bind_ports(cluster, sim::drives::step_ports());
 }
 
 TEST(ForeignDrive, ACopyLeavesTheRecordsOfTheGateway) {
   for (const StrategyKind strategy : {StrategyKind::kTt, StrategyKind::kAdva}) {
-    drives::Drive drive = paper(strategy);
+    sim::drives::Drive drive = paper(strategy);
     const std::vector<std::string> expected = records_of(drive);
     ASSERT_GT(expected.size(), 1000u);
     let_libraries_copy(drive.cluster);
@@ -51,15 +51,15 @@ TEST(ForeignDrive, ACopyLeavesTheRecordsOfTheGateway) {
   }
 }
 
-drives::Drive example() {
-  drives::Drive drive("examples/step/scenario.yaml", StrategyKind::kTt);
+sim::drives::Drive example() {
+  sim::drives::Drive drive("examples/step/scenario.yaml", StrategyKind::kTt);
   return drive;
 }
 
 TEST(ForeignDrive, TheExampleIsSoundAndRepeatable) {
-  const drives::Drive drive = example();
+  const sim::drives::Drive drive = example();
   EXPECT_TRUE(schedules::check::check(drive.cluster).empty());
-  schedules::model::bind_ports(drive.cluster, drives::step_ports());
+  schedules::model::bind_ports(drive.cluster, sim::drives::step_ports());
   testing::internal::CaptureStderr();
   const std::vector<std::string> first = records_of(drive);
   const std::string lamp = testing::internal::GetCapturedStderr();
@@ -83,18 +83,18 @@ struct AllocationsSeen final : recording::records::Sink {
 };
 
 TEST(ForeignDrive, AllocatesNothingOnTheCyclicPath) {
-  drives::Drive drive = paper(StrategyKind::kTt);
+  sim::drives::Drive drive = paper(StrategyKind::kTt);
   let_libraries_copy(drive.cluster);
   AllocationsSeen seen;
-  drives::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, nullptr};
+  sim::drives::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, nullptr};
   config.steps = &kSteps;
-  drives::run_drive(config, seen);
+  sim::drives::run_drive(config, seen);
   EXPECT_GT(seen.runs, 100);
   EXPECT_EQ(seen.last - seen.at_start.value_or(-1), 0);
 }
 
 TEST(ForeignDrive, AClusterFileAloneLoadsNoCode) {
-  const drives::Drive drive = example();
+  const sim::drives::Drive drive = example();
   try {
     check_steps(drive.cluster, nullptr);
     FAIL() << "accepted";
@@ -104,11 +104,12 @@ TEST(ForeignDrive, AClusterFileAloneLoadsNoCode) {
         << error.what();
   }
   recording::TextSink none;
-  EXPECT_THROW(drives::run_drive({&drive.scenario, &drive.cluster, drive.strategy, 1, 0, nullptr}, none), InputError);
+  EXPECT_THROW(sim::drives::run_drive({&drive.scenario, &drive.cluster, drive.strategy, 1, 0, nullptr}, none),
+               InputError);
 }
 
 TEST(ForeignDrive, HashesNameEachLibraryOnce) {
-  drives::Drive drive = paper(StrategyKind::kTt);
+  sim::drives::Drive drive = paper(StrategyKind::kTt);
   EXPECT_TRUE(library_hashes(drive.cluster, &kSteps).empty());
   let_libraries_copy(drive.cluster);
   const auto hashes = library_hashes(drive.cluster, &kSteps);

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::nodes::fusion {
 namespace {
 
-using drives::Drive;
+using sim::drives::Drive;
 
 // A size in the image, from the instant on at which drives are judged.
 struct Told {
@@ -51,7 +51,7 @@ struct Sizes final : recording::records::Sink {
 
 Sizes driven(Drive drive) {
   Sizes sizes;
-  sizes.from = sim::crank::kFirstCycle + Duration::milliseconds(800);
+  sizes.from = sim::engine::kFirstCycle + Duration::milliseconds(800);
   // The start varies, so that the laser's raster meets the car elsewhere.
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     drive.scenario.world.objects[0].x += 0.07;

@@ -91,7 +91,7 @@ struct OneNode {
     executive =
         std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::ports::CanPort*>{}, lines, heard);
   }
-  // From event to event, as a crank does.
+  // From event to event, as an engine does.
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) {
     const Microticks end = bus::Alone::at(cycle, macrotick);
     for (Microticks next = executive->next_event(); next <= end; next = executive->next_event()) {

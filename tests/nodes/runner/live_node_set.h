@@ -16,14 +16,14 @@
 #include <tuple>
 #include <vector>
 
-#include "drives/scenario.h"
-#include "drives/step_catalog.h"
-#include "drives/surroundings.h"
 #include "nodes/runner/runner.h"
 #include "recording/records/records.h"
 #include "schedules/file/loader.h"
 #include "schedules/model/ports.h"
-#include "sim/crank/cluster_simulation.h"
+#include "sim/drives/scenario.h"
+#include "sim/drives/step_catalog.h"
+#include "sim/drives/surroundings.h"
+#include "sim/engine/cluster_simulation.h"
 #include "tests/support/memory_live_medium.h"
 
 namespace ttf::nodes::runner {
@@ -171,8 +171,8 @@ inline constexpr const char* kOnFlexRay[] = {"laser_pre", "camera_pre", "gateway
 class LiveNodeSet : public testing::Test {
  protected:
   LiveNodeSet() {
-    schedules::model::bind_ports(cluster_, drives::step_ports());
-    around_ = drives::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
+    schedules::model::bind_ports(cluster_, sim::drives::step_ports());
+    around_ = sim::drives::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
   }
   struct Drive {
     Duration lasts = Duration::milliseconds(600);
@@ -194,7 +194,7 @@ class LiveNodeSet : public testing::Test {
     std::vector<std::unique_ptr<bus::ports::LiveMedium>> media;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       media.push_back(
-          std::make_unique<Deaf>(bus.join(), clock.machine_time(sim::crank::kFirstCycle + how.deaf_for), now));
+          std::make_unique<Deaf>(bus.join(), clock.machine_time(sim::engine::kFirstCycle + how.deaf_for), now));
     return media;
   }
   // After the drive, every sent frame is at each other member: received, counted as lost, or still to be
@@ -215,23 +215,23 @@ class LiveNodeSet : public testing::Test {
     config.node = node;
     config.clock = clock;
     config.seed = 1;
-    config.first_cycle = sim::crank::kFirstCycle;
-    config.end = sim::crank::kFirstCycle + how.lasts;
+    config.first_cycle = sim::engine::kFirstCycle;
+    config.end = sim::engine::kFirstCycle + how.lasts;
     if (how.power_on) config.power_on = how.power_on(node);
     return config;
   }
   std::vector<std::shared_ptr<host::Step>> steps_of(NodeId node) const {
-    return drives::make_steps(
+    return sim::drives::make_steps(
         {&scenario_, &cluster_, ttf::fusion::strategies::StrategyKind::kTt, 1, 0, around_.scene, nullptr}, node);
   }
   NodeId id_of(const char* node) const { return *cluster_.find_node(node); }
   Recorded& of(const char* node) { return recorded_[index_of(id_of(node))]; }
   Health& health_of(const char* node) { return health_[index_of(id_of(node))]; }
 
-  const drives::Scenario scenario_ = drives::load_scenario(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
+  const sim::drives::Scenario scenario_ = sim::drives::load_scenario(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
   schedules::model::Cluster cluster_ =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
-  drives::Surroundings around_;
+  sim::drives::Surroundings around_;
   std::vector<Recorded> recorded_;  // by node, of the last drive; so are these
   std::vector<Health> health_;
 };

@@ -74,7 +74,7 @@ class RunnerTest : public LiveNodeSet {
     }
 
     // So long behind the begin of cycle 0.
-    bus::ports::MachineTime at(Duration drive) const { return clock_.machine_time(sim::crank::kFirstCycle + drive); }
+    bus::ports::MachineTime at(Duration drive) const { return clock_.machine_time(sim::engine::kFirstCycle + drive); }
     bus::ports::MachineTime action_point(std::int64_t cycle, int slot) const {
       return at(ms(5 * cycle) + us((slot - 1) * 84 + 7));
     }

@@ -47,7 +47,9 @@ class TurnedNodeSet : public LiveNodeSet {
     expect_nothing_vanished(media);
   }
   // By the unstretched clock, from the start of cycle 0.
-  static bus::ports::MachineTime at(Duration drive) { return kOrigin + (sim::crank::kFirstCycle + drive - TrueTime{}); }
+  static bus::ports::MachineTime at(Duration drive) {
+    return kOrigin + (sim::engine::kFirstCycle + drive - TrueTime{});
+  }
   WakesOf only(const char* node, Wakes wakes) const {
     return [id = id_of(node), wakes](NodeId other) { return other == id ? wakes : late_by({}); };
   }
@@ -185,7 +187,7 @@ TEST_F(TurnedNodeSet, WhatClocksShowIsOfOneInstant) {
 
 TEST_F(TurnedNodeSet, AClusterStartsUp) {
   const auto one_by_one = [](NodeId node) {
-    return std::optional(sim::crank::kFirstCycle + ms(3) * static_cast<std::int64_t>(index_of(node)));
+    return std::optional(sim::engine::kFirstCycle + ms(3) * static_cast<std::int64_t>(index_of(node)));
   };
   for (const Duration late : {Duration{}, us(400)}) {
     drive({.lasts = ms(300), .power_on = one_by_one},
@@ -200,7 +202,7 @@ TEST_F(TurnedNodeSet, AClusterStartsUp) {
 TEST_F(TurnedNodeSet, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
   cluster_.flexray.gColdStartAttempts = 2;
   drive({.lasts = ms(1000),
-         .power_on = [](NodeId) { return std::optional(sim::crank::kFirstCycle); },
+         .power_on = [](NodeId) { return std::optional(sim::engine::kFirstCycle); },
          .deaf_for = ms(200)});
   expect_all_active();
   int exhausted = 0;
@@ -214,7 +216,7 @@ TEST_F(TurnedNodeSet, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSa
 }
 
 TEST_F(TurnedNodeSet, ANodeThatComesLaterIntegrates) {
-  const TrueTime comes = sim::crank::kFirstCycle + ms(200);
+  const TrueTime comes = sim::engine::kFirstCycle + ms(200);
   drive({.lasts = ms(500),
          .power_on = [&](NodeId node) { return node == id_of("feature") ? std::optional(comes) : std::nullopt; }});
   expect_all_active();

@@ -182,7 +182,7 @@ TEST_F(RunnerTest, FramesLeaveAsACanWouldCarryThem) {
     const DriveClock clock(kOrigin, scale);
     laser.host.at(laser.at(ms(2)), [&] { laser.others_send_can(can, schedules::model::trigger_identifier(sensor)); });
     laser.run();
-    ASSERT_THAT(laser.out.measured, testing::ElementsAre(sim::crank::kFirstCycle + ms(2))) << "at once";
+    ASSERT_THAT(laser.out.measured, testing::ElementsAre(sim::engine::kFirstCycle + ms(2))) << "at once";
     const auto heard = laser.heard_on_can();
     ASSERT_FALSE(heard.empty());
     EXPECT_EQ(heard.front().identifier, schedules::model::strobe_identifier(sensor));
@@ -294,14 +294,14 @@ TEST_F(RunnerTest, AHaltedControllerIsStartedAnew) {
 TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
   const auto begins_cluster = [&](std::optional<Duration> noise) {
     Alone gateway(*this, "gateway", {.lasts = ms(60), .power_on = [](NodeId) {
-                                       return std::optional(sim::crank::kFirstCycle + ms(10));
+                                       return std::optional(sim::engine::kFirstCycle + ms(10));
                                      }});
     if (noise) gateway.host.at(gateway.at(*noise), [&] { gateway.others_send_noise(us(100)); });
     gateway.run();
     return gateway.came_into("coldstart collision resolution").value_or(recording::records::Stamp{}).true_time;
   };
   const TrueTime silent = begins_cluster({});
-  EXPECT_GT(silent, sim::crank::kFirstCycle + ms(10));
+  EXPECT_GT(silent, sim::engine::kFirstCycle + ms(10));
   EXPECT_EQ(begins_cluster(ms(9)), silent);
   EXPECT_GT(begins_cluster(ms(11)), silent);
 }
@@ -309,20 +309,20 @@ TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
 // A startup frame lasts 65 us. A node in start-up takes it at its end, long before its own next event.
 TEST_F(RunnerTest, WhoListensIsWokenUpByWhatItHears) {
   Alone gateway(*this, "gateway",
-                {.lasts = ms(20), .power_on = [](NodeId) { return std::optional(sim::crank::kFirstCycle); }});
+                {.lasts = ms(20), .power_on = [](NodeId) { return std::optional(sim::engine::kFirstCycle); }});
   gateway.host.at(gateway.at(ms(3)), [&] { gateway.others_send(1, 8, true); });
   gateway.run();
   const auto derived = gateway.came_into("initialise schedule");
   ASSERT_TRUE(derived.has_value());
-  EXPECT_GT(derived->true_time, sim::crank::kFirstCycle + ms(3) + us(60));
-  EXPECT_LT(derived->true_time, sim::crank::kFirstCycle + ms(3) + us(80));
+  EXPECT_GT(derived->true_time, sim::engine::kFirstCycle + ms(3) + us(60));
+  EXPECT_LT(derived->true_time, sim::engine::kFirstCycle + ms(3) + us(80));
 }
 
 // On such a medium it arrives immediately, with its length.
 TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
   const auto first_symbol = [&](std::int64_t scale) {
     Alone gateway(*this, "gateway",
-                  {.lasts = ms(30), .scale_ppm = scale, .power_on = [](NodeId) { return sim::crank::kFirstCycle; }});
+                  {.lasts = ms(30), .scale_ppm = scale, .power_on = [](NodeId) { return sim::engine::kFirstCycle; }});
     gateway.run();
     const auto lengths = gateway.heard_symbols();
     EXPECT_FALSE(lengths.empty());
@@ -337,7 +337,7 @@ TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
 TEST_F(RunnerTest, WhoMayOnlyListenIsStartedAnewAfter64Cycles) {
   cluster_.flexray.gColdStartAttempts = 2;
   Alone gateway(*this, "gateway",
-                {.lasts = ms(1'000), .power_on = [](NodeId) { return std::optional(sim::crank::kFirstCycle); }});
+                {.lasts = ms(1'000), .power_on = [](NodeId) { return std::optional(sim::engine::kFirstCycle); }});
   gateway.run();
   const auto& states = gateway.out.states;
   const auto gave_up = std::find(states.begin(), states.end(), "integration listen") - states.begin();

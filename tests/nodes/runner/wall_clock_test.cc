@@ -67,7 +67,7 @@ TEST_F(WallClockNodeSet, DrivesFromAnIntegratedStart) {
 
 TEST_F(WallClockNodeSet, DrivesFromAColdStart) {
   drive({.scale_ppm = 4'000'000, .power_on = [](NodeId node) {
-           return std::optional(sim::crank::kFirstCycle + ms(3) * static_cast<std::int64_t>(index_of(node)));
+           return std::optional(sim::engine::kFirstCycle + ms(3) * static_cast<std::int64_t>(index_of(node)));
          }});
   for (const char* node : kOnFlexRay) EXPECT_FALSE(of(node).states.empty()) << node;
 }

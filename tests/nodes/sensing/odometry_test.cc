@@ -6,8 +6,8 @@
 #include <array>
 #include <memory>
 
-#include "drives/scenario.h"
 #include "schedules/check/checker.h"
+#include "sim/drives/scenario.h"
 
 namespace ttf::nodes::sensing {
 namespace {
@@ -30,7 +30,7 @@ struct Measurements final : recording::records::Sink {
 };
 
 TEST(OdometrySteps, HandOnSpeedAndYawRate) {
-  const drives::Scenario scenario = drives::load_scenario(TTF_SOURCE_DIR "/scenarios/turning_ego.yaml");
+  const sim::drives::Scenario scenario = sim::drives::load_scenario(TTF_SOURCE_DIR "/scenarios/turning_ego.yaml");
   const schedules::model::Cluster cluster =
       schedules::check::load_checked_cluster(TTF_SOURCE_DIR "/schedules/moving_synchronised.yaml");
   const SensorId sensor = *cluster.find_sensor("odometry");

@@ -116,7 +116,7 @@ faults::Fault fault(faults::FaultKind kind, const char* node, int from_ms, int f
 }
 
 // When a node's first frame after `from` begins.
-TrueTime next_frame(const drives::Drive& drive, NodeId node, TrueTime from) {
+TrueTime next_frame(const sim::drives::Drive& drive, NodeId node, TrueTime from) {
   struct First final : records::Sink {
     using records::Sink::on;
     NodeId node{};
@@ -135,10 +135,10 @@ TrueTime next_frame(const drives::Drive& drive, NodeId node, TrueTime from) {
 TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   if (!has_tshark()) GTEST_SKIP() << "tshark is not installed (tools/install_deps.sh)";
   using faults::FaultKind;
-  drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt);
+  sim::drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt);
   // A node dies twenty microseconds, or some twenty bytes, into a frame.
   const NodeId camera_pre = *drive.cluster.find_node("camera_pre");
-  const TrueTime dies = next_frame(drive, camera_pre, sim::crank::kFirstCycle + Duration::milliseconds(1'600));
+  const TrueTime dies = next_frame(drive, camera_pre, sim::engine::kFirstCycle + Duration::milliseconds(1'600));
   std::vector<faults::Fault> faults = {fault(FaultKind::kBitFlipHeader, "gateway", 1'000, 40),
                                        fault(FaultKind::kBitFlipPayload, "gateway", 1'200, 40),
                                        fault(FaultKind::kBitFlipTrailer, "gateway", 1'400, 40),
@@ -151,7 +151,7 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
                                        fault(FaultKind::kTransient, "", 2'600, 5)};
   faults[0].probability = faults[1].probability = faults[2].probability = 0.3;
   faults[0].flips = 2;
-  faults[3].from = dies + Duration::microseconds(20) - sim::crank::kFirstCycle;
+  faults[3].from = dies + Duration::microseconds(20) - sim::engine::kFirstCycle;
   faults[7].slot = drive.cluster.flexray.gNumberOfStaticSlots;
   faults[8].shift = Duration::microseconds(5);
   drive.scenario.faults.faults = faults;

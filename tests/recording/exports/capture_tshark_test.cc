@@ -6,13 +6,13 @@
 namespace ttf::recording::exports {
 namespace {
 
-drives::Drive paper_drive() { return {"scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt}; }
+sim::drives::Drive paper_drive() { return {"scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kTt}; }
 
 struct SymbolCounts {
   int cas = 0, wakeup = 0;
 };
 
-SymbolCounts compare(const drives::Drive& drive, std::size_t flip_every, std::size_t at_least) {
+SymbolCounts compare(const sim::drives::Drive& drive, std::size_t flip_every, std::size_t at_least) {
   const std::string path = drive_log(drive);
   records::Sink nobody;
   const log::LogInfo info = log::read_log(path, nobody);
@@ -57,7 +57,7 @@ TEST(CaptureTshark, EveryFrameWithAFlippedBitCarriesTheFlagsOfTheChecksItFails) 
 
 TEST(CaptureTshark, TheSymbolsOfAStartUpArePacketsOfTheirOwn) {
   if (!has_tshark()) GTEST_SKIP() << "tshark is not installed (tools/install_deps.sh)";
-  drives::Drive drive("scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt);
+  sim::drives::Drive drive("scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kTt);
   drive.scenario.startup.wake_up = "fusion";
   const SymbolCounts symbols = compare(drive, 0, 1'000);
   EXPECT_EQ(symbols.cas, 2) << "on both channels";

@@ -7,14 +7,14 @@
 
 #include "recording/exports/perfetto.h"
 #include "recording/merge/merge.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/exports/perfetto_trace.h"
 #include "tests/recording/log/log_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::recording::exports {
 namespace {
 
-using drives::Drive;
+using sim::drives::Drive;
 
 // The measurements that were the newest of their sensor in a used image; only the first of their images
 // counts.

@@ -16,8 +16,8 @@
 #include "bus/wire/flexray_frame.h"
 #include "recording/exports/captures.h"
 #include "recording/log/reader.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/log/log_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::recording::exports {
 
@@ -154,7 +154,7 @@ inline std::vector<std::string> tshark(const std::string& file) {
 inline bool has_tshark() { return std::system("tshark --version >/dev/null 2>&1") == 0; }
 
 // A log of the paper's first scenario.
-inline std::string drive_log(const drives::Drive& drive) {
+inline std::string drive_log(const sim::drives::Drive& drive) {
   log::LogManifest manifest;
   manifest.scenario_name = drive.scenario.name;
   manifest.bit_ps = drive.cluster.flexray.gdBit_ps;

@@ -13,15 +13,15 @@
 #include "report/plots/position_plot.h"
 #include "report/startup/diagram.h"
 #include "report/timing/diagram.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/merge/split_log.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::recording::merge {
 namespace {
 
-using drives::Drive;
 using fusion::strategies::StrategyKind;
+using sim::drives::Drive;
 using Read = std::function<void(ttf::recording::records::Sink&)>;
 
 constexpr TrueTime kNever{-1};
@@ -89,12 +89,12 @@ struct Outcome {
 };
 
 Outcome outcome(const Drive& drive, const log::LogManifest& manifest, const Read& read) {
-  evaluation::accuracy::DriveMeasures measures(drives::evaluation_start(drive.scenario));
+  evaluation::accuracy::DriveMeasures measures(sim::drives::evaluation_start(drive.scenario));
   evaluation::cluster::StartupAccount startup(drive.cluster.cycle());
   evaluation::faults::FaultAccount faults(drive.cluster, faults::resolve(drive.scenario.faults, drive.cluster),
                                           !drive.scenario.startup.cold);
   const report::drawing::Names names = report::drawing::names_of(drive.cluster);
-  const TrueTime from = drives::evaluation_start(drive.scenario), to = drives::drive_end(drive.scenario);
+  const TrueTime from = sim::drives::evaluation_start(drive.scenario), to = sim::drives::drive_end(drive.scenario);
   report::timing::TimingDiagram timing(names, drive.cluster.cycle(), from, from + Duration::milliseconds(160));
   report::startup::StartupDiagram startup_picture(names, drive.cluster.cycle(), TrueTime{},
                                                   TrueTime{} + Duration::milliseconds(300));

@@ -10,15 +10,15 @@
 #include "recording/merge/common_time.h"
 #include "recording/merge/merge.h"
 #include "recording/merge/record_place.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/merge/split_log.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::recording::merge {
 namespace {
 
-using drives::Drive;
 using fusion::strategies::StrategyKind;
+using sim::drives::Drive;
 
 TrueTime ms(std::int64_t n) { return TrueTime{} + Duration::milliseconds(n); }
 

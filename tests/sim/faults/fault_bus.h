@@ -10,9 +10,9 @@
 #include "core/random.h"
 #include "faults/believed_schedule.h"
 #include "faults/plan.h"
-#include "sim/crank/bus_simulation.h"
+#include "sim/engine/bus_simulation.h"
 #include "sim/faults/injector.h"
-#include "tests/sim/crank/bus_clusters.h"
+#include "tests/sim/engine/bus_clusters.h"
 
 namespace ttf::sim::faults {
 
@@ -58,7 +58,7 @@ struct Said final : bus::controller::ControllerEvents {
 };
 
 struct FaultBusConfig {
-  schedules::model::Cluster cluster = crank::bus_cluster(4, 2, 4);
+  schedules::model::Cluster cluster = engine::bus_cluster(4, 2, 4);
   std::vector<ttf::faults::Fault> faults;
   std::uint64_t seed = 1;
   std::int64_t most_drift_ppb = 200'000;
@@ -75,12 +75,12 @@ class FaultBus final : public recording::records::Sink {
  public:
   explicit FaultBus(FaultBusConfig config)
       : config_(std::move(config)), plan_{"", config_.faults}, believed_(plan_, config_.cluster) {
-    std::vector<crank::BusNode> nodes;
+    std::vector<engine::BusNode> nodes;
     std::vector<bus::controller::ControllerEvents*> events;
     for (std::size_t n = 0; n < config_.cluster.nodes.size(); ++n) {
       RandomStream draw({config_.seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
       const std::int64_t phase = draw.integer(0, 24'999);
-      crank::BusNode node{
+      engine::BusNode node{
           timebase::Oscillator(25'000, draw.integer(-config_.most_drift_ppb, config_.most_drift_ppb), phase)};
       if (!config_.cold) node.clock = integrated(node.oscillator);
       node.view = believed_.of(static_cast<NodeId>(n));
@@ -88,7 +88,7 @@ class FaultBus final : public recording::records::Sink {
       said_.push_back(std::make_unique<Said>());
       events.push_back(said_.back().get());
     }
-    simulation_ = std::make_unique<crank::BusSimulation>(config_.cluster, std::move(nodes), std::move(events));
+    simulation_ = std::make_unique<engine::BusSimulation>(config_.cluster, std::move(nodes), std::move(events));
     if (!config_.inject) return;
     injector_ = std::make_unique<Injector>(plan_, config_.cluster, *simulation_, config_.seed, 0, *this, origin());
     simulation_->set_disturbance(injector_.get());
@@ -107,7 +107,7 @@ class FaultBus final : public recording::records::Sink {
   }
   const Said& said(int node) const { return *said_[static_cast<std::size_t>(node)]; }
   bus::poc::PocKind state(int node) const { return simulation_->controller(static_cast<NodeId>(node)).state().kind; }
-  crank::BusSimulation& simulation() { return *simulation_; }
+  engine::BusSimulation& simulation() { return *simulation_; }
   std::uint64_t acts(std::size_t fault = 0) const { return injector_->activations()[fault].times; }
   const Injector& injector() const { return *injector_; }
 
@@ -136,7 +136,7 @@ class FaultBus final : public recording::records::Sink {
     const std::int64_t thousand =
         (oscillator.ticks_at(start + config_.cluster.cycle() * 1000) - oscillator.ticks_at(start)).value;
     return {oscillator.ticks_at(start) + Microticks{1},
-            static_cast<int>((thousand + 500) / 1000 - crank::kMicroPerCycle)};
+            static_cast<int>((thousand + 500) / 1000 - engine::kMicroPerCycle)};
   }
   using recording::records::Sink::on;
   void on(const recording::records::FaultActivity& activity) override {
@@ -148,7 +148,7 @@ class FaultBus final : public recording::records::Sink {
   ttf::faults::FaultPlan plan_;
   ttf::faults::BelievedSchedules believed_;
   std::vector<std::unique_ptr<Said>> said_;
-  std::unique_ptr<crank::BusSimulation> simulation_;
+  std::unique_ptr<engine::BusSimulation> simulation_;
   std::unique_ptr<Injector> injector_;
   std::vector<Activity> activities_;
 };

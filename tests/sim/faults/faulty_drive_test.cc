@@ -3,12 +3,12 @@
 
 #include <map>
 
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::sim::faults {
 namespace {
 
-using drives::Drive;
+using sim::drives::Drive;
 using ttf::faults::FaultKind;
 
 // The drive as a number: frames as they left, tasks, problems and images, without the faults' records.
@@ -45,12 +45,12 @@ class FaultyDrive : public testing::TestWithParam<fusion::strategies::StrategyKi
 TEST_P(FaultyDrive, TheShippedOneRunsToItsEndAndEveryFaultActs) {
   const Drive drive("scenarios/faulty_bus.yaml", GetParam());
   Sum sum;
-  const drives::DriveOutcome outcome = drive.run(sum);
+  const sim::drives::DriveOutcome outcome = drive.run(sum);
   ASSERT_EQ(outcome.faults.size(), drive.scenario.faults.faults.size());
   for (std::size_t i = 0; i < outcome.faults.size(); ++i) {
     const ttf::faults::Fault& fault = drive.scenario.faults.faults[i];
     EXPECT_GT(outcome.faults[i].times, 0U) << ttf::faults::name_of(fault.kind);
-    EXPECT_GE(outcome.faults[i].first, crank::kFirstCycle + fault.from) << ttf::faults::name_of(fault.kind);
+    EXPECT_GE(outcome.faults[i].first, engine::kFirstCycle + fault.from) << ttf::faults::name_of(fault.kind);
     EXPECT_EQ(sum.acts[std::string(ttf::faults::name_of(fault.kind))], outcome.faults[i].times);
   }
   for (const unsigned status : {1U, 4U, 8U, 16U}) EXPECT_GT(sum.problems[status], 0U) << status;
@@ -97,7 +97,7 @@ TEST_P(FaultyDrive, ANodeRunsOnTheScheduleThatItBelievesIn) {
   fault.node_name = "gateway";
   drive.scenario.faults.faults = {fault};
   Sum sum;
-  const drives::DriveOutcome outcome = drive.run(sum);
+  const sim::drives::DriveOutcome outcome = drive.run(sum);
   EXPECT_GT(outcome.faults[0].times, 100U);
   EXPECT_GT(sum.problems[bus::controller::kContentError], 100U);
 }

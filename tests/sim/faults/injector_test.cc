@@ -46,7 +46,7 @@ std::vector<ttf::faults::Fault> every_kind() {
 
 FaultBusConfig six(std::vector<ttf::faults::Fault> faults, std::uint64_t seed = 1) {
   FaultBusConfig config;
-  config.cluster = crank::bus_cluster(6, 3, 6);
+  config.cluster = engine::bus_cluster(6, 3, 6);
   config.faults = std::move(faults);
   config.seed = seed;
   return config;
@@ -128,7 +128,7 @@ TEST(Injector, L3AFaultThatIsStillToComeChangesNothing) {
 }
 
 // Stands for a simulation: remembers its calls.
-struct Listener final : crank::Plant {
+struct Listener final : engine::Plant {
   TrueTime time{};
   std::vector<std::string> asked;
   TrueTime now() const override { return time; }
@@ -169,7 +169,7 @@ class Bytes : public testing::Test {
   }
   ttf::faults::FaultPlan plan(ttf::faults::Fault fault) const { return {"", {std::move(fault)}}; }
 
-  schedules::model::Cluster cluster_ = crank::bus_cluster(4, 2, 4);
+  schedules::model::Cluster cluster_ = engine::bus_cluster(4, 2, 4);
   Listener plant_;
   recording::records::Sink nobody_;
   std::array<std::byte, bus::wire::kMaxFrameBytes> frame_{};
@@ -349,20 +349,20 @@ TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
   std::vector<ttf::faults::Fault> faults;
   for (const ttf::faults::Fault& fault : every_kind())
     if (fault.kind != FaultKind::kCrash && fault.kind != FaultKind::kLoneColdstart) faults.push_back(fault);
-  const schedules::model::Cluster cluster = crank::bus_cluster(6, 3, 6);
+  const schedules::model::Cluster cluster = engine::bus_cluster(6, 3, 6);
   const ttf::faults::FaultPlan plan{"", faults};
   const ttf::faults::BelievedSchedules believed(plan, cluster);
-  std::vector<crank::BusNode> nodes;
+  std::vector<engine::BusNode> nodes;
   std::vector<bus::controller::ControllerEvents*> events;
   bus::controller::ControllerEvents silent;
   for (int n = 0; n < 6; ++n) {
-    crank::BusNode node{timebase::Oscillator(25'000, 1'000 * n, 0)};
+    engine::BusNode node{timebase::Oscillator(25'000, 1'000 * n, 0)};
     node.clock = bus::controller::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}) + Microticks{1}, 0};
     node.view = believed.of(static_cast<NodeId>(n));
     nodes.push_back(node);
     events.push_back(&silent);
   }
-  crank::BusSimulation simulation(cluster, std::move(nodes), std::move(events));
+  engine::BusSimulation simulation(cluster, std::move(nodes), std::move(events));
   recording::records::Sink nobody;
   Injector injector(plan, cluster, simulation, 1, 0, nobody, TrueTime{1'000'000});
   simulation.set_disturbance(&injector);
@@ -373,7 +373,7 @@ TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
 }
 
 TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
-  const schedules::model::Cluster cluster = crank::bus_cluster(4, 1, 4);
+  const schedules::model::Cluster cluster = engine::bus_cluster(4, 1, 4);
   const auto refused = [&](std::vector<ttf::faults::Fault> faults) -> std::string {
     try {
       ttf::faults::resolve({"drive.yaml", std::move(faults)}, cluster);
@@ -410,7 +410,7 @@ TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
 }
 
 TEST(ChannelSwap, ANodeWithOneWireIsRefused) {
-  schedules::model::Cluster cluster = crank::bus_cluster(4, 2, 4);
+  schedules::model::Cluster cluster = engine::bus_cluster(4, 2, 4);
   cluster.nodes[3].flexray->pChannels = schedules::model::Channels::kA;
   ttf::faults::Fault fault = fault_of(FaultKind::kChannelSwap, 3, 0);
   fault.line = 7;
@@ -436,7 +436,7 @@ TEST(ChannelSwap, WhereThereIsOneChannelItDoesNothing) {
 }
 
 TEST(BelievedSchedules, EachDiffersFromTheClusterInItsOwnWay) {
-  const schedules::model::Cluster cluster = crank::bus_cluster(4, 2, 4);
+  const schedules::model::Cluster cluster = engine::bus_cluster(4, 2, 4);
   ttf::faults::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
   const auto believed = [&](ttf::faults::WrongSchedule mode, int by, int slot = 0) {
     fault.wrong = mode;
@@ -454,7 +454,7 @@ TEST(BelievedSchedules, EachDiffersFromTheClusterInItsOwnWay) {
   EXPECT_EQ(longer.flexray.gMacroPerCycle, 5'040);
   EXPECT_EQ(longer.cycle(), Duration::microseconds(5'040));
   EXPECT_EQ(longer.nodes[3].flexray->pMicroPerCycle, 201'600);
-  EXPECT_EQ(longer.nodes[0].flexray->pMicroPerCycle, crank::kMicroPerCycle);
+  EXPECT_EQ(longer.nodes[0].flexray->pMicroPerCycle, engine::kMicroPerCycle);
   const schedules::model::Cluster slots = believed(ttf::faults::WrongSchedule::kStaticSlot, 2);
   EXPECT_EQ(slots.flexray.gdStaticSlot, 45);
   EXPECT_EQ(slots.flexray.gdNIT, cluster.flexray.gdNIT - 128);

@@ -55,7 +55,7 @@ TEST(MachineryFaults, DriftThatJumpsLosesTheClusterBeforeAnythingIsMeasured) {
   ttf::faults::Fault fault = fault_of(FaultKind::kDrift, 3, 10);
   fault.drift_ppb = 6'000'000;  // 30 us in a cycle: out of every slot
   FaultBusConfig config = with({fault});
-  config.cluster = crank::bus_cluster(4, 2, 3);
+  config.cluster = engine::bus_cluster(4, 2, 3);
   FaultBus bus(std::move(config));
   bus.run(5 * 40);
   EXPECT_EQ(bus.acts(), 1U);
@@ -72,7 +72,7 @@ TEST(MachineryFaults, DriftWithinTheLimitIsCorrected) {
   FaultBus bus(with({fault}));
   bus.run(5 * 60);
   for (int n = 0; n < 4; ++n) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
-  EXPECT_LE(bus.simulation().precision().ns, crank::kAssumedPrecision.ns);
+  EXPECT_LE(bus.simulation().precision().ns, engine::kAssumedPrecision.ns);
 }
 
 TEST(MachineryFaults, OneByzantineClockOfThreeBreaksThePrecisionAndOneOfFourDoesNot) {
@@ -83,7 +83,7 @@ TEST(MachineryFaults, OneByzantineClockOfThreeBreaksThePrecisionAndOneOfFourDoes
     Duration most{};
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       FaultBusConfig config = with({fault});
-      config.cluster = crank::bus_cluster(nodes, 2, nodes);
+      config.cluster = engine::bus_cluster(nodes, 2, nodes);
       config.seed = seed;
       config.most_drift_ppb = 1'500'000;
       FaultBus bus(std::move(config));
@@ -97,8 +97,8 @@ TEST(MachineryFaults, OneByzantineClockOfThreeBreaksThePrecisionAndOneOfFourDoes
   };
   for (const auto pattern : {ttf::faults::ByzantinePattern::kRandom, ttf::faults::ByzantinePattern::kPullApart,
                              ttf::faults::ByzantinePattern::kPullRates})
-    EXPECT_LE(worst(4, pattern).ns, crank::kAssumedPrecision.ns) << static_cast<int>(pattern);
-  EXPECT_GT(worst(3, ttf::faults::ByzantinePattern::kPullRates).ns, crank::kAssumedPrecision.ns);
+    EXPECT_LE(worst(4, pattern).ns, engine::kAssumedPrecision.ns) << static_cast<int>(pattern);
+  EXPECT_GT(worst(3, ttf::faults::ByzantinePattern::kPullRates).ns, engine::kAssumedPrecision.ns);
 }
 
 TEST(MachineryFaults, ALoneColdstartNodeDoesNotStartUntilAnotherIsThere) {
@@ -144,7 +144,7 @@ TEST(MachineryFaults, WhoeverKeepsSendingCasKeepsTheOthersFromStarting) {
   const ttf::faults::Fault mute = fault_of(FaultKind::kOmission, 3, 0);
   const auto config = [](std::vector<ttf::faults::Fault> faults) {
     FaultBusConfig made = with(std::move(faults));
-    made.cluster = crank::bus_cluster(4, 3, 4);
+    made.cluster = engine::bus_cluster(4, 3, 4);
     return made;
   };
   const int undisturbed = started(config({mute}), 400);
@@ -238,7 +238,7 @@ TEST(MachineryFaults, LongerSlotsMakeFramesLate) {
 
 TEST(MachineryFaults, ALongerCycleLosesTheCluster) {
   FaultBusConfig config = with({wrong(ttf::faults::WrongSchedule::kCycleLength, 50)});
-  config.cluster = crank::bus_cluster(4, 2, 3);
+  config.cluster = engine::bus_cluster(4, 2, 3);
   FaultBus bus(std::move(config));
   bus.run(5 * 60);
   EXPECT_EQ(bus.state(3), PocKind::kHalt);

@@ -36,7 +36,7 @@ TEST(MediumFaults, ABabblingIdiotOnBothChannelsTakesTheClusterDown) {
   ttf::faults::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10);
   fault.interval = Duration{};
   FaultBusConfig config = with({fault});
-  config.cluster = crank::bus_cluster(5, 2, 2);
+  config.cluster = engine::bus_cluster(5, 2, 2);
   FaultBus bus(std::move(config));
   bus.run(5 * 40);
   for (const int n : {2, 4}) EXPECT_EQ(bus.state(n), PocKind::kHalt) << n;
@@ -107,7 +107,7 @@ TEST(MediumFaults, ATransientDestroysEverythingWhileItLastsAndNoLonger) {
 TEST(MediumFaults, ALongTransientTakesThoseWithoutASyncFrameToPassiveThenHalt) {
   // gMaxWithoutClockCorrectionPassive 2, -Fatal 4 double cycles.
   FaultBusConfig config = with({fault_of(FaultKind::kTransient, -1, 10, 20)});
-  config.cluster = crank::bus_cluster(4, 2, 2);
+  config.cluster = engine::bus_cluster(4, 2, 2);
   FaultBus bus(std::move(config));
   bus.run(5 * 16 + 1);
   for (const int n : {2, 3}) EXPECT_EQ(bus.state(n), PocKind::kNormalPassive) << n;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "recording/records/records.h"
-#include "sim/crank/plant.h"
+#include "sim/engine/plant.h"
 #include "sim/medium/can_medium.h"
 #include "tests/bus/layouts.h"
 
@@ -37,7 +37,7 @@ inline schedules::model::Cluster can_cluster(bool flexible_data_rate, double oth
   return cluster;
 }
 
-struct Can final : recording::records::Sink, crank::Plant {
+struct Can final : recording::records::Sink, engine::Plant {
   schedules::model::Cluster cluster;
   MediumQueue queue;
   FramePool pool;

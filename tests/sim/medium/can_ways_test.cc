@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/record_text.h"
+#include "tests/sim/drives/drive_fixture.h"
 #include "tests/sim/medium/can_rig.h"
 
 namespace ttf::sim::medium {
@@ -409,13 +409,14 @@ TEST(CanWays, DrivesLeaveTheSameRecords) {
                                                         {"scenarios/cold_start.yaml", StrategyKind::kTt}};
   for (const auto& [scenario, strategy] : cases) {
     SCOPED_TRACE(scenario);
-    drives::Drive drive(scenario, strategy);
+    sim::drives::Drive drive(scenario, strategy);
     drive.scenario.duration = std::min(drive.scenario.duration, Duration::milliseconds(2'600));
     std::vector<std::string> fast, plain;
     for (const bool bit_by_bit : {false, true}) {
       const auto sink = recording::text_into(bit_by_bit ? plain : fast);
-      drives::DriveConfig config{&drive.scenario, &drive.cluster, strategy, 1, 0, nullptr, nullptr, true, bit_by_bit};
-      (void)drives::run_drive(config, *sink);
+      sim::drives::DriveConfig config{&drive.scenario, &drive.cluster, strategy, 1,         0,
+                                      nullptr,         nullptr,        true,     bit_by_bit};
+      (void)sim::drives::run_drive(config, *sink);
     }
     ASSERT_GT(fast.size(), 1'000u);
     ASSERT_EQ(fast.size(), plain.size());
@@ -425,7 +426,7 @@ TEST(CanWays, DrivesLeaveTheSameRecords) {
 
 // Nodes crash at drawn instants and come back, most of them while the CANs are busy; meanwhile other faults act.
 TEST(CanWays, DrivesWithCrashesLeaveTheSameRecords) {
-  drives::Drive drive("scenarios/faulty_can.yaml", fusion::strategies::StrategyKind::kTt);
+  sim::drives::Drive drive("scenarios/faulty_can.yaml", fusion::strategies::StrategyKind::kTt);
   drive.scenario.duration = Duration::milliseconds(2'600);
   RandomStream draw({17, 0, Purpose::kTest, 1, 0});
   for (const char* node : {"laser_pre", "camera_pre", "gateway"})
@@ -440,9 +441,9 @@ TEST(CanWays, DrivesWithCrashesLeaveTheSameRecords) {
   std::vector<std::string> fast, plain;
   for (const bool bit_by_bit : {false, true}) {
     const auto sink = recording::text_into(bit_by_bit ? plain : fast);
-    drives::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, 1,         0,
-                               nullptr,         nullptr,        true,           bit_by_bit};
-    (void)drives::run_drive(config, *sink);
+    sim::drives::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, 1,         0,
+                                    nullptr,         nullptr,        true,           bit_by_bit};
+    (void)sim::drives::run_drive(config, *sink);
   }
   ASSERT_GT(fast.size(), 1'000u);
   ASSERT_EQ(fast.size(), plain.size());

@@ -17,14 +17,14 @@
 
 #include "core/random.h"
 #include "schedules/check/checker.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/record_text.h"
+#include "tests/sim/drives/drive_fixture.h"
 #include "tests/support/memory_exchange.h"
 
 namespace ttf::sim::processes {
 namespace {
 
-using drives::Drive;
+using sim::drives::Drive;
 using Lines = std::vector<std::string>;
 
 // The clocks' largest difference is not recorded when no process sees two clocks.
@@ -63,8 +63,8 @@ std::vector<Lines> in_processes(const Drive& drive, const Wrap& wrap = {}) {
       const auto id = static_cast<NodeId>(n);
       try {
         TurnTaking others(drive.cluster, id, *ports[n]);
-        drives::run_drive({&drive.scenario, &drive.cluster, drive.strategy, drive.scenario.seed, 0, nullptr, &others},
-                          sinks[n]);
+        sim::drives::run_drive(
+            {&drive.scenario, &drive.cluster, drive.strategy, drive.scenario.seed, 0, nullptr, &others}, sinks[n]);
       } catch (const Killed&) {
         hub.leave(id);
       } catch (...) {
@@ -103,7 +103,7 @@ struct Case {
 
   Drive drive() const {
     Drive drive(scenario, strategy);
-    if (cluster != nullptr) drive.cluster = schedules::check::load_checked_cluster(drives::shipped(cluster));
+    if (cluster != nullptr) drive.cluster = schedules::check::load_checked_cluster(sim::drives::shipped(cluster));
     drive.scenario.startup.cold = drive.scenario.startup.cold || cold;
     drive.scenario.duration = Duration::milliseconds(milliseconds);
     if (guarded) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bus/wire/flexray_frame.h"
-#include "tests/drives/drive_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::sim::processes {
 namespace {
@@ -51,7 +51,7 @@ class Turn : public testing::Test {
   }
 
   const schedules::model::Cluster cluster_ =
-      schedules::file::load_cluster(drives::shipped("schedules/paper_synchronised.yaml"));
+      schedules::file::load_cluster(sim::drives::shipped("schedules/paper_synchronised.yaml"));
   NodeId host_{}, device_{};
   std::vector<std::byte> frame_ = std::vector<std::byte>(bus::wire::kMaxFrameBytes);
 };
@@ -89,7 +89,7 @@ TEST_F(Turn, IsReadAsItWasWritten) {
 
 TEST_F(Turn, OnlyAnActuatorsNodeActuates) {
   const schedules::model::Cluster loop =
-      schedules::file::load_cluster(drives::shipped("schedules/closed_loop_synchronised.yaml"));
+      schedules::file::load_cluster(sim::drives::shipped("schedules/closed_loop_synchronised.yaml"));
   const nodes::host::Actuation actuation{TrueTime{7'000'000}, -3.25, 0.125};
   std::vector<Act> acts;
   const NodeId actuator = *loop.find_node("actuator"), feature = *loop.find_node("feature");

@@ -3,10 +3,10 @@
 
 #include <type_traits>
 
-#include "drives/drive.h"
 #include "recording/records/tee.h"
-#include "tests/drives/drive_fixture.h"
+#include "sim/drives/drive.h"
 #include "tests/recording/record_text.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::sim::processes {
 namespace {
@@ -31,11 +31,11 @@ class Others final : public recording::records::Every<Others> {
   bool wants_frames_;
 };
 
-void compare(const drives::Drive& drive) {
+void compare(const sim::drives::Drive& drive) {
   const fusion::strategies::StrategyKind strategy = drive.strategy;
-  const drives::DriveConfig config{&drive.scenario, &drive.cluster, strategy, 3, 1, nullptr};
+  const sim::drives::DriveConfig config{&drive.scenario, &drive.cluster, strategy, 3, 1, nullptr};
   Others all(true), others(false);
-  const drives::DriveOutcome with = run_drive(config, all), without = run_drive(config, others);
+  const sim::drives::DriveOutcome with = run_drive(config, all), without = run_drive(config, others);
   EXPECT_GT(all.frames, 1000);
   EXPECT_EQ(others.frames, 0);
   ASSERT_EQ(all.text.lines.size(), others.text.lines.size());
@@ -54,8 +54,8 @@ TEST(UnwantedFrames, LeaveAllOtherRecordsAsTheyAre) {
 // Every cluster has a different mixture of slots that repeat, take turns, or have fragments of lists of many.
 TEST(UnwantedFrames, OfEveryClusterLeaveAllOtherRecordsAsTheyAre) {
   for (const char* cluster : {"paper_dynamic", "paper_event_triggered", "paper_free_running", "flexray_demo"}) {
-    drives::Drive drive("scenarios/dynamics.yaml", fusion::strategies::StrategyKind::kAdva);
-    drive.cluster = schedules::file::load_cluster(drives::shipped("schedules/") + cluster + ".yaml");
+    sim::drives::Drive drive("scenarios/dynamics.yaml", fusion::strategies::StrategyKind::kAdva);
+    drive.cluster = schedules::file::load_cluster(sim::drives::shipped("schedules/") + cluster + ".yaml");
     SCOPED_TRACE(cluster);
     compare(drive);
   }
@@ -70,7 +70,7 @@ TEST(UnwantedFrames, BelongToStartupLikeOthers) {
 
 // Uncorrected clocks drift apart until frames cross the others' slots, and then collide.
 TEST(UnwantedFrames, MayBeOutsideOfTheirSlots) {
-  drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
+  sim::drives::Drive drive("scenarios/paper_scenario1.yaml", fusion::strategies::StrategyKind::kAdva);
   drive.cluster.synchronisation = false;
   drive.scenario.duration = Duration::milliseconds(1500);
   compare(drive);
@@ -99,9 +99,9 @@ TEST(UncomparedClocks, LeaveAllOtherRecordsAsTheyAre) {
   for (const char* scenario :
        {"scenarios/paper_scenario1.yaml", "scenarios/cold_start.yaml", "scenarios/faulty_bus.yaml"}) {
     SCOPED_TRACE(scenario);
-    const drives::Drive drive(scenario, fusion::strategies::StrategyKind::kAdva);
+    const sim::drives::Drive drive(scenario, fusion::strategies::StrategyKind::kAdva);
     NotTheClocks compared, uncompared;
-    const drives::DriveOutcome with = drive.run(compared), without = drive.run(uncompared, 1, false);
+    const sim::drives::DriveOutcome with = drive.run(compared), without = drive.run(uncompared, 1, false);
     EXPECT_GT(compared.samples, 100);
     EXPECT_EQ(uncompared.samples, 0);
     EXPECT_EQ(compared.text.lines, uncompared.text.lines);

@@ -23,7 +23,7 @@ using judging::Trial;
 
 class Optimiser {
  public:
-  // Candidates in `refused` are left out. Every objective that is not this room's own must have its judge.
+  // Candidates in `refused` are left out. Every objective that is not this module's own must have its judge.
   Optimiser(const plan::Plan& plan, const std::vector<Candidate>& all, const std::set<std::size_t>& refused,
             solver::Prover* prover, const Judges& judges);
 

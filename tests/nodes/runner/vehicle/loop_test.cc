@@ -26,13 +26,13 @@ struct LoopRecords final : recording::records::Sink {
   using recording::records::Sink::on;
   void on(const recording::records::CommandTaken& taken) override {
     if (taken.verdict == recording::records::kApplied)
-      applied.push_back({TrueTime{} + (taken.from - sim::crank::kFirstCycle), taken.acceleration, taken.steering});
+      applied.push_back({TrueTime{} + (taken.from - sim::engine::kFirstCycle), taken.acceleration, taken.steering});
   }
   void on(const recording::records::Measured& measured) override {
     const TrueTime at = measured.stamp.true_time;
-    if (device) seen.push_back({TrueTime{} + (at - sim::crank::kFirstCycle), around.scene->ego_at(at)});
+    if (device) seen.push_back({TrueTime{} + (at - sim::engine::kFirstCycle), around.scene->ego_at(at)});
   }
-  drives::Surroundings around;
+  sim::drives::Surroundings around;
   bool device = false;
   std::vector<Actuation> applied;
   std::vector<Seen> seen;
@@ -40,7 +40,7 @@ struct LoopRecords final : recording::records::Sink {
 
 class LiveLoop : public testing::Test {
  protected:
-  LiveLoop() { schedules::model::bind_ports(cluster_, drives::step_ports()); }
+  LiveLoop() { schedules::model::bind_ports(cluster_, sim::drives::step_ports()); }
   // Each process wakes up late, by a draw up to `late`.
   void drive(Duration lasts, Duration late) {
     TurnedHost host(kOrigin - ms(50));
@@ -58,10 +58,10 @@ class LiveLoop : public testing::Test {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       media.push_back(bus.join());
       LoopRecords& records = records_[n];
-      records.around = drives::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
+      records.around = sim::drives::surroundings_of(scenario_, cluster_, 1, 0, nullptr);
       if (std::find(on_the_line.begin(), on_the_line.end(), n) != on_the_line.end())
         lines[n] = std::make_unique<Line>(
-            LinePlan{"loop-test-" + std::to_string(getpid()), n, others(on_the_line, n), sim::crank::kFirstCycle},
+            LinePlan{"loop-test-" + std::to_string(getpid()), n, others(on_the_line, n), sim::engine::kFirstCycle},
             *records.around.world->world().driven());
       records.device = lines[n] != nullptr;
       auto& process = host.process(drawn_late(late, static_cast<std::uint16_t>(n)));
@@ -71,13 +71,13 @@ class LiveLoop : public testing::Test {
         config.node = static_cast<NodeId>(n);
         config.clock = clock;
         config.seed = 1;
-        config.first_cycle = sim::crank::kFirstCycle;
-        config.end = sim::crank::kFirstCycle + lasts;
+        config.first_cycle = sim::engine::kFirstCycle;
+        config.end = sim::engine::kFirstCycle + lasts;
         config.vehicle = lines[n].get();
         Runner runner(config,
-                      drives::make_steps({&scenario_, &cluster_, ttf::fusion::strategies::StrategyKind::kTt, 1, 0,
-                                          records_[n].around.scene, nullptr},
-                                         config.node),
+                      sim::drives::make_steps({&scenario_, &cluster_, ttf::fusion::strategies::StrategyKind::kTt, 1, 0,
+                                               records_[n].around.scene, nullptr},
+                                              config.node),
                       *media[n], process, records_[n]);
         EXPECT_EQ(runner.run(), RunnerEnd::kDone);
         counts_[n] = runner.health().vehicle;
@@ -90,7 +90,7 @@ class LiveLoop : public testing::Test {
     return all;
   }
 
-  const drives::Scenario scenario_ = drives::load_scenario(TTF_SOURCE_DIR "/scenarios/acc_braking_lead.yaml");
+  const sim::drives::Scenario scenario_ = sim::drives::load_scenario(TTF_SOURCE_DIR "/scenarios/acc_braking_lead.yaml");
   schedules::model::Cluster cluster_ =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/closed_loop_synchronised.yaml");
   std::vector<LoopRecords> records_;           // by node

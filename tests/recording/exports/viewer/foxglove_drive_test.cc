@@ -9,9 +9,9 @@
 
 #include "recording/exports/viewer/foxglove_export.h"
 #include "recording/merge/merge.h"
-#include "tests/drives/drive_fixture.h"
 #include "tests/recording/exports/viewer/scene_file.h"
 #include "tests/recording/log/log_fixture.h"
+#include "tests/sim/drives/drive_fixture.h"
 
 namespace ttf::recording::exports::viewer {
 namespace {
@@ -36,7 +36,7 @@ struct InTheLog final : records::Sink {
 };
 
 TEST(FoxgloveDrive, AllObjectsImagesAndListsOfALogAreInTheScene) {
-  const drives::Drive drive("scenarios/two_lasers.yaml", fusion::strategies::StrategyKind::kTt);
+  const sim::drives::Drive drive("scenarios/two_lasers.yaml", fusion::strategies::StrategyKind::kTt);
   const std::string log_path = log::scratch("drive.mcap"), path = log::scratch("scene.mcap");
   {
     log::LogWriter writer(log_path, {});

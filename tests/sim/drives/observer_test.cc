@@ -1,0 +1,56 @@
+// The records made beside a drive.
+#include "sim/drives/observer.h"
+
+#include <gtest/gtest.h>
+
+#include <tuple>
+#include <vector>
+
+namespace ttf::sim::drives {
+namespace {
+
+struct TwoObjects final : nodes::sensing::Scene {
+  void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override {
+    out = {{ObjectId{0}, static_cast<double>(at.ns)}, {ObjectId{1}, 7.0}};
+  }
+  std::size_t objects() const override { return 2; }
+};
+
+struct Truths final : recording::records::Sink {
+  std::vector<std::tuple<std::int64_t, NodeId, ObjectId, std::int64_t>> seen;  // true time, node, object, local time
+  using recording::records::Sink::on;
+  void on(const recording::records::TruthState& r) override {
+    seen.emplace_back(r.at.ns, r.node, r.object, r.local.ns);
+  }
+};
+
+recording::records::Stamp stamp(std::int64_t ns, NodeId node) {
+  return {TrueTime{ns}, LocalTime{ns + static_cast<std::int64_t>(index_of(node))}, GlobalTime{}, node};
+}
+
+// Nodes measure, or use images, at one instant in any order: each records the truth once.
+TEST(Observer, EveryNodeRecordsTheTruthOfItsInstantOnce) {
+  constexpr NodeId kLaser{1}, kFeature{2};
+  const TwoObjects scene;
+  Truths truths;
+  Observer observer(scene, 3, truths);
+  recording::records::Measured measured;
+  recording::records::FeatureUsed used;
+  for (const std::int64_t ns : {100, 200}) {
+    measured.stamp = stamp(ns, kLaser);
+    used.stamp = stamp(ns, kFeature);
+    observer.on(measured);
+    observer.on(used);
+    observer.on(measured);
+    observer.on(used);
+  }
+  decltype(truths.seen) expected;
+  for (const std::int64_t ns : {100, 200})
+    for (const NodeId node : {kLaser, kFeature})
+      for (const ObjectId object : {ObjectId{0}, ObjectId{1}})
+        expected.emplace_back(ns, node, object, ns + static_cast<std::int64_t>(index_of(node)));
+  EXPECT_EQ(truths.seen, expected);
+}
+
+}  // namespace
+}  // namespace ttf::sim::drives
