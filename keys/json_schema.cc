@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "keys/json/definitions.h"
 #include "keys/render.h"
 #include "keys/rows.h"
 #include "keys/value_words.h"
@@ -11,7 +11,7 @@
 namespace ttf::keys {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using json::Json;
 
 // A scalar as YAML has it: a number or a flag where it looks like one.
 Json scalar(const std::string& text) {
@@ -45,15 +45,11 @@ Json named(Json entry) {
 // A file with this key changes another one.
 constexpr const char* kExtends = "extends";
 
+// A mapping has a schema of its own here. Another value keeps its schema, which then stands once.
 Json or_null(Json schema) {
-  if (schema.contains("type")) {
-    if (!schema["type"].is_array()) schema["type"] = Json::array({schema["type"]});
-    schema["type"].push_back("null");
-    if (schema.contains("enum")) schema["enum"].push_back(nullptr);
-    return schema;
-  }
-  if (!schema.contains("enum")) return {{"anyOf", {Json{{"type", "null"}}, std::move(schema)}}};
-  schema["enum"].push_back(nullptr);
+  if (!schema.contains("properties") && !schema.contains("patternProperties"))
+    return {{"anyOf", {Json{{"type", "null"}}, std::move(schema)}}};
+  schema["type"] = Json::array({"object", "null"});
   return schema;
 }
 
@@ -285,7 +281,7 @@ class Schema {
 }  // namespace
 
 std::string json_schema(const Document& document, const Outline& outline) {
-  return Schema(document, outline).whole().dump(1) + "\n";
+  return json::text_of(json::with_definitions(Schema(document, outline).whole())) + "\n";
 }
 
 std::string schema_file(const Document& document) { return document.kind + ".schema.json"; }

@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostLines = 250;  // of a page
 std::string text_of(const Document& document, const Outline& outline);
 // The first page has all keys, or links to pages of their own for those that would make it too long.
 std::vector<Page> markdown_pages(const Document& document, const Outline& outline);
-// JSON Schema, draft 07. Times have no range in it, and a range that depends on other keys is the widest.
+// JSON Schema, draft 07. Parts that recur stand in its `$defs`. Times have no range in it, and a range that depends on other keys is the widest.
 std::string json_schema(const Document& document, const Outline& outline);
 std::string schema_file(const Document& document);  // "scenario.schema.json"
 

@@ -138,21 +138,28 @@ def program_says(kind: str, folder: pathlib.Path, text: str) -> tuple[int, str]:
 
 class Schemas(unittest.TestCase):
     def test_they_are_schemas_with_right_examples(self):
-        def walk(schema):
+        def walk(schema, whole):
             if isinstance(schema, dict):
                 for value in schema.get("examples", []) + ([schema["default"]] if "default" in schema else []):
-                    jsonschema.validate(value, schema, cls=jsonschema.Draft7Validator)
+                    resolver = jsonschema.RefResolver.from_schema(whole)   # "#/$defs/..." is the whole schema's
+                    jsonschema.Draft7Validator(schema, resolver=resolver).validate(value)
+                if "$ref" in schema:
+                    self.assertEqual(list(schema), ["$ref"], "draft 07 ignores what stands beside a reference")
+                    self.assertIn(schema["$ref"].removeprefix("#/$defs/"), whole["$defs"])
+                    used.add(schema["$ref"].removeprefix("#/$defs/"))
                 for inner in schema.values():
-                    walk(inner)
+                    walk(inner, whole)
             elif isinstance(schema, list):
                 for inner in schema:
-                    walk(inner)
+                    walk(inner, whole)
 
         self.assertEqual(set(SCHEMAS), {"scenario", "cluster", "plan", "experiment", "track", "faults"})
         for kind, schema in SCHEMAS.items():
             with self.subTest(kind):
                 jsonschema.Draft7Validator.check_schema(schema)
-                walk({part: schema[part] for part in ("properties", "allOf", "then", "else") if part in schema})
+                used = set()
+                walk({part: schema[part] for part in ("properties", "allOf", "then", "else", "$defs") if part in schema}, schema)
+                self.assertEqual(used, set(schema.get("$defs", {})), "every definition is needed")
 
     def test_shipped_files_are_right(self):
         self.assertGreater(len(SHIPPED), 40)
@@ -161,7 +168,7 @@ class Schemas(unittest.TestCase):
                 self.assertEqual(refusals(kind, path.read_text()), [])
 
     def test_track_configurations_are_right(self):
-        blocks = re.findall(r"```yaml\n(.*?)```", (SOURCE / "docs/track.md").read_text(), re.DOTALL)
+        blocks = re.findall(r"```yaml\n(.*?)```", (SOURCE / "docs/use/track.md").read_text(), re.DOTALL)
         self.assertTrue(blocks)
         for text in TRACKS + blocks:
             with self.subTest(text):
