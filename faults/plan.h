@@ -5,7 +5,7 @@
 //     - {kind: bit_flip_payload, node: fusion, flips: 3, probability: 0.1}
 //
 // and a campaign makes it in code. Nodes do not know the plan: sim/faults injects its faults into media, clocks
-// and supplies. docs/faults.md describes the effect of every kind and the checks that should detect it.
+// and supplies. docs/reference/faults.md describes the effect of every kind and the checks that should detect it.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ enum class WrongSchedule : std::uint8_t {
   kKeySlot,        // the key slot is `slot`
 };
 
-// One fault. Times count from the start of cycle 0, in a cold drive from its time zero. docs/faults.md lists the
+// One fault. Times count from the start of cycle 0, in a cold drive from its time zero. docs/reference/faults.md lists the
 // keys of each kind; other members keep their defaults.
 struct Fault {
   static constexpr Duration kToTheEnd{std::numeric_limits<std::int64_t>::max() / 4};

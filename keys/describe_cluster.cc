@@ -6,7 +6,7 @@ namespace {
 constexpr Description kCluster[] = {
     {"extends",
      "The cluster begins from this file, which the keys here change; then any of them may be absent "
-     "(docs/cluster_files.md).",
+     "(docs/schedules/cluster_files.md).",
      "paper_synchronised.yaml"},
     {"name", "The cluster has this name.", "paper_synchronised"},
     {"synchronisation", "The nodes correct their clocks; otherwise each runs freely.", "true"},
@@ -17,7 +17,7 @@ constexpr Description kCluster[] = {
     {"real_time.late", "A frame may arrive this long after its action point.", "500 us"},
     {"flexray",
      "The cluster has these global parameters, by their names in the FlexRay specification 2.1; others may determine "
-     "one (docs/cluster_files.md)."},
+     "one (docs/schedules/cluster_files.md)."},
     {"node_parameters",
      "Each node on FlexRay has these parameters unless it states its own; every one is stated here or there, or "
      "derived."},
@@ -29,7 +29,7 @@ constexpr Description kCluster[] = {
     {"nodes.NAME.tasks", "The node has these tasks."},
     {"nodes.NAME.tasks.NAME.step",
      "The task runs this code: a step of sim/drives/step_catalog.h, or a library's file name that ends in .so "
-     "(docs/own_step.md).",
+     "(docs/fusion/own_step.md).",
      "fusion"},
     {"nodes.NAME.tasks.NAME.activation", "The task is activated like this."},
     {"nodes.NAME.tasks.NAME.activation.kind",
@@ -38,7 +38,7 @@ constexpr Description kCluster[] = {
      "time"},
     {"nodes.NAME.tasks.NAME.activation.base_cycle",
      "The task runs in cycles c with c mod repetition = base_cycle; in modes, frames and detections begin in some of "
-     "them; absent with `offset`, it follows (docs/cluster_files.md).",
+     "them; absent with `offset`, it follows (docs/schedules/cluster_files.md).",
      "0"},
     {"nodes.NAME.tasks.NAME.activation.repetition",
      "The task runs in every so many cycles, or in modes at such distances: a divisor of gCycleCountMax + 1; absent, "
@@ -63,7 +63,7 @@ constexpr Description kCluster[] = {
      "70 ms"},
     {"nodes.NAME.tasks.NAME.modes",
      "Each mode is a frame of detections, repeated until the task asks for another mode at a frame's end "
-     "(docs/adaptive_detection.md)."},
+     "(docs/fusion/adaptive_detection.md)."},
     {"nodes.NAME.tasks.NAME.modes.NAME.frame", "A frame lasts so many cycles.", "36"},
     {"nodes.NAME.tasks.NAME.modes.NAME.detections", "The frame has these detections, in their order."},
     {"nodes.NAME.tasks.NAME.modes.NAME.detections[].cycle", "The detection begins in this cycle of the frame.", "0"},
@@ -130,7 +130,7 @@ constexpr Description kCluster[] = {
     {"frames", "Slots are taken by these frames."},
     {"frames[].slot",
      "The frame has this slot; those above `gNumberOfStaticSlots` are dynamic; absent, it is a free static one "
-     "(docs/cluster_files.md).",
+     "(docs/schedules/cluster_files.md).",
      "1"},
     {"frames[].channels", "The frame is sent on these channels; absent, on its sender's.", "AB"},
     {"frames[].sender", "This node sends the frame.", "fusion"},

@@ -4,7 +4,7 @@ namespace ttf::keys {
 namespace {
 
 constexpr Description kFault[] = {
-    {"kind", "The fault is of this kind; docs/faults.md describes them all.", "crash"},
+    {"kind", "The fault is of this kind; docs/reference/faults.md describes them all.", "crash"},
     {"node", "This node works; the others fail.", "gateway", "kind=lone_coldstart"},
     {"node", "This node fails.", "gateway"},
     {"can", "The fault is on this private CAN, and so is the node.", "laser_can"},

@@ -4,7 +4,7 @@ namespace ttf::keys {
 namespace {
 
 constexpr Description kPlan[] = {
-    {"plan", "The program chooses what the file leaves out, with these demands (docs/synthesis.md)."},
+    {"plan", "The program chooses what the file leaves out, with these demands (docs/schedules/synthesis.md)."},
     {"plan.cycle", "The cycle has one of these lengths, instead of `gdCycle`."},
     {"plan.cycle.shortest", "This is the shortest of the lengths.", "8.5 ms"},
     {"plan.cycle.longest", "No length is above this.", "9 ms"},
@@ -28,7 +28,7 @@ constexpr Description kPlan[] = {
     {"plan.chains.NAME.to", "The chain ends where this task begins, which time activates.", "feature.use"},
     {"plan.chains.NAME.largest_age", "Measurements are at most this old at the chain's end; absent, of any age.",
      "60 ms"},
-    {"plan.objective", "These are best, the most important first; absent, the worst age (docs/synthesis.md).",
+    {"plan.objective", "These are best, the most important first; absent, the worst age (docs/schedules/synthesis.md).",
      "[data_age, worst_age, slots]"},
     {"plan.error",
      "The objective `error` is counted with these: the expected squared error of a position, on one axis."},

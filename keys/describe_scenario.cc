@@ -152,7 +152,7 @@ constexpr Description kScenario[] = {
     {"feature_service.corridor_half_width", "Objects further off the line of travel do not warn."},
     {"feature_service.warning_time", "A time to collision below this warns."},
     {"feature_service.max_image_age", "An image predicted to an instant further off than this is refused as stale."},
-    {"adaptive_camera", "Cameras that share a detector have these parameters (docs/adaptive_detection.md)."},
+    {"adaptive_camera", "Cameras that share a detector have these parameters (docs/fusion/adaptive_detection.md)."},
     {"adaptive_camera.beta", "Secondary detections fill a frame up to this time."},
     {"adaptive_camera.slots", "The number of secondary detections follows the thesis' text, or its program (floor)."},
     {"adaptive_camera.order",

@@ -99,7 +99,8 @@ std::vector<Document> all() {
         {"nodes.NAME.flexray", node_parameter_descriptions()}}},
       {"plan",
        "Plan",
-       "A plan is a cluster file with values left out, and a section `plan` with demands on them (docs/synthesis.md).",
+       "A plan is a cluster file with values left out, and a section `plan` with demands on them "
+       "(docs/schedules/synthesis.md).",
        schedules::synthesis::plan::ask_for_keys,
        {{"", plan_descriptions()},
         {"", cluster_descriptions()},

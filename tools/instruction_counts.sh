@@ -2,7 +2,7 @@
 # Counts the instructions of the hot paths (tests/bench/hot_paths.cc) with valgrind's callgrind and compares them with
 # tests/bench/instruction_counts. Exit code 1 if one differs by more than 3 %. The machine's load does not change the counts.
 #   tools/instruction_counts.sh            says what has changed
-#   tools/instruction_counts.sh --update   keeps what was counted, and makes docs/late_measurements.md of it
+#   tools/instruction_counts.sh --update   keeps what was counted, and makes docs/fusion/late_measurements.md of it
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh --gates

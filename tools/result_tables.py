@@ -14,7 +14,7 @@ A directive stands as a comment above its table:
     rows: AXES       these name the rows (default: all axes that `columns` and `where` do not name)
     columns: AXIS    its values name the columns, of one paradigm
     where: A=V, ...  points with these values only
-    names: X=Y, ...  the page says Y where the experiment says X
+    names: X=Y, ...  the page says Y where the experiment says X; `<!-- names: X=Y, ... -->` says it for a page's tables
     crossing: yes    percent: a last column, where the sign changes along `columns`
     given: X=V V .., a column X before the others, of figures that are not the answer's, a value a row; to compare with
 
@@ -23,6 +23,7 @@ Differences that stay certain among all of their measure, by Holm's method, are 
 import math
 import re
 
+NAMES = re.compile(r"<!-- names: ([^>]*?) -->")
 DIRECTIVE = re.compile(r"<!-- table: ([^>]*?) -->\n*(?:\*[^*\n]+\*\n+)?((?:\|[^\n]*\n)*)")
 KINDS = ("values", "means", "differences", "percent", "changes", "interactions")
 
@@ -32,7 +33,7 @@ class Wrong(Exception):
 
 
 class Directive:
-    def __init__(self, text):
+    def __init__(self, text, names=None):
         parts = [part.strip() for part in " ".join(text.split()).split(";")]
         words, _, paradigms = parts[0].partition(" of ")
         self.text, (self.kind, *self.measures) = text, words.split()
@@ -42,7 +43,7 @@ class Directive:
         self.rows = listed.get("rows")
         self.columns = keys.get("columns")
         self.where = dict(item.split("=", 1) for item in listed.get("where", []))
-        self.names = dict(item.split("=", 1) for item in listed.get("names", []))
+        self.names = {**(names or {}), **dict(item.split("=", 1) for item in listed.get("names", []))}
         self.crossing = "crossing" in keys
         self.given = {name: values.split() for name, values in (item.split("=", 1) for item in listed.get("given", []))}
         unknown = set(keys) - {"rows", "columns", "where", "names", "crossing", "given"}
@@ -273,13 +274,21 @@ class Table:
         return [cell for _, cells in self.lines for cell in cells]
 
 
+def names_of(page):
+    return {name: said for match in NAMES.finditer(page)
+            for name, said in (item.strip().split("=", 1) for item in " ".join(match[1].split()).split(","))}
+
+
 def tables_of(page):
     """The directives of a page's text, with the tables that stand below them."""
-    return [(Directive(match[1]), match[2]) for match in DIRECTIVE.finditer(page)]
+    names = names_of(page)
+    return [(Directive(match[1], names), match[2]) for match in DIRECTIVE.finditer(page)]
 
 
 def filled(page, answer):
     """The page's text with its tables made anew."""
+    names = names_of(page)
+
     def made(match):
-        return f"<!-- table: {match[1]} -->\n\n{Table(Directive(match[1]), answer).text()}"
+        return f"<!-- table: {match[1]} -->\n\n{Table(Directive(match[1], names), answer).text()}"
     return DIRECTIVE.sub(made, page)

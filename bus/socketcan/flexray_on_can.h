@@ -1,5 +1,5 @@
 // FlexRay on CAN FD: maps the signals of a FlexRay channel to bytes on a CAN interface. Pure functions and one
-// state. docs/socketcan.md describes the same for people who look at the bus with candump.
+// state. docs/media/socketcan.md describes the same for people who look at the bus with candump.
 //
 //   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols and follow-ups, because no
 //                     slot has that number

@@ -1,4 +1,4 @@
-// The SocketCAN live medium: one interface per FlexRay channel (docs/socketcan.md describes its frames), one
+// The SocketCAN live medium: one interface per FlexRay channel (docs/media/socketcan.md describes its frames), one
 // per private CAN. It keeps the laws of bus/ports/live_medium.h. Particular here:
 //
 //   lost       CAN frames that the receive buffer had no room for, each fragment by itself, also echoes of this node's

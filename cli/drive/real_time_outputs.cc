@@ -61,7 +61,7 @@ std::string problems(const StrategyResult& result) {
   return table.text() +
          "Slots missed: frames that this node withheld. Frames: those of other nodes, as this node heard them. Slot "
          "problems, in the\ntable above: slots, by node and channel, whose frame had not come when the static segment "
-         "ended (docs/lateness.md).\n";
+         "ended (docs/media/real_time.md).\n";
 }
 
 // Returns "" if the nodes recorded no counts of a medium.

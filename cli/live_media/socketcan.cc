@@ -82,8 +82,8 @@ const LiveMediumRow kSocketCan{
     .needs_dds = false,
     .look_at = look_at_cans,
     .way_out = kWithDds ? "to do without CANs: --bus dds (the default); to have CANs without root: tools/test_bed.sh "
-                          "(docs/socketcan_use.md)"
-                        : "to have CANs without root: tools/test_bed.sh (docs/socketcan_use.md)",
+                          "(docs/media/socketcan.md)"
+                        : "to have CANs without root: tools/test_bed.sh (docs/media/socketcan.md)",
     .make = make_socketcan,
     .listen = listen_to_cans,
     .carriage = nullptr,

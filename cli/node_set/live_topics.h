@@ -1,4 +1,4 @@
-// The topics of a node in real time under ROS 2's names (docs/ros.md). The fusion node publishes images and
+// The topics of a node in real time under ROS 2's names (docs/media/dds.md). The fusion node publishes images and
 // tracks, the first sensor's device the truth at its measurements, every node its health.
 #pragma once
 

@@ -156,14 +156,16 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
       "--session", arguments.session,
       "Name of the drive on dds, for all its nodes and no others (default: ttfusion; launch: a new one)");
   command.add_option("--external", arguments.external,
-                     "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/attach_a_node.md)");
+                     "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/media/attach_a_node.md)");
   command.add_flag("--virtual-time", arguments.virtual_time,
                    "Drive in virtual time, as fast as possible, instead of in real time");
-  command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/ros.md) in real time");
+  command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/media/dds.md) in real time");
   command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
   command.add_option("--duration", arguments.duration,
                      "Seconds to drive, instead of the scenario's; 0: until it is stopped, an hour at most");
-  command.add_option("--truth", arguments.truth, "ASAM OSI trace in place of the scenario's objects (docs/osi.md)")
+  command
+      .add_option("--truth", arguments.truth,
+                  "ASAM OSI trace in place of the scenario's objects (docs/reference/osi.md)")
       ->check(named());
   drive::add_step_options(command, arguments.steps);
 }

@@ -45,12 +45,14 @@ void add_synthesize(CLI::App& schedule, Action& action) {
       "          ttfusion schedule synthesize --signals examples/packing/variants.csv --payload 8byte "
       "--fixed bus_sport.xml --fixed bus_estate.xml --fixed bus_base.xml -o variants.csv");
   CLI::Option* plan =
-      command->add_option("plan", options->plan, "Plan (docs/synthesis.md), or a shipped one's name")->check(named());
+      command->add_option("plan", options->plan, "Plan (docs/schedules/synthesis.md), or a shipped one's name")
+          ->check(named());
   packing::add_packing_options(*command, options->packing);
   plan->excludes("--signals");
   command
-      ->add_option("-o,--out", options->out,
-                   "File to write: a cluster file, or CSV (docs/packing.md); without it, a plan's values are printed")
+      ->add_option(
+          "-o,--out", options->out,
+          "File to write: a cluster file, or CSV (docs/schedules/packing.md); without it, a plan's values are printed")
       ->check(named());
   command
       ->add_option("--trade-off", options->trade_off,

@@ -276,7 +276,7 @@ void add_track(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrackOptions>();
   CLI::App* command = app.add_subcommand("track", "Recorded observations through the tracker: tracks as CSV");
   command->footer(
-      "Columns, in and out, and the configuration: docs/track.md.\n"
+      "Columns, in and out, and the configuration: docs/use/track.md.\n"
       "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms \\\n"
       "           --seed 7 -o tracks.csv\n"
       "         ttfusion track scans.csv --format scans --picture street.svg -o tracks.csv");
@@ -288,7 +288,7 @@ void add_track(CLI::App& app, Action& action) {
   command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(named());
   command
       ->add_option("--format", options->format,
-                   "csv (docs/track.md; the default), laser_radar or scans (docs/recordings.md)")
+                   "csv (docs/use/track.md; the default), laser_radar or scans (docs/use/recordings.md)")
       ->check(one_of({"csv", "laser_radar", "scans"}));
   command->add_option("--strategy", options->strategy, "Strategy, instead of the configuration's (default: adva)")
       ->check(one_of(drive::strategy_names()));

@@ -1,4 +1,4 @@
-// The measures of a drive, by name: a number each, or not a number if the drive has none. docs/measures.md explains
+// The measures of a drive, by name: a number each, or not a number if the drive has none. docs/reference/measures.md explains
 // them; a test holds the two together.
 #pragma once
 

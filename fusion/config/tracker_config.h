@@ -31,7 +31,7 @@ enum class BuffWaiting : unsigned char {
 // (fusion/sensors/known_sensor.h). They are ignored, or the Schmidt filter (fusion/filters/consider.h) keeps
 // them in every track's covariance without estimating them.
 enum class SystematicErrorsAre : unsigned char { kIgnored, kConsidered };
-// The association of observations with tracks (docs/tracker.md): the most probable one
+// The association of observations with tracks (docs/fusion/tracker.md): the most probable one
 // (fusion/association/assignment.h), or all, weighted by their probabilities
 // (fusion/association/joint_association.h).
 enum class Association : unsigned char { kNearest, kJpda };

@@ -1,4 +1,4 @@
-// The parameters of cameras that share a detector (docs/adaptive_detection.md).
+// The parameters of cameras that share a detector (docs/fusion/adaptive_detection.md).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // The log of a drive: every record as one MCAP message with a protobuf payload (recording/log/log.proto).
 //
-// docs/log_format.md describes the file. One thread may write at a time. The file has no dates and no
+// docs/reference/log_format.md describes the file. One thread may write at a time. The file has no dates and no
 // addresses: the same records give the same bytes. log_time is the record's true time: Stamp::true_time, else
 // the end or the instant that the record names. publish_time is the node's global time if it has one. Both are
 // 0 for times before the start of the drive, which the payload has exactly.

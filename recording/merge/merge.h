@@ -2,7 +2,7 @@
 //
 // Each process of a node set writes a log of its own nodes' records; merged, these are the log of the drive.
 // One log and many logs, in any order, give the same sequence of records, as both go through the merge.
-// recording/merge/record_place.h and docs/log_merging.md define the order.
+// recording/merge/record_place.h and docs/reference/log_format.md define the order.
 // recording/merge/common_time.h puts the true times of different machines on one scale.
 //
 // The merge is exact for any order within the logs. Logs have the order of reports, not of true time. A task's

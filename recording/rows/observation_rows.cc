@@ -108,7 +108,7 @@ Heading heading_of(const CsvLines& lines, const std::string& name) {
     else if (text != kTextColumns.end())
       place = &heading.text[static_cast<std::size_t>(text - kTextColumns.begin())];
     else if (field.substr(0, 3) != "gt_")
-      findings.add({name, lines.line(), "column", field, "is not known (docs/track.md lists the columns)"});
+      findings.add({name, lines.line(), "column", field, "is not known (docs/use/track.md lists the columns)"});
     if (place == nullptr) continue;
     if (*place) findings.add({name, lines.line(), "column", field, "occurs twice"});
     *place = i;

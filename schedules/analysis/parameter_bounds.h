@@ -1,6 +1,6 @@
 // The bounds and equations of FlexRay 2.1A, annex B.4, in numbers: what a parameter must be, or its least or largest
 // value. schedules/check/constraints.cc holds a cluster against them, schedules/file/derive.cc derives from them what a
-// file leaves out. docs/flexray_constraints.md has their derivations.
+// file leaves out. docs/schedules/flexray_constraints.md has their derivations.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The constraints on FlexRay's parameters (2.1A, annex B.4), as one table. docs/flexray_constraints.md shows it, and
+// The constraints on FlexRay's parameters (2.1A, annex B.4), as one table. docs/schedules/flexray_constraints.md shows it, and
 // says which constraints are not checked. Some are bounds here where the specification has an equation: its other terms
 // are no keys of a cluster file.
 //

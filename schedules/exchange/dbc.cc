@@ -37,7 +37,7 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
-// The content of identifier 0 on the interfaces of the FlexRay channels (docs/socketcan.md), by its first byte.
+// The content of identifier 0 on the interfaces of the FlexRay channels (docs/media/socketcan.md), by its first byte.
 struct OnChannel {
   int kind;
   std::string_view name, unit;

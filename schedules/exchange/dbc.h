@@ -12,7 +12,7 @@
 // (sensor_lines.h). A message whose identifier the cluster already uses is left out.
 //
 // Identifier 0, if unused by the cluster's CANs, describes frames on FlexRay channels over CAN FD
-// (docs/socketcan.md): symbols and follow-ups, distinguished by a multiplexor. Only files of all CANs have it.
+// (docs/media/socketcan.md): symbols and follow-ups, distinguished by a multiplexor. Only files of all CANs have it.
 //
 // The format has no public standard; this is its common core. Its names are C identifiers: other characters
 // become '_', and a repeated name gets a number.

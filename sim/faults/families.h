@@ -1,5 +1,5 @@
 // The families of faults. Each function makes the working part of a fault of the plan; the family's source file
-// says what it does, and how. docs/faults.md has the whole table.
+// says what it does, and how. docs/reference/faults.md has the whole table.
 #pragma once
 
 #include <memory>

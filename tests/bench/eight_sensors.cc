@@ -1,5 +1,5 @@
 // Eight sensors at 25 Hz see 10 objects for 20 s, straight into a strategy, without a bus. The aim is 0.1 s for the
-// whole drive (docs/tracker.md says what is reached). Any allocation after the start is an error.
+// whole drive (docs/fusion/tracker.md says what is reached). Any allocation after the start is an error.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

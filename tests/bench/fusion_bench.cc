@@ -1,6 +1,6 @@
 // The cost of one fusion cycle with 25 objects, and with 1,000. The paper's budget is 10 ms. The aims for 25 cars
 // of which sensors see ends and silhouettes are 60 us with straight models, 120 with turning and 250 with interacting
-// ones, and for 1,000 objects 45 times as long as for 25 (docs/tracker.md says what is reached).
+// ones, and for 1,000 objects 45 times as long as for 25 (docs/fusion/tracker.md says what is reached).
 //
 // Each measured step starts from a strategy that has tracked the 25 objects for as long as its history
 // reaches. Every benchmark also counts the allocations of its measured part: any allocation is an error.

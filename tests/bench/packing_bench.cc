@@ -1,5 +1,5 @@
 // The cost of packing 4096 signals of 6 nodes into frames of 32 bits: bound, search and check. The aim is 5 s; a first
-// fit alone takes milliseconds. `Published` is the instance of docs/packing.md, where it is there; `Like` are drawn
+// fit alone takes milliseconds. `Published` is the instance of docs/schedules/packing.md, where it is there; `Like` are drawn
 // ones like it. With variants, four of a vehicle share the schedule.
 #include <benchmark/benchmark.h>
 

@@ -28,7 +28,7 @@ expect 2 '^error: paper_scenaro1: is neither a file nor the name of a shipped sc
   run paper_scenaro1
 for file in man/man1/ttfusion.1 man/man1/ttfusion-schedule.1 bash-completion/completions/ttfusion \
   zsh/site-functions/_ttfusion fish/vendor_completions.d/ttfusion.fish doc/ttfusion/copyright \
-  doc/ttfusion/docs/installing.md ttfusion/experiments/faults/camera_crash.yaml ttfusion/schemas/cluster.schema.json; do
+  doc/ttfusion/docs/use/installing.md ttfusion/experiments/faults/camera_crash.yaml ttfusion/schemas/cluster.schema.json; do
   [[ -s $share/$file ]] || fail "$file is not installed"
 done
 # The example of a step of one's own, with the installed header.

@@ -53,7 +53,7 @@ done
 for keys in 'feature_service: {max_image_age: 100 ms}' 'tracker: {coast_after: 300 ms, delete_after: 1 s}'; do
   inner=${keys#*\{}
   for key in "${keys%%:*}" "${inner%%:*}"; do
-    grep -q "\`$key\`" "$source/docs/faults.md" || fail "docs/faults.md does not name $key"
+    grep -q "\`$key\`" "$source/docs/reference/faults.md" || fail "docs/reference/faults.md does not name $key"
   done
   # A scenario has each key once.
   (sed '/^tracker:/,$d' "$work/scenarios/paper_scenario2.yaml" && echo "$keys") >"$work/scenarios/page.yaml"

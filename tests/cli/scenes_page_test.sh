@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# docs/scenes.md is correct: its commands make its pictures, byte for byte, and it shows all of them.
+# docs/fusion/world.md is correct: its commands make its pictures, byte for byte, and it shows all of them.
 #   scenes_page_test.sh PROGRAM SOURCE_DIR
 # When pictures have changed on purpose: scenes_page_test.sh PROGRAM SOURCE_DIR --update
 set -euo pipefail
 program=$1
 source=$2
-page=$source/docs/scenes.md
+page=$source/docs/fusion/world.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -21,7 +21,7 @@ done
 drawn=0
 for picture in out/scene_*.svg; do
   name=$(basename "$picture")
-  grep -Fq "](pictures/$name)" "$page" || { echo "FAILED: the page does not show $name"; exit 1; }
+  grep -Fq "/pictures/$name)" "$page" || { echo "FAILED: the page does not show $name"; exit 1; }
   if [[ ${3:-} == --update ]]; then
     cp "$picture" "$source/docs/pictures/$name"
   else

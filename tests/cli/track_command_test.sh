@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ttfusion track as in docs/track.md: the example there, the same bytes for the same seed, and the same final
+# ttfusion track as in docs/use/track.md: the example there, the same bytes for the same seed, and the same final
 # tracks for every order of arrival. Each kind of bad input gives one clear sentence.
 #   track_command_test.sh PROGRAM SOURCE_DIR
 set -u
@@ -8,7 +8,7 @@ source=$2
 source "$(dirname "$0")/expect.sh"
 
 # block N: the N-th fenced block of the page.
-block() { awk -v n="$1" '/^```/ { inside = !inside; if (inside) ++count; next } inside && count == n' "$source/docs/track.md"; }
+block() { awk -v n="$1" '/^```/ { inside = !inside; if (inside) ++count; next } inside && count == n' "$source/docs/use/track.md"; }
 
 expect 0 "Example: ttfusion track" track --help
 
@@ -315,7 +315,7 @@ expect 2 'scanner.yaml:1: scans: goes with --format scans only' "${cars[@]}" --c
 expect 0 '' track "$work/scans.csv" --format scans --config "$work/scanner.yaml" -o "$work/twice_as_fast.csv"
 [[ $(tail -1 "$work/twice_as_fast.csv") == 0.7,* ]] || fail "the period of scans does not count"
 
-# A real street, where the recording is there (docs/track.md).
+# A real street, where the recording is there (docs/use/track.md).
 street=${TTF_RECORDINGS:-$source/../shared/data}/lidar_scans/scans.csv
 if [[ -e $street ]]; then
   printf 'scans: {silhouette_weight: 1, preprocessing: {join_gap: 0, split_step: 0, thinnest: 0, roughest: 100}}\ntracker: {overlaps: keep}\n' \

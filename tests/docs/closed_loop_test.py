@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The faults of docs/closed_loop.md cost what its table says: each line is driven with each reaction.
+"""The faults of docs/fusion/closed_loop.md cost what its table says: each line is driven with each reaction.
 
     closed_loop_test.py PROGRAM REPOSITORY            compare; exit 1 and print the difference
     closed_loop_test.py PROGRAM REPOSITORY --update   write the table anew
@@ -64,10 +64,10 @@ def table(program, repository, page):
 
 def main():
     program, repository = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-    path = repository / "docs/closed_loop.md"
+    path = repository / "docs/fusion/closed_loop.md"
     page = path.read_text(encoding="utf-8")
     shown, now = TABLE.search(page)[0], table(program, repository, page)
-    sys.stdout.writelines(difflib.unified_diff(shown.splitlines(True), now.splitlines(True), "docs/closed_loop.md", "driven"))
+    sys.stdout.writelines(difflib.unified_diff(shown.splitlines(True), now.splitlines(True), "docs/fusion/closed_loop.md", "driven"))
     if sys.argv[3:] == ["--update"]:
         path.write_text(page.replace(shown, now), encoding="utf-8")
         return 0

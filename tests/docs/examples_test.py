@@ -87,7 +87,7 @@ def main() -> int:
         folder = pathlib.Path(name)
         clone.make(folder, repository, program)
         shorten(folder)
-        page = (repository / "docs/track.md").read_text()
+        page = (repository / "docs/use/track.md").read_text()
         (folder / "observations.csv").write_text(re.search(r"```\w*\n(time,.*?)```", page, re.DOTALL)[1])
         # Scans of a car's rear, 20 m ahead and more.
         returns = "".join(f"{frame},{20 + frame},{0.2 * k:.1f}\n" for frame in range(8) for k in range(-4, 5))

@@ -122,7 +122,7 @@ TEST(FaultPlan, ATableThatLacksAKindIsNone) {
 }
 
 TEST(FaultPlan, EveryKindAndItsKeysAreDocumented) {
-  std::ifstream file(TTF_SOURCE_DIR "/docs/faults.md");
+  std::ifstream file(TTF_SOURCE_DIR "/docs/reference/faults.md");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   for (const auto& [kind, keys] : kFullEntries) {
     const auto row = text.find("\n| `" + kind + "` |");

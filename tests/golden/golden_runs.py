@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 DRIVES = ["paper_scenario1", "paper_scenario2", "turning_ego", "laser_and_radar"]
-PAGES = ["README.md", "docs/reading_the_table.md"]   # show the first drive's hashes
+PAGES = ["README.md", "docs/use/reading_the_table.md"]   # show the first drive's hashes
 
 
 def computed(ttfusion, repository):

@@ -1,6 +1,6 @@
 // Third parties' recordings of real sensors. The repository does not contain them, so tests skip when they
 // are absent. They are in the folder that the environment variable TTF_RECORDINGS names; without it, in
-// shared/data beside the repository (docs/recordings.md).
+// shared/data beside the repository (docs/use/recordings.md).
 #pragma once
 
 #include <cstdlib>

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # can-utils as strangers on vcan0 and vcan1, and a process of ours (vcan_peer.cc): each must see the other as
-# docs/socketcan.md describes.
+# docs/media/socketcan.md describes.
 #   strangers.sh VCAN_PEER    exit code 77, with the reason, without a vcan or can-utils; 1 if a test fails
 set -euo pipefail
 peer=$(realpath "$1")
 cd "$(dirname "$0")/../.."
-page=docs/socketcan.md
+page=docs/media/socketcan.md
 
 export PATH=$PATH:/usr/sbin:/sbin
 for program in candump cansend cangen canplayer ip; do

@@ -2,7 +2,7 @@
 // in the session's partition. Only the readers of a line get its samples.
 //
 // No node waits for another: a stopped or dead one does not hold up a sender, with either delivery
-// (docs/dds.md has their costs). Each sender numbers its samples on a line, so that missing ones are counted
+// (docs/media/dds.md has their costs). Each sender numbers its samples on a line, so that missing ones are counted
 // once a later one is heard. A restarted process begins its count anew.
 //
 // A sender stamps each sample right before it hands it to DDS. On the same machine that stamp is

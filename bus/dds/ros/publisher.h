@@ -1,4 +1,4 @@
-// A ROS publisher publishes real-time images, tracks, healths and truth on DDS as ROS 2 topics (docs/ros.md).
+// A ROS publisher publishes real-time images, tracks, healths and truth on DDS as ROS 2 topics (docs/media/dds.md).
 //
 // It is one more sink of records. The recording thread copies records into slots allocated at construction. It
 // never allocates, and never waits for the publisher, for DDS or for a listener. Records without a free slot

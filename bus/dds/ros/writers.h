@@ -1,4 +1,4 @@
-// The topics and their writers to DDS: names, types and qualities as ROS 2 expects them (docs/ros.md has the table).
+// The topics and their writers to DDS: names, types and qualities as ROS 2 expects them (docs/media/dds.md has the table).
 #pragma once
 
 #include <cstdint>

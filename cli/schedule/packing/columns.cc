@@ -16,7 +16,8 @@ constexpr std::int64_t kNsPerMs = 1'000'000;
 
 Rows::Rows(std::string_view text, const std::string& name, const std::vector<Column>& needed)
     : lines_(text), name_(name) {
-  if (!lines_.next()) throw InputError({name, 0, "heading", "", "is missing: must name the columns (docs/packing.md)"});
+  if (!lines_.next())
+    throw InputError({name, 0, "heading", "", "is missing: must name the columns (docs/schedules/packing.md)"});
   if (!lines_.broken().empty()) throw InputError({name, lines_.line(), "heading", "", std::string(lines_.broken())});
   Findings findings;
   columns_ = lines_.fields().size();

@@ -1,4 +1,4 @@
-// Reads the signals that are to be packed from CSV (docs/packing.md lists the columns), and places that stand from CSV
+// Reads the signals that are to be packed from CSV (docs/schedules/packing.md lists the columns), and places that stand from CSV
 // or FIBEX.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The timing diagrams of a whole drive, window by window. Each is painted when its records have gone by, so that memory
-// holds a few windows, never the drive. Records come in the order of merged logs (docs/log_merging.md).
+// holds a few windows, never the drive. Records come in the order of merged logs (docs/reference/log_format.md).
 //
 // Laws (tests/report/timing/windows/windows_test.cc):
 //   W1  A window's picture is that of a TimingDiagram of the same window by itself.

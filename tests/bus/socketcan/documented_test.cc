@@ -1,4 +1,4 @@
-// The examples of docs/socketcan.md, as candump shows them: the page's hand-made decoding equals the code's.
+// The examples of docs/media/socketcan.md, as candump shows them: the page's hand-made decoding equals the code's.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -25,7 +25,7 @@ struct Line {
 
 // "    vcan0  005  [08]  00 05 ...", indented by four as examples are.
 std::vector<Line> candump_lines() {
-  std::ifstream page(TTF_SOURCE_DIR "/docs/socketcan.md");
+  std::ifstream page(TTF_SOURCE_DIR "/docs/media/socketcan.md");
   std::vector<Line> lines;
   for (std::string text; std::getline(page, text);) {
     std::istringstream words(text);

@@ -19,7 +19,7 @@ inline bool run(const std::string& command) { return std::system((command + " >/
 // Everything behind the last ": " of a problem: the command that helps.
 inline std::string command_in(const std::string& problem) { return problem.substr(problem.rfind(": ") + 2); }
 
-// Runs only where vcan0 carries CAN FD, as in docs/socketcan.md.
+// Runs only where vcan0 carries CAN FD, as in docs/media/socketcan.md.
 class OnVcan : public ::testing::Test {
  protected:
   static constexpr const char* kName = "vcan0";

@@ -130,7 +130,7 @@ TEST(ErrorOfAPlan, TheLeastWorstAgeGivesErrorAway) {
 }
 
 // Far ahead the laser alone counts. The plan for a car close by then has more error than the one with the least ages,
-// as in drives (docs/synthesis.md).
+// as in drives (docs/schedules/synthesis.md).
 TEST(ErrorOfAPlan, SigmaDecides) {
   const auto far = [](const std::string& noise) {
     return "  error: {sigma: {laser: 0.0106, camera: 1.7}, process_noise: " + noise + "}";
@@ -298,7 +298,7 @@ TEST(GapErrorOfAPlan, IsLeastAtTheLeastWorstAge) {
   EXPECT_FALSE(gap.supposes.empty());
   EXPECT_EQ(made.cluster.cycle(), by_age.cluster.cycle());
   EXPECT_DOUBLE_EQ(gap.value, judging::judged(GapJudge(plan), {1.0}, plan, by_age.cluster));
-  // An age of 54.9 ms and a period of 34 ms lie between the rows of 40 ms and 80 ms of docs/control_cost.md.
+  // An age of 54.9 ms and a period of 34 ms lie between the rows of 40 ms and 80 ms of docs/schedules/control_cost.md.
   EXPECT_GT(std::sqrt(gap.value), 0.40);
   EXPECT_LT(std::sqrt(gap.value), 0.4359);
 }

@@ -1,4 +1,4 @@
-// Every axis of docs/experiments.md has its proper effect on a drive, each driven alone.
+// Every axis of docs/use/experiments.md has its proper effect on a drive, each driven alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 // By name, as in the list.
 std::map<std::string, std::string> documented_axes() {
-  const std::string text = read_file(TTF_SOURCE_DIR "/docs/experiments.md"), begin = "\n```yaml\naxes:\n";
+  const std::string text = read_file(TTF_SOURCE_DIR "/docs/use/experiments.md"), begin = "\n```yaml\naxes:\n";
   const std::size_t from = text.find(begin) + begin.size();
   std::map<std::string, std::string> axes;
   std::string name;

@@ -1,4 +1,4 @@
-// docs/measures.md has every measure, with its unit and meaning, and says how it takes a missed object.
+// docs/reference/measures.md has every measure, with its unit and meaning, and says how it takes a missed object.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace ttf::experiments::sweep {
 namespace {
 
 std::vector<std::string> page_rows() {
-  const std::string page = read_file(TTF_SOURCE_DIR "/docs/measures.md");
+  const std::string page = read_file(TTF_SOURCE_DIR "/docs/reference/measures.md");
   std::vector<std::string> rows;
   for (std::size_t at = page.find("\n| `"); at != std::string::npos; at = page.find("\n| `", at + 1))
     rows.push_back(page.substr(at + 1, page.find('\n', at + 1) - at - 1));

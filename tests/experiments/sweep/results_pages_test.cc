@@ -59,7 +59,7 @@ Page page_at(const fs::path& path) {
 }
 
 std::vector<Page> pages() {
-  std::vector<Page> found{page_at(kTop / "docs/results.md"), page_at(kTop / "docs/fault_campaign.md")};
+  std::vector<Page> found{page_at(kTop / "docs/results.md"), page_at(kTop / "docs/reference/fault_campaign.md")};
   for (const auto& entry : fs::directory_iterator(kTop / "docs/results"))
     if (entry.path().extension() == ".md") found.push_back(page_at(entry.path()));
   return found;

@@ -251,10 +251,10 @@ TEST(TrackerConfig, RefusesWhatAssociationAndBirthCannotBe) {
   EXPECT_NE(sentences[0].find("must be below confirm_existence"), std::string::npos) << sentences[0];
 }
 
-// The examples of docs/tracker.md, verbatim.
+// The examples of docs/fusion/tracker.md, verbatim.
 TEST(TrackerConfig, TheDocumentedExamplesLoad) {
   std::ostringstream page;
-  page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
+  page << std::ifstream(TTF_SOURCE_DIR "/docs/fusion/tracker.md").rdbuf();
   const std::string begin = "```yaml\n", all = page.str();
   std::vector<TrackerConfig> configs;
   for (std::size_t from = all.find(begin); from != std::string::npos; from = all.find(begin, from + 1)) {

@@ -1,4 +1,4 @@
-// Makes the tables and pictures of docs/late_measurements.md. The cost of a late measurement at each lag
+// Makes the tables and pictures of docs/fusion/late_measurements.md. The cost of a late measurement at each lag
 // comes from the kept counts of instructions (tests/bench/instruction_counts). The loss against the best
 // estimate is computed without chance (true_error.h).
 //   late_page PROJECT_DIR            makes them
@@ -202,7 +202,7 @@ std::string with(const std::string& page, const std::string& name, const std::st
 
 int make(const std::string& project, bool check) {
   const Costs costs = kept_costs(project);
-  const std::string page = project + "/docs/late_measurements.md", pictures = project + "/docs/pictures/";
+  const std::string page = project + "/docs/fusion/late_measurements.md", pictures = project + "/docs/pictures/";
   const std::pair<std::string, std::string> files[] = {
       {page, with(with(read(page), "costs", cost_table(costs)), "errors", error_table())},
       {pictures + "late_cost.svg", cost_picture(costs)},

@@ -1,5 +1,5 @@
 // The share of a filter in the time until a braking car is seen to brake: a filter by itself, without detector, tracker
-// and bus (docs/adaptive_detection.md has the table, and docs/results/adaptive_detection_causes.md that of a whole
+// and bus (docs/fusion/adaptive_detection.md has the table, and docs/results/adaptive_detection_causes.md that of a whole
 // loop).
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The replay on a third party's recording (docs/recordings.md): a laser and a radar see a vehicle in turn,
+// The replay on a third party's recording (docs/use/recordings.md): a laser and a radar see a vehicle in turn,
 // with ground truth. Noise is the recording's documented one. The process noise follows from such a vehicle's
 // motion, as in scenarios/laser_radar_recorded.yaml. Published RMSE of px, py, vx, vy for a good extended
 // filter: 0.11 0.11 0.52 0.52; for an unscented one 0.09 0.10 0.40 0.30.

@@ -185,7 +185,7 @@ TEST(ObservationRows, AHeadingThatIsWrongIsRefused) {
               ElementsAre("o.csv:1: sensor: is missing: must be a column of the heading",
                           "o.csv:1: x: is missing: columns x and y, or range and bearing, must be there"));
   EXPECT_THAT(read("time,sensor,x,y,colour,time,gt_vx\n").sentences,
-              ElementsAre("o.csv:1: column = colour: is not known (docs/track.md lists the columns)",
+              ElementsAre("o.csv:1: column = colour: is not known (docs/use/track.md lists the columns)",
                           "o.csv:1: column = time: occurs twice"));
   EXPECT_THAT(read("\"time\n").sentences, ElementsAre("o.csv:1: heading: must end its quoted field on the same line"));
 }

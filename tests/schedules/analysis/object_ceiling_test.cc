@@ -1,4 +1,4 @@
-// The number of objects that the shipped clusters carry: the figures of docs/tracker.md, confirmed by the
+// The number of objects that the shipped clusters carry: the figures of docs/fusion/tracker.md, confirmed by the
 // checker.
 #include "schedules/analysis/object_ceiling.h"
 
@@ -31,9 +31,9 @@ TEST(ObjectCeiling, OfTheShippedClusters) {
     EXPECT_EQ(ceiling.carried, expected.carried) << expected.name;
     EXPECT_EQ(ceiling.with_all_static_slots, expected.with_all_static_slots) << expected.name;
     ASSERT_EQ(ceiling.lists.size(), 3u) << expected.name;
-    // docs/tracker.md has the same numbers.
+    // docs/fusion/tracker.md has the same numbers.
     std::ostringstream page;
-    page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
+    page << std::ifstream(TTF_SOURCE_DIR "/docs/fusion/tracker.md").rdbuf();
     const std::string row =
         fmt::format("| `{}` | {} | {} |", expected.name, expected.carried, expected.with_all_static_slots);
     EXPECT_NE(page.str().find(row), std::string::npos) << row;

@@ -116,9 +116,9 @@ TEST(Constraints, SayWhatTheyWant) {
             std::string::npos);
 }
 
-// docs/flexray_constraints.md has a row for each, with its derivation.
+// docs/schedules/flexray_constraints.md has a row for each, with its derivation.
 TEST(Constraints, AreDocumented) {
-  std::ifstream stream(TTF_SOURCE_DIR "/docs/flexray_constraints.md");
+  std::ifstream stream(TTF_SOURCE_DIR "/docs/schedules/flexray_constraints.md");
   std::ostringstream page;
   page << stream.rdbuf();
   const std::string table = page.str().substr(0, page.str().find("\n## Not checked"));

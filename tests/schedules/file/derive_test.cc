@@ -141,7 +141,7 @@ TEST(Derive, AValueOutsideItsRangeIsAFinding) {
 }
 
 TEST(Derive, ThePageHasEveryRule) {
-  std::ifstream stream(TTF_SOURCE_DIR "/docs/cluster_files.md", std::ios::binary);
+  std::ifstream stream(TTF_SOURCE_DIR "/docs/schedules/cluster_files.md", std::ios::binary);
   std::ostringstream page;
   page << stream.rdbuf();
   const auto has = [&](std::string_view parameter, std::string_view derivation) {

@@ -251,7 +251,7 @@ TEST(BestOrder, IsTheBestOfAllAndTheGeneratorIsNot) {
   EXPECT_NEAR(std::sqrt(mean_variance(best, times)), 0.00840, 1e-5);
 }
 
-// Counts frames, for docs/detection_sequences.md.
+// Counts frames, for docs/results/detection_orders.md.
 struct Tried {
   int better = 0, all = 0;  // frames whose orders are tried: with a better one, together
   int too_many = 0;         // frames with more orders than are tried

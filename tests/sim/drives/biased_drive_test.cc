@@ -241,7 +241,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
   EXPECT_GT(seen.predictions, 20u);
 }
 
-// The examples of docs/sensors.md, verbatim.
+// The examples of docs/fusion/sensors.md, verbatim.
 TEST(BiasedDrive, TheDocumentedKeysLoad) {
   const auto whole = [](const std::string& path) {
     std::ostringstream text;
@@ -250,7 +250,7 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
   };
   std::string scenario = whole("scenarios/paper_scenario1.yaml");
   scenario.resize(scenario.find("\ntracker:") + 1);
-  const std::string page = whole("docs/sensors.md"), begin = "```yaml\n";
+  const std::string page = whole("docs/fusion/sensors.md"), begin = "```yaml\n";
   std::vector<std::string> blocks;
   for (std::size_t from = page.find(begin); from != std::string::npos; from = page.find(begin, from)) {
     from += begin.size();

@@ -43,7 +43,7 @@ TEST_P(RadarDrive, FollowsThemByRadarAlone) {
   const evaluation::accuracy::DriveSummary summary = measured(drive);
   EXPECT_LT(summary.missed, summary.matched / 10);
   EXPECT_LT(summary.position_rmse_truth, 2.0);
-  EXPECT_GT(summary.own.innovations, 0.4);  // judged with too much care: docs/radar.md
+  EXPECT_GT(summary.own.innovations, 0.4);  // judged with too much care: docs/fusion/radar.md
   EXPECT_LT(summary.own.innovations, 1.3);
 }
 

@@ -1,6 +1,6 @@
 // Drawn sets of FlexRay parameters. A set that passes the check starts up, takes a restarted node back, keeps its
 // assumed precision, and loses no frame. Other sets break one constraint; some of them do so nevertheless, and are counted
-// (docs/flexray_constraints.md).
+// (docs/schedules/flexray_constraints.md).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -180,7 +180,7 @@ TEST(ParameterSets, StartUpWithAnyRoundOfCycles) {
   }
 }
 
-// A row of docs/flexray_constraints.md.
+// A row of docs/schedules/flexray_constraints.md.
 std::string row_of(const std::string& name, const Tally& tally) {
   return fmt::format("| `{} | {} | {} | {} | {} | {} | {} |", name, tally.drawn, tally.starts, tally.takes_back,
                      tally.precise, tally.frames, tally.all);
@@ -190,7 +190,7 @@ std::string row_of(const std::string& name, const Tally& tally) {
 TEST(ParameterSets, TenThousandThatPassStartUp) {
   const auto tallies = tally_of(0, 20'000);
   EXPECT_EQ(tallies.at("").drawn, 10'000);
-  const std::string page = read_file(TTF_SOURCE_DIR "/docs/flexray_constraints.md");
+  const std::string page = read_file(TTF_SOURCE_DIR "/docs/schedules/flexray_constraints.md");
   int refused = 0;
   for (const auto& [name, tally] : tallies) {
     if (name.empty()) continue;

@@ -1,5 +1,5 @@
 // flexray_demo.yaml with a parameter that the check refuses, driven all the same: no cold start succeeds, or a
-// restarting node disturbs the running cluster (docs/flexray_constraints.md).
+// restarting node disturbs the running cluster (docs/schedules/flexray_constraints.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

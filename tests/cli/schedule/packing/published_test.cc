@@ -1,4 +1,4 @@
-// The published instance of docs/packing.md and its schedule, which ran on hardware. The repository does not contain
+// The published instance of docs/schedules/packing.md and its schedule, which ran on hardware. The repository does not contain
 // them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Draws signals like those of a published packing problem: shares of periods, lengths, windows and nodes as in
-// `HW_Verification` of Dvorak and Hanzalek (docs/packing.md), which this repository does not contain.
+// `HW_Verification` of Dvorak and Hanzalek (docs/schedules/packing.md), which this repository does not contain.
 #pragma once
 
 #include <algorithm>
