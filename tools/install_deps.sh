@@ -27,6 +27,8 @@ if [[ ${1:-} == --gates ]]; then
   packages+=(linux-source-6.1 xz-utils make flex bison bc busybox-static iproute2 can-utils)
   programs+=(chromium:chromium)
 fi
+# Pages of the installed headers (tools/api_pages.sh) need Doxygen.
+if [[ ${1:-} == --api ]]; then packages+=(doxygen); fi
 
 missing=()
 for package in "${packages[@]}"; do
