@@ -87,6 +87,13 @@ class Pages(unittest.TestCase):
             page.write_text(f"# A `heading` of it\n\n[text]({link})\n")
             self.assertEqual(not links_test.broken(page), passes, link)
 
+    def test_long_pages(self):
+        (self.root / "docs").mkdir()
+        page = self.root / "docs/page.md"
+        for lines, passes in ((links_test.MOST_LINES, True), (links_test.MOST_LINES + 1, False)):
+            page.write_text("A line.\n" * lines)
+            self.assertEqual(not links_test.too_long(self.root), passes, lines)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Every link between the project's pages and files has a target: the file exists, and so does the heading.
+"""Every link between the project's pages and files has a target: the file exists, and so does the heading. A page of docs/ has
+at most 250 lines.
 
-    links_test.py REPOSITORY      exit 1 and one line for every broken link
+    links_test.py REPOSITORY      exit 1 and one line for every broken link and every long page
 """
 import functools
 import pathlib
@@ -11,6 +12,7 @@ import sys
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"^```.*?^```$|^    [^\n]*$|`[^`\n]*`", re.DOTALL | re.MULTILINE)
 MADE = {"build", "out", "node_modules"}
+MOST_LINES = 250   # as in keys/render.h
 
 
 def pages(root: pathlib.Path) -> list[pathlib.Path]:
@@ -49,9 +51,15 @@ def broken(page: pathlib.Path) -> list[str]:
     return found
 
 
+def too_long(root: pathlib.Path) -> list[str]:
+    lines = {page: page.read_text().count("\n") for page in pages(root) if page.is_relative_to(root / "docs")}
+    return [f"{page.relative_to(root)}: has {count} lines, and may have {MOST_LINES}: divide it"
+            for page, count in lines.items() if count > MOST_LINES]
+
+
 def main() -> int:
     root = pathlib.Path(sys.argv[1]).resolve()
-    result = [f"{page.relative_to(root)}: {problem}" for page in pages(root) for problem in broken(page)]
+    result = [f"{page.relative_to(root)}: {problem}" for page in pages(root) for problem in broken(page)] + too_long(root)
     print("\n".join(result) or f"links: all lead somewhere, on {len(pages(root))} pages")
     return 1 if result else 0
 
