@@ -87,6 +87,18 @@ class Pages(unittest.TestCase):
             page.write_text(f"# A `heading` of it\n\n[text]({link})\n")
             self.assertEqual(not links_test.broken(page), passes, link)
 
+    def test_names_of_pages_and_sources(self):
+        (self.root / "docs").mkdir()
+        (self.root / "core").mkdir()
+        for name in ("docs/here.md", "core/here.h"):
+            (self.root / name).touch()
+        for cited, passes in (("docs/here.md", True), ("docs/gone.md", False)):
+            (self.root / "core/source.cc").write_text(f"// See {cited}.\n")
+            self.assertEqual(not links_test.stale_citations(self.root), passes, cited)
+        for named, passes in (("core/here.h", True), ("core/gone.h", False), ("mine/own.yaml", True)):
+            (self.root / "docs/here.md").write_text(f"`{named}` has it.\n")
+            self.assertEqual(not links_test.stale_sources(self.root), passes, named)
+
     def test_long_pages(self):
         (self.root / "docs").mkdir()
         page = self.root / "docs/page.md"
