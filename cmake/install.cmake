@@ -25,7 +25,7 @@ if(TTF_BUILD_PROGRAM)
   list(APPEND components timebase schedules recording)
   ttf_install_part(core ttf_core)
   ttf_install_part(timebase ttf_timebase)
-  ttf_install_part(schedules ttf_schedules)
+  ttf_install_part(schedules ttf_timing ttf_schedules ttf_synthesis ttf_packing)
   ttf_install_part(recording ttf_wire ttf_records ttf_recording ttf_log_proto ttf_perfetto_proto ttf_foxglove_proto
     ttf_plots_proto ttf_osi_proto)
   # Headers of generated code and of yaml-cpp are the modules' own.
@@ -54,7 +54,7 @@ install(DIRECTORY scenarios experiments schedules DESTINATION ${data}
   PATTERN experiments/campaign EXCLUDE PATTERN experiments/cost EXCLUDE PATTERN experiments/judges EXCLUDE PATTERN experiments/mpi EXCLUDE PATTERN experiments/results EXCLUDE
   PATTERN experiments/sweep EXCLUDE PATTERN schedules/analysis EXCLUDE PATTERN schedules/check EXCLUDE
   PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/left_out EXCLUDE PATTERN schedules/model EXCLUDE PATTERN schedules/modes EXCLUDE
-  PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
+  PATTERN schedules/packing EXCLUDE PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
 install(DIRECTORY keys/schemas DESTINATION ${data})
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

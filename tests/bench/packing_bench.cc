@@ -7,14 +7,14 @@
 #include <string>
 
 #include "cli/schedule/packing/signal_file.h"
-#include "schedules/synthesis/packing/check.h"
-#include "schedules/synthesis/packing/packer.h"
-#include "schedules/synthesis/packing/variants/check.h"
-#include "schedules/synthesis/packing/variants/packer.h"
-#include "tests/schedules/synthesis/packing/like_variants.h"
+#include "schedules/packing/check.h"
+#include "schedules/packing/packer.h"
+#include "schedules/packing/variants/check.h"
+#include "schedules/packing/variants/packer.h"
+#include "tests/schedules/packing/like_variants.h"
 #include "tests/support/recordings.h"
 
-namespace ttf::schedules::synthesis::packing {
+namespace ttf::schedules::packing {
 namespace {
 
 void pack_and_check(benchmark::State& state, const Instance& instance) {
@@ -78,6 +78,6 @@ void Published(benchmark::State& state) {
 BENCHMARK(Published)->Arg(0)->Arg(1)->ArgName("shared")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace ttf::schedules::synthesis::packing
+}  // namespace ttf::schedules::packing
 
 BENCHMARK_MAIN();

@@ -7,18 +7,18 @@
 
 #include "cli/schedule/packing/signal_file.h"
 #include "core/check.h"
-#include "schedules/synthesis/packing/frames.h"
-#include "schedules/synthesis/packing/imported/bus_signals.h"
-#include "schedules/synthesis/packing/packer.h"
-#include "schedules/synthesis/packing/variants/check.h"
-#include "schedules/synthesis/packing/variants/packer.h"
-#include "schedules/synthesis/packing/variants/projection.h"
+#include "schedules/packing/frames.h"
+#include "schedules/packing/imported/bus_signals.h"
+#include "schedules/packing/packer.h"
+#include "schedules/packing/variants/check.h"
+#include "schedules/packing/variants/packer.h"
+#include "schedules/packing/variants/projection.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
 
 using namespace ttf;
-using namespace ttf::schedules::synthesis::packing;
+using namespace ttf::schedules::packing;
 using cli::schedule::packing::SignalFile;
 using cli::schedule::packing::StandingPlaces;
 using cli::schedule::packing::TableShape;

@@ -12,7 +12,7 @@
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 using schedules::model::Channel;
 
 std::string milliseconds_text(Duration time) { return scaled_text(time.ns, 1'000'000); }

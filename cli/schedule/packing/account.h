@@ -6,19 +6,19 @@
 #include <vector>
 
 #include "cli/schedule/packing/signal_file.h"
-#include "schedules/synthesis/packing/packer.h"
-#include "schedules/synthesis/packing/room.h"
+#include "schedules/packing/packer.h"
+#include "schedules/packing/room.h"
 
 namespace ttf::cli::schedule::packing {
 
 struct Account {
   const SignalFile& file;
-  const schedules::synthesis::packing::Solution& solution;
-  const std::vector<schedules::synthesis::packing::SlotNumber>& numbers;
-  const std::vector<schedules::synthesis::packing::Room>& rooms;
+  const schedules::packing::Solution& solution;
+  const std::vector<schedules::packing::SlotNumber>& numbers;
+  const std::vector<schedules::packing::Room>& rooms;
   // The packing of all signals as those of one vehicle, if there are variants.
-  const schedules::synthesis::packing::Solution* one_vehicle = nullptr;
-  schedules::synthesis::packing::ChannelUse use;
+  const schedules::packing::Solution* one_vehicle = nullptr;
+  schedules::packing::ChannelUse use;
   int standing = 0;  // signals that kept their place
   int room_bits = 8;
   int first_slot = 1;

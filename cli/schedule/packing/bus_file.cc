@@ -7,14 +7,14 @@
 
 #include "core/errors.h"
 #include "schedules/check/checker.h"
-#include "schedules/synthesis/packing/bus.h"
-#include "schedules/synthesis/packing/frames.h"
-#include "schedules/synthesis/packing/variants/projection.h"
+#include "schedules/packing/bus.h"
+#include "schedules/packing/frames.h"
+#include "schedules/packing/variants/projection.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 using table::variants::Projection;
 
 // The vehicles of the variants, or the only one.

@@ -20,7 +20,7 @@ std::vector<std::string> bus_paths(const SignalFile& signals, const std::string&
 // Returns the files. The buses of all variants have the same parameters and as many slots, and a node has the same key
 // slot and the same role at startup in all. Throws InputError if the packing makes no consistent bus: it does not fit
 // the cycle, or breaks a rule of a cluster.
-std::vector<BusFile> bus_files(const SignalFile& signals, const schedules::synthesis::packing::Assignment& assignment,
+std::vector<BusFile> bus_files(const SignalFile& signals, const schedules::packing::Assignment& assignment,
                                const std::string& path);
 
 }  // namespace ttf::cli::schedule::packing

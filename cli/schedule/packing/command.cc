@@ -15,14 +15,14 @@
 #include "core/check.h"
 #include "core/decimal.h"
 #include "core/errors.h"
-#include "schedules/synthesis/packing/variants/check.h"
-#include "schedules/synthesis/packing/variants/packer.h"
-#include "schedules/synthesis/packing/variants/projection.h"
+#include "schedules/packing/variants/check.h"
+#include "schedules/packing/variants/packer.h"
+#include "schedules/packing/variants/projection.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 
 constexpr Duration kShortestCycle = Duration::microseconds(10), kLongestCycle = Duration::milliseconds(16);
 

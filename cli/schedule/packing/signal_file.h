@@ -7,9 +7,9 @@
 
 #include "core/errors.h"
 #include "core/time.h"
-#include "schedules/synthesis/packing/check.h"
-#include "schedules/synthesis/packing/instance.h"
-#include "schedules/synthesis/packing/slot_numbers.h"
+#include "schedules/packing/check.h"
+#include "schedules/packing/instance.h"
+#include "schedules/packing/slot_numbers.h"
 
 namespace ttf::cli::schedule::packing {
 
@@ -23,16 +23,16 @@ struct SignalTimes {
 struct TableShape {
   Duration cycle = Duration::milliseconds(5);
   int payload_bits = 32;
-  int cycles = schedules::synthesis::packing::kMostCycles;
+  int cycles = schedules::packing::kMostCycles;
   bool shared_slots = false;
 };
 
 struct SignalFile {
   std::string name;
   TableShape shape;
-  schedules::synthesis::packing::Instance instance;  // nodes and variants in the order of the file
-  std::vector<SignalTimes> times;                    // by signal
-  std::vector<Finding> impossible;                   // the signals that no packing can have a place for
+  schedules::packing::Instance instance;  // nodes and variants in the order of the file
+  std::vector<SignalTimes> times;         // by signal
+  std::vector<Finding> impossible;        // the signals that no packing can have a place for
 };
 
 // Throws InputError with all mistakes of the file.
@@ -41,8 +41,8 @@ SignalFile parse_signals(const std::string& text, const std::string& name, const
 
 // Places that stand. Their bins are numbered from 0 without a gap.
 struct StandingPlaces {
-  schedules::synthesis::packing::Places places;  // by signal of the signal file
-  std::vector<schedules::synthesis::packing::SlotNumber> numbers;
+  schedules::packing::Places places;  // by signal of the signal file
+  std::vector<schedules::packing::SlotNumber> numbers;
   std::vector<std::string> notes;  // places that are not kept, and why
 };
 
@@ -50,12 +50,12 @@ struct StandingPlaces {
 // with all mistakes: a signal that changed its node, period or length, places that break a rule, and a bus of another
 // cycle or payload.
 StandingPlaces read_standing(const std::vector<std::string>& paths, const SignalFile& signals,
-                             schedules::synthesis::packing::ChannelUse use);
+                             schedules::packing::ChannelUse use);
 StandingPlaces parse_standing(const std::string& text, const std::string& name, const SignalFile& signals,
-                              schedules::synthesis::packing::ChannelUse use);
+                              schedules::packing::ChannelUse use);
 
 // Returns the packing as a file that read_signals() and read_standing() take. It has a column for variants if the
 // signals have them.
-std::string packing_csv(const SignalFile& signals, const schedules::synthesis::packing::Assignment& assignment);
+std::string packing_csv(const SignalFile& signals, const schedules::packing::Assignment& assignment);
 
 }  // namespace ttf::cli::schedule::packing

@@ -9,12 +9,12 @@
 #include "core/decimal.h"
 #include "core/file_bytes.h"
 #include "schedules/model/cluster.h"
-#include "schedules/synthesis/packing/variants/check.h"
+#include "schedules/packing/variants/check.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 using schedules::model::Channels;
 
 // Gives each place the number of its bin.

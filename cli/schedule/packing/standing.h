@@ -19,7 +19,7 @@ struct StandingSignal {
 
 class StandingGatherer {
  public:
-  StandingGatherer(const SignalFile& signals, schedules::synthesis::packing::ChannelUse use);
+  StandingGatherer(const SignalFile& signals, schedules::packing::ChannelUse use);
 
   // Begins a file: within one, a name occurs once.
   void begin(const std::string& file);
@@ -28,8 +28,7 @@ class StandingGatherer {
   std::optional<std::size_t> find(const StandingSignal& signal, Findings& findings);
   // Keeps the place, which gets its channels from the signal. A further file may have the signal at the same place. A
   // signal that cannot meet its own window has no place, but a note.
-  void place(std::size_t index, const StandingSignal& signal, schedules::synthesis::packing::Assigned place,
-             Findings& findings);
+  void place(std::size_t index, const StandingSignal& signal, schedules::packing::Assigned place, Findings& findings);
   // Numbers the bins by slot and channel. Throws InputError with the findings, or with the rules that the places break.
   StandingPlaces finish(Findings& findings);
 
@@ -44,12 +43,12 @@ class StandingGatherer {
   std::optional<schedules::model::Channels> channels_of(const StandingSignal& signal, Findings& findings) const;
 
   const SignalFile& signals_;
-  schedules::synthesis::packing::ChannelUse use_;
+  schedules::packing::ChannelUse use_;
   std::string file_;
   std::map<std::string, std::size_t> index_of_;
   std::set<std::string> names_;  // in this file
   std::vector<From> from_;
-  schedules::synthesis::packing::Assignment assignment_;
+  schedules::packing::Assignment assignment_;
   std::vector<std::string> notes_;
 };
 

@@ -5,12 +5,12 @@
 #include "cli/schedule/packing/standing.h"
 #include "core/decimal.h"
 #include "schedules/model/cluster.h"
-#include "schedules/synthesis/packing/imported/bus_signals.h"
+#include "schedules/packing/imported/bus_signals.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace imported = schedules::synthesis::packing::imported;
+namespace imported = schedules::packing::imported;
 
 // The table of the packing is that of the bus, or there is a finding.
 void expect_shape(const imported::BusSignals& bus, const std::string& name, const TableShape& shape,

@@ -4,7 +4,7 @@
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 
 void take_row(const Rows& rows, StandingGatherer& standing, Findings& findings) {
   if (rows.text(kSlot).empty() && rows.text(kFirstCycle).empty() && rows.text(kBitOffset).empty()) return;

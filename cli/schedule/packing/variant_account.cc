@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "schedules/synthesis/packing/variants/use.h"
+#include "schedules/packing/variants/use.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 using table::variants::VariantUse;
 
 double free_percent_of(const VariantUse& use) {

@@ -8,7 +8,7 @@
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 
 constexpr std::size_t kLongestVariantName = 40;
 

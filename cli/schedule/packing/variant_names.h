@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/schedule/packing/columns.h"
-#include "schedules/synthesis/packing/instance.h"
+#include "schedules/packing/instance.h"
 
 namespace ttf::cli::schedule::packing {
 
@@ -14,7 +14,7 @@ class VariantNames {
  public:
   // Returns the variants of a row: all, also those of later lines, if the field is blank. Adds a finding for a name
   // that is no part of a file's name, occurs twice, or is one too many.
-  schedules::synthesis::packing::VariantSet read(const Rows& rows, Findings& findings);
+  schedules::packing::VariantSet read(const Rows& rows, Findings& findings);
 
   const std::vector<std::string>& names() const { return names_; }
 
@@ -23,6 +23,6 @@ class VariantNames {
 };
 
 // Returns the field of a row with these variants.
-std::string variants_text(schedules::synthesis::packing::VariantSet variants, const std::vector<std::string>& names);
+std::string variants_text(schedules::packing::VariantSet variants, const std::vector<std::string>& names);
 
 }  // namespace ttf::cli::schedule::packing

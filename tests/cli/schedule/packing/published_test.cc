@@ -9,19 +9,19 @@
 
 #include "cli/schedule/packing/signal_file.h"
 #include "core/file_bytes.h"
-#include "schedules/synthesis/packing/first_fit.h"
-#include "schedules/synthesis/packing/lower_bound.h"
-#include "schedules/synthesis/packing/orders.h"
-#include "schedules/synthesis/packing/packer.h"
-#include "schedules/synthesis/packing/variants/check.h"
-#include "schedules/synthesis/packing/variants/packer.h"
-#include "tests/schedules/synthesis/packing/like_variants.h"
+#include "schedules/packing/first_fit.h"
+#include "schedules/packing/lower_bound.h"
+#include "schedules/packing/orders.h"
+#include "schedules/packing/packer.h"
+#include "schedules/packing/variants/check.h"
+#include "schedules/packing/variants/packer.h"
+#include "tests/schedules/packing/like_variants.h"
 #include "tests/support/recordings.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 using ::testing::ElementsAre;
 
 constexpr const char* kPublished = "flexray_signals/signals_4096.csv";

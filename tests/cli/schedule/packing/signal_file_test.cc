@@ -4,15 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "schedules/synthesis/packing/packer.h"
-#include "schedules/synthesis/packing/variants/packer.h"
+#include "schedules/packing/packer.h"
+#include "schedules/packing/variants/packer.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
 using schedules::model::Channels;
-using schedules::synthesis::packing::ChannelUse;
-using schedules::synthesis::packing::Window;
+using schedules::packing::ChannelUse;
+using schedules::packing::Window;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -98,9 +98,9 @@ constexpr const char* kWithVariants =
 TEST(SignalVariants, AreNumberedAsTheyCome) {
   const SignalFile file = parse_signals(kWithVariants, "s.csv", {});
   EXPECT_THAT(file.instance.variants, ElementsAre("base", "sport"));
-  std::vector<schedules::synthesis::packing::VariantSet> sets;
+  std::vector<schedules::packing::VariantSet> sets;
   for (const auto& signal : file.instance.signals) sets.push_back(signal.variants);
-  EXPECT_THAT(sets, ElementsAre(schedules::synthesis::packing::kAllVariants, 3u, 1u, 2u));
+  EXPECT_THAT(sets, ElementsAre(schedules::packing::kAllVariants, 3u, 1u, 2u));
   EXPECT_THAT(three().instance.variants, IsEmpty());
 }
 
@@ -134,7 +134,7 @@ TEST(SignalVariants, OverlapInWhatStandsUnlessAVariantHasBoth) {
 
 TEST(SignalVariants, AWrittenScheduleIsReadAgain) {
   const SignalFile file = parse_signals(kWithVariants, "s.csv", {});
-  const auto solution = schedules::synthesis::packing::variants::pack_variants(file.instance);
+  const auto solution = schedules::packing::variants::pack_variants(file.instance);
   const auto numbers = slot_numbers({}, solution.bins, 1, ChannelUse::kOne);
   const std::string text = packing_csv(file, assigned(solution.places, numbers));
   EXPECT_THAT(text, HasSubstr("bits,variants,slot"));

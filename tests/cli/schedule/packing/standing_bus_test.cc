@@ -7,17 +7,17 @@
 #include <fstream>
 
 #include "cli/schedule/packing/signal_file.h"
-#include "schedules/synthesis/packing/bus.h"
-#include "schedules/synthesis/packing/imported/bus_signals.h"
-#include "schedules/synthesis/packing/packer.h"
-#include "schedules/synthesis/packing/variants/packer.h"
-#include "schedules/synthesis/packing/variants/projection.h"
-#include "tests/schedules/synthesis/packing/like_variants.h"
+#include "schedules/packing/bus.h"
+#include "schedules/packing/imported/bus_signals.h"
+#include "schedules/packing/packer.h"
+#include "schedules/packing/variants/packer.h"
+#include "schedules/packing/variants/projection.h"
+#include "tests/schedules/packing/like_variants.h"
 
 namespace ttf::cli::schedule::packing {
 namespace {
 
-namespace table = schedules::synthesis::packing;
+namespace table = schedules::packing;
 using table::ChannelUse;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
