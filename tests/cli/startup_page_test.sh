@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# docs/schedules/startup.md is correct: its two commands make its picture, byte for byte, and the log contains its
+# docs/schedules/flexray_constraints.md is correct: its two commands make its picture, byte for byte, and the log contains its
 # quotations.
 #   startup_page_test.sh PROGRAM SOURCE_DIR
 # When the picture has changed on purpose: startup_page_test.sh PROGRAM SOURCE_DIR --update
 set -euo pipefail
 program=$1
 source=$2
-page=$source/docs/schedules/startup.md
+page=$source/docs/schedules/flexray_constraints.md
 picture=$source/docs/pictures/startup.svg
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
