@@ -56,7 +56,7 @@ install(DIRECTORY scenarios experiments schedules DESTINATION ${data}
   PATTERN schedules/exchange EXCLUDE PATTERN schedules/file EXCLUDE PATTERN schedules/left_out EXCLUDE PATTERN schedules/model EXCLUDE PATTERN schedules/modes EXCLUDE
   PATTERN schedules/packing EXCLUDE PATTERN schedules/sequence EXCLUDE PATTERN schedules/synthesis EXCLUDE PATTERN schedules/timing EXCLUDE)
 install(DIRECTORY keys/schemas DESTINATION ${data})
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Man pages and completions, as the program writes them.
