@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,7 +14,7 @@
 #include "cli/drive/recording_outputs.h"
 #include "cli/drive/startup_outputs.h"
 #include "cli/drive_progress.h"
-#include "cli/tracking_outputs.h"
+#include "evaluation/measures/figures.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
 #include "report/drawing/render.h"
@@ -30,148 +31,14 @@
 namespace ttf::cli::drive {
 namespace {
 
-double us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
+using evaluation::measures::DriveFigures;
+using evaluation::measures::Measure;
+using evaluation::measures::Place;
+using evaluation::measures::Subject;
 
-using Value = std::string (*)(const ttf::cli::drive::StrategyResult&);
-struct Row {
-  const char* name;
-  Value value;
-  bool rare = false;  // 0 in a sound drive: shown if it is not 0 for some strategy
-};
-
-std::string number(std::uint64_t n) { return fmt::format("{}", n); }
-// An absent age is "-", not 0.
-std::string mean_cell(const evaluation::accuracy::AgeStatistics& ages) {
-  return ages.count == 0 ? "-" : report::drawing::cell(in_ms(ages.mean()), 1);
+DriveFigures figures_of(const StrategyResult& result) {
+  return {result.summary, result.outcome, result.driving ? &*result.driving : nullptr};
 }
-std::string worst_cell(const evaluation::accuracy::AgeStatistics& ages) {
-  return ages.count == 0 ? "-" : report::drawing::cell(in_ms(ages.worst), 1);
-}
-
-// Returns how often the feature service had an image and used it.
-std::uint64_t uses(const StrategyResult& result) { return result.summary.uses - result.summary.stale_uses; }
-
-// A single clock, or clocks that never ran together, have no precision instead of a perfect one.
-std::optional<double> precision_us(const StrategyResult& result) {
-  return result.outcome.precision.ns == 0 ? std::nullopt : std::optional(us(result.outcome.precision));
-}
-
-// Counts lists that were made and never fused: too late for the strategy, or lost between tasks.
-std::uint64_t lost_lists(const StrategyResult& result) {
-  const nodes::host::ExecutiveCounts& counts = result.outcome.counts;
-  return result.summary.dropped + counts.torn_lists + counts.overwritten_lists + counts.discarded_lists;
-}
-
-const Row kRows[] = {
-    {"position RMSE against truth [m]",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.position_rmse_truth, 3); }},
-    {"velocity RMSE against truth [m/s]",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.velocity_rmse_truth, 3); }},
-    {"  x, y, vx, vy",
-     [](const StrategyResult& r) {
-       const auto& rmse = r.summary.rmse_truth;
-       return fmt::format("{} {} {} {}", report::drawing::cell(rmse[0], 2), report::drawing::cell(rmse[1], 2),
-                          report::drawing::cell(rmse[2], 2), report::drawing::cell(rmse[3], 2));
-     }},
-    {"  visible face, gap to it [m]",
-     [](const StrategyResult& r) {
-       return fmt::format("{} {}", report::drawing::cell(r.summary.box.face_m, 3),
-                          report::drawing::cell(r.summary.box.gap_m, 3));
-     }},
-    {"  heading [rad], speed [m/s]",
-     [](const StrategyResult& r) {
-       return fmt::format("{} {}", report::drawing::cell(r.summary.box.heading_rad, 3),
-                          report::drawing::cell(r.summary.box.speed_mps, 3));
-     }},
-    {"  acceleration [m/s^2]",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.box.acceleration_mps2, 3); }},
-    {"  length, width [m]",
-     [](const StrategyResult& r) {
-       return fmt::format("{} {}", report::drawing::cell(r.summary.box.length_m, 3),
-                          report::drawing::cell(r.summary.box.width_m, 3));
-     }},
-    {"position RMSE against DGPS [m]",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.position_rmse_reference, 3); }},
-    {"velocity RMSE against DGPS [m/s]",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.velocity_rmse_reference, 3); }},
-    {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::drawing::cell(r.summary.nees, 2); }},
-    {"  95 % band",
-     [](const StrategyResult& r) {
-       return r.summary.nees_samples == 0 ? std::string("-")
-                                          : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
-     }},
-    {"  of heading, speed, acceleration",
-     [](const StrategyResult& r) {
-       const evaluation::accuracy::OwnJudgement& own = r.summary.own;
-       return fmt::format("{} {} {}", report::drawing::cell(own.heading, 2), report::drawing::cell(own.speed, 2),
-                          report::drawing::cell(own.acceleration, 2));
-     }},
-    {"  of length, width",
-     [](const StrategyResult& r) {
-       return fmt::format("{} {}", report::drawing::cell(r.summary.own.length, 2),
-                          report::drawing::cell(r.summary.own.width, 2));
-     }},
-    {"NIS per degree of freedom",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.own.innovations, 2); }},
-    {"age when fused, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_fused); }},
-    {"age when fused, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_fused); }},
-    {"age when used, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_used); }},
-    {"age when used, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_used); }},
-    {"observation lists received", [](const StrategyResult& r) { return number(r.summary.received); }},
-    {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
-    {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
-    {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
-    {"  held back for, mean / worst [ms]",
-     [](const StrategyResult& r) {
-       const evaluation::accuracy::AgeStatistics& held = r.summary.held_for;
-       return held.count == 0 ? std::string("-") : mean_cell(held) + " / " + worst_cell(held);
-     }},
-    {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
-    {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
-    {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
-    {"    overwritten before being read",
-     [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); }, true},
-    {"    discarded: no time measured",
-     [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); }, true},
-    {"times that odometry stopped", [](const StrategyResult& r) { return number(r.summary.odometry_stops); }, true},
-    {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
-    {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
-    {"  refused for its age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }, true},
-    {"  with a warning", [](const StrategyResult& r) { return number(r.summary.warnings); }},
-    {"objects compared / missed / spurious",
-     [](const StrategyResult& r) {
-       if (r.summary.matched + r.summary.missed + r.summary.spurious == 0) return std::string("-");
-       return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
-     }},
-    {"GOSPA [m]",
-     [](const StrategyResult& r) { return report::drawing::cell(r.summary.tracking.gospa.distance_m, 3); }},
-    {"  located, missed, false",
-     [](const StrategyResult& r) {
-       const fusion::metrics::Gospa& gospa = r.summary.tracking.gospa;
-       return fmt::format("{} {} {}", report::drawing::cell(gospa.localisation, 3),
-                          report::drawing::cell(gospa.missed, 3), report::drawing::cell(gospa.false_estimates, 3));
-     }},
-    {"MOTA [%] / switches of track",
-     [](const StrategyResult& r) {
-       const fusion::metrics::ClearMotCounts& mot = r.summary.tracking.mot;
-       if (mot.objects == 0) return std::string("-");
-       return fmt::format("{} / {}", report::drawing::cell(100 * mot.mota(), 1), mot.switches);
-     }},
-    {"precision of the time base [us]",
-     [](const StrategyResult& r) {
-       const auto precision = precision_us(r);
-       return precision ? report::drawing::cell(*precision, 3) : std::string("-");
-     }},
-    {"slot problems", [](const StrategyResult& r) { return number(r.outcome.counts.slot_problems); }},
-    {"deadlines missed", [](const StrategyResult& r) { return number(r.outcome.counts.deadlines_missed); }},
-    {"FlexRay load per channel [%]",
-     [](const StrategyResult& r) { return report::drawing::cell(100 * r.outcome.flexray_load, 1); }},
-    {"content hash of the log",
-     [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
-    {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
-    {"lists without a record of their fate",
-     [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
-};
 
 nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistics) {
   if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
@@ -204,22 +71,6 @@ nlohmann::ordered_json stages_json(const evaluation::ages::SensorStages& sensor)
                               {"age", statistics_json(stage.age)},
                               {"beyond", stage.beyond}});
   return json;
-}
-
-nlohmann::ordered_json box_json(const evaluation::accuracy::BoxErrors& box) {
-  return {{"face_m", box.face_m},
-          {"gap_m", box.gap_m},
-          {"heading_rad", box.heading_rad},
-          {"speed_mps", box.speed_mps},
-          {"acceleration_mps2", box.acceleration_mps2},
-          {"length_m", box.length_m},
-          {"width_m", box.width_m}};
-}
-
-nlohmann::ordered_json own_json(const evaluation::accuracy::OwnJudgement& own) {
-  return {{"position", own.position}, {"velocity", own.velocity},         {"heading", own.heading},
-          {"speed", own.speed},       {"acceleration", own.acceleration}, {"length", own.length},
-          {"width", own.width}};
 }
 
 constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
@@ -265,24 +116,64 @@ std::vector<std::vector<std::string>> can_loads(const std::vector<Column>& colum
   return rows;
 }
 
-std::string table_of(const std::vector<Column>& columns, std::size_t in_group) {
-  std::vector<std::string> header{"measure"};
-  for (const Column& column : columns) header.push_back(column.head);
-  report::drawing::Table table(header);
-  for (std::size_t column = 0; column < columns.size(); column += in_group) table.begin_group(column + 1);
-  for (const Row& row : kRows) {
-    std::vector<std::string> cells{row.name};
+// Rows of measures that share a line of the table.
+using Line = std::vector<const Measure*>;
+
+std::vector<Line> lines_of(Subject subject) {
+  std::vector<Line> lines;
+  for (const Measure& row : evaluation::measures::measures(subject)) {
+    if (row.shown.label.empty() || row.shown.place == Place::kPage) continue;
+    if (row.shown.join.empty()) lines.emplace_back();
+    lines.back().push_back(&row);
+  }
+  return lines;
+}
+
+// Returns whether the drive has the line.
+bool has(const DriveFigures& figures, const Measure& first) {
+  return applies(first.when, figures) || (!first.shown.absent.empty() && figures.driving != nullptr);
+}
+
+std::string cell_of(const Line& line, const DriveFigures& figures) {
+  const Measure& first = *line.front();
+  if (!has(figures, first)) return "-";
+  std::string text;
+  bool any = false;
+  for (const Measure* row : line) {
+    const double value = value_of(*row, figures);
+    any = any || std::isfinite(value);
+    text += std::string(row->shown.join) + report::drawing::cell(value * row->shown.scale.factor, row->shown.decimals);
+  }
+  return any ? text : std::string(first.shown.absent.empty() ? "-" : first.shown.absent);
+}
+
+void add_lines(report::drawing::Table& table, const std::vector<Column>& columns, Subject subject) {
+  for (const Line& line : lines_of(subject)) {
+    const Measure& first = *line.front();
+    std::vector<std::string> cells{first.shown.line.empty() ? label_of(first) : std::string(first.shown.line)};
     bool any = false;
     for (const Column& column : columns) {
-      cells.push_back(row.value(*column.result));
-      any = any || cells.back() != "0";
+      const DriveFigures figures = figures_of(*column.result);
+      cells.push_back(cell_of(line, figures));
+      any = any || (has(figures, first) && (!first.shown.is_rare || cells.back() != "0"));
     }
-    if (any || !row.rare) table.add(std::move(cells));
+    if (any) table.add(std::move(cells));
   }
+}
+
+std::string table_of(const std::vector<Column>& columns, std::size_t in_group) {
+  std::vector<std::string> header{"measure"}, hashes{"content hash of the log"};
+  for (const Column& column : columns) {
+    header.push_back(column.head);
+    hashes.push_back(column.result->content_hash.empty() ? "-" : column.result->content_hash);
+  }
+  report::drawing::Table table(header);
+  for (std::size_t column = 0; column < columns.size(); column += in_group) table.begin_group(column + 1);
+  for (const Subject subject : {Subject::kErrors, Subject::kLists, Subject::kTracking, Subject::kCluster})
+    add_lines(table, columns, subject);
+  table.add(std::move(hashes));
   for (std::vector<std::string>& row : can_loads(columns)) table.add(std::move(row));
-  std::vector<const StrategyResult*> results;
-  for (const Column& column : columns) results.push_back(column.result);
-  for (std::vector<std::string>& row : driving_rows(results)) table.add(std::move(row));
+  add_lines(table, columns, Subject::kDriving);
   return table.text();
 }
 
@@ -316,68 +207,19 @@ nlohmann::ordered_json to_json(const sim::drives::Scenario& scenario, std::uint6
       json["truth"]["objects"].push_back({{"id", object.id}, {"kind", name_of(object.kind)}});
   }
   for (const StrategyResult& result : results) {
-    const evaluation::accuracy::DriveSummary& s = result.summary;
     nlohmann::ordered_json one;
     one["strategy"] = name_of(result.strategy);
     one["cluster"] = result.cluster.name;
-    one["rmse_truth"] = {{"position_m", s.position_rmse_truth},
-                         {"velocity_mps", s.velocity_rmse_truth},
-                         {"x", s.rmse_truth[0]},
-                         {"y", s.rmse_truth[1]},
-                         {"vx", s.rmse_truth[2]},
-                         {"vy", s.rmse_truth[3]}};
-    one["rmse_reference"] = {{"position_m", s.position_rmse_reference},
-                             {"velocity_mps", s.velocity_rmse_reference},
-                             {"compared", s.reference_compared}};
-    one["rmse_box"] = box_json(s.box);
-    one.update(tracking_json(s.tracking));
-    one["nees"] = {{"mean", s.nees},
-                   {"samples", s.nees_samples},
-                   {"degrees_of_freedom", 4},
-                   {"band_95", {s.nees_low, s.nees_high}},
-                   {"per_degree", own_json(s.own)}};
-    one["nis"] = {{"per_degree", s.own.innovations}, {"degrees_of_freedom", s.own.innovation_degrees}};
-    one["age_when_fused"] = ages(s.age_fused);
-    one["age_when_used"] = ages(s.age_used);
-    for (const auto& [sensor, statistics] : s.age_used_by_sensor)
+    add_to(one, evaluation::measures::measures(), figures_of(result));
+    for (const auto& [sensor, statistics] : result.summary.age_used_by_sensor)
       one["age_when_used_by_sensor"][result.cluster.sensor(sensor).name] = ages(statistics);
     for (const evaluation::ages::SensorStages& sensor : result.stages)
       one["age_by_stage"][result.cluster.sensor(sensor.sensor).name] = stages_json(sensor);
-    one["observations"] = {{"received", s.received},
-                           {"out_of_sequence", s.out_of_sequence},
-                           {"fused", s.fused},
-                           {"late", s.fused_late},
-                           {"held", s.held},
-                           {"dropped", s.dropped},
-                           {"duplicates", s.duplicates},
-                           {"torn", result.outcome.counts.torn_lists},
-                           {"overwritten", result.outcome.counts.overwritten_lists},
-                           {"discarded", result.outcome.counts.discarded_lists},
-                           {"lost", lost_lists(result)}};
-    if (s.odometry_samples + s.odometry_stops > 0)
-      one["odometry"] = {{"samples", s.odometry_samples}, {"stops", s.odometry_stops}};
-    one["held_back_for"] = ages(s.held_for);
-    one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
-    one["uses"] = s.uses;
-    one["uses_with_warning"] = s.warnings;
     if (!result.startup.empty()) one["startup"] = startup_json(result);
-    one["uses_refused_as_stale"] = s.stale_uses;
-    one["precision_us"] = nullptr;
-    if (const auto precision = precision_us(result)) one["precision_us"] = *precision;
-    one["slot_problems"] = result.outcome.counts.slot_problems;
-    one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
-    one["overruns"] = result.outcome.counts.overruns;
-    one["saturated_signals"] = result.outcome.counts.saturated_signals;
-    one["refused_fragments"] = result.outcome.counts.refused_fragments;
-    one["refused_can_frames"] = result.outcome.counts.refused_can_frames;
-    one["unlisted_fates"] = result.outcome.counts.unlisted_fates;
-    one["frames_sent"] = result.outcome.frames_sent;
-    one["flexray_load"] = result.outcome.flexray_load;
     for (std::size_t b = 0; b < result.outcome.can_load.size(); ++b)
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
-    if (result.driving) one["driving"] = driving_json(*result.driving);
     if (result.recording) one["recording"] = recording_json(result, scenario.tracker);
     if (result.real_time) one["real_time"] = real_time_json(result);
     if (!scenario.faults.empty()) {

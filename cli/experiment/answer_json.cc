@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "evaluation/measures/measure.h"
 #include "experiments/results/multiplicity.h"
 #include "experiments/results/ratio.h"
-#include "experiments/sweep/measures.h"
 
 namespace ttf::cli::experiment {
 
@@ -92,7 +92,7 @@ nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepA
   if (!libraries.empty()) json["libraries"] = libraries;
   if (sweep.compared_axis) json["compared_axis"] = sweep.grid()[sweep.compared_axis->axis]->name;
   for (const std::string& name : sweep.measures) {
-    const experiments::sweep::Measure& measure = *experiments::sweep::find_measure(name);
+    const evaluation::measures::Measure& measure = *evaluation::measures::find_measure(name);
     json["measures"][name] = {{"unit", measure.unit}, {"meaning", measure.meaning}};
   }
   const auto axes = sweep.grid();

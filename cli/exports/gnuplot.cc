@@ -17,7 +17,7 @@
 #include "core/csv.h"
 #include "core/errors.h"
 #include "evaluation/accuracy/drive_rows.h"
-#include "experiments/sweep/measures.h"
+#include "evaluation/measures/measure.h"
 #include "recording/merge/merge.h"
 #include "recording/merge/stored_log.h"
 #include "recording/records/tee.h"
@@ -162,7 +162,7 @@ std::vector<PaperFile> of_logs(const std::vector<std::string>& paths) {
 }
 
 report::paper::MeasureWords words_of(std::string_view measure) {
-  const experiments::sweep::Measure* known = experiments::sweep::find_measure(measure);
+  const evaluation::measures::Measure* known = evaluation::measures::find_measure(measure);
   return known == nullptr ? report::paper::MeasureWords{}
                           : report::paper::MeasureWords{std::string(known->unit), std::string(known->meaning)};
 }

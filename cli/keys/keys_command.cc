@@ -14,6 +14,7 @@
 #include "keys/explore.h"
 #include "keys/outline.h"
 #include "keys/render.h"
+#include "keys/summary/summary.h"
 
 namespace ttf::cli::keys {
 namespace {
@@ -34,11 +35,19 @@ std::vector<Page> pages_of(const Document& document, const std::string& format) 
   return {{document.kind + ".txt", ttf::keys::text_of(document, outline)}};
 }
 
+std::vector<Page> pages_of_summary(const std::string& format) {
+  if (format == "markdown") return ttf::keys::summary::pages();
+  if (format == "json-schema") return {ttf::keys::summary::schema()};
+  return {{fmt::format("{}.txt", ttf::keys::summary::kKind), ttf::keys::summary::text()}};
+}
+
 int print_keys(const KeysOptions& options) {
   std::vector<Page> pages;
   for (const Document& document : ttf::keys::documents())
     if (options.kind.empty() || options.kind == document.kind)
       for (Page& page : pages_of(document, options.format)) pages.push_back(std::move(page));
+  if (options.kind.empty() || options.kind == ttf::keys::summary::kKind)
+    for (Page& page : pages_of_summary(options.format)) pages.push_back(std::move(page));
   const bool one_file = !options.kind.empty() && options.format != "markdown";
   if (options.out.empty() && options.kind.empty() && options.format == "json-schema")
     throw InputError({"command line", 0, "--format", options.format, "goes with one kind of file, or with --out"});
@@ -55,6 +64,7 @@ int print_keys(const KeysOptions& options) {
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
   for (const Document& document : ttf::keys::documents()) names.push_back(document.kind);
+  names.emplace_back(ttf::keys::summary::kKind);
   return names;
 }
 
@@ -62,7 +72,8 @@ std::vector<std::string> kinds() {
 
 void add_keys(CLI::App& app, Action& action) {
   auto options = std::make_shared<KeysOptions>();
-  CLI::App* command = app.add_subcommand("keys", "Every key of the files that the other commands read");
+  CLI::App* command =
+      app.add_subcommand("keys", "Every key of the files that the other commands read, and of summary.json");
   command->footer(
       "Examples: ttfusion keys scenario\n"
       "          ttfusion keys cluster --format json-schema -o cluster.schema.json\n"

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "cli/tracking_outputs.h"
 #include "core/counted.h"
+#include "evaluation/measures/figures.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::track {
@@ -73,7 +73,9 @@ nlohmann::ordered_json accuracy_json(const TrackAccuracy& accuracy) {
                               {"compared", accuracy.compared},
                               {"missed", accuracy.missed},
                               {"spurious", accuracy.spurious}};
-  json.update(tracking_json(accuracy.tracking));
+  const evaluation::accuracy::DriveSummary summary{.tracking = accuracy.tracking};
+  const sim::drives::DriveOutcome outcome;
+  add_to(json, evaluation::measures::measures(evaluation::measures::Subject::kTracking), {summary, outcome});
   return json;
 }
 

@@ -15,9 +15,9 @@
 #include "core/strict_yaml.h"
 #include "core/yaml_edit.h"
 #include "evaluation/accuracy/drive_measures.h"
+#include "evaluation/measures/figures.h"
 #include "experiments/sweep/driving.h"
 #include "experiments/sweep/expected_drive.h"
-#include "experiments/sweep/measures.h"
 #include "faults/plan.h"
 #include "recording/records/tee.h"
 #include "schedules/check/checker.h"
@@ -29,6 +29,8 @@
 
 namespace ttf::experiments::sweep {
 namespace {
+
+using evaluation::measures::find_measure;
 
 constexpr std::string_view kOfCluster = "cluster.";
 constexpr std::size_t kAllPrepared = 1000;  // the largest grid of which every drive is prepared before the first one
@@ -277,8 +279,8 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     }
     std::optional<evaluation::driving::DrivingFindings> driven;
     if (driving) driven = driving->finish();
-    const MeasuredDrive measured{summary, outcome, driven ? &*driven : nullptr};
-    for (const std::string& name : sweep_.measures) row.values.push_back(find_measure(name)->of(measured));
+    const evaluation::measures::DriveFigures figures{summary, outcome, driven ? &*driven : nullptr};
+    for (const std::string& name : sweep_.measures) row.values.push_back(value_of(*find_measure(name), figures));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

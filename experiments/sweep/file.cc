@@ -11,13 +11,16 @@
 #include "core/counted.h"
 #include "core/file_kind.h"
 #include "core/strict_yaml.h"
+#include "evaluation/measures/measure.h"
 #include "experiments/sweep/keys.h"
-#include "experiments/sweep/measures.h"
 #include "experiments/sweep/read_comparison.h"
 #include "sim/drives/scenario.h"
 
 namespace ttf::experiments::sweep {
 namespace {
+
+using evaluation::measures::find_measure;
+using evaluation::measures::Measure;
 
 constexpr std::size_t kMostParadigms = 64;
 constexpr double kLargest = 1e12;
@@ -201,7 +204,8 @@ class Reader {
 
   void read_measures() {
     std::vector<std::string> names;
-    for (const Measure& measure : kMeasures) names.emplace_back(measure.name);
+    for (const Measure& measure : evaluation::measures::measures())
+      if (!measure.name.empty()) names.emplace_back(measure.name);
     file_.measures = root_.has("measures") ? root_.words("measures", names) : names;
     for (const std::string& name : file_.measures)
       if (std::count(file_.measures.begin(), file_.measures.end(), name) > 1)

@@ -16,7 +16,7 @@
 //     road:  {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
 //     bus:   {settings: {sound: {}, torn: {faults: torn.yaml, time_triggered/tracker.process_noise: 3}}}
 //     load:  {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
-//   measures: [position_rmse_truth, nees]          experiments/sweep/measures.h; the first one decides; all of them
+//   measures: [position_rmse_truth, nees]          evaluation/measures/table.cc; the first one decides; all of them
 //                                                  if absent
 //   compare: {baseline: event_triggered, confidence: 0.95}
 //                                                  or the values of an axis: {axis: noise, baseline: "0.5"}

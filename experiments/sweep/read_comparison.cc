@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "core/counted.h"
-#include "experiments/sweep/measures.h"
+#include "evaluation/measures/measure.h"
 
 namespace ttf::experiments::sweep {
 namespace {
+
+using evaluation::measures::find_measure;
+using evaluation::measures::Measure;
 
 constexpr double kLargestHalfWidth = 1e12;
 

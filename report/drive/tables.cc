@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/counted.h"
+#include "evaluation/measures/measure.h"
 #include "experiments/results/multiplicity.h"
 #include "experiments/results/statistics.h"
 #include "report/drawing/figures.h"
@@ -17,85 +18,11 @@ namespace ttf::report::drive {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using evaluation::measures::Measure;
+using evaluation::measures::measures;
 
 constexpr double kConfidence = 0.95;
 constexpr std::size_t kMostRemarked = 6;  // more drives than these get remarks only on troubles
-
-struct MeasureRow {
-  const char* name;
-  const char* pointer;
-  int decimals;
-  double factor = 1.0;
-  bool rare = false;      // omitted if it is 0 in every drive
-  bool repeated = false;  // has an interval over repeated drives
-};
-
-constexpr MeasureRow kMeasureRows[] = {
-    {"position error against truth [m]", "/rmse_truth/position_m", 3, 1.0, false, true},
-    {"velocity error against truth [m/s]", "/rmse_truth/velocity_mps", 3, 1.0, false, true},
-    {"error of the visible face [m]", "/rmse_box/face_m", 3, 1.0, false, true},
-    {"  of the gap to it [m]", "/rmse_box/gap_m", 3},
-    {"  of the heading [rad]", "/rmse_box/heading_rad", 3},
-    {"  of the speed [m/s]", "/rmse_box/speed_mps", 3},
-    {"  of the acceleration [m/s^2]", "/rmse_box/acceleration_mps2", 3},
-    {"  of the length [m]", "/rmse_box/length_m", 3},
-    {"  of the width [m]", "/rmse_box/width_m", 3},
-    {"position error against DGPS [m]", "/rmse_reference/position_m", 3, 1.0, false, true},
-    {"velocity error against DGPS [m/s]", "/rmse_reference/velocity_mps", 3, 1.0, false, true},
-    {"NEES (4 for a consistent filter)", "/nees/mean", 2, 1.0, false, true},
-    {"  95 % band from", "/nees/band_95/0", 2},
-    {"  to", "/nees/band_95/1", 2},
-    {"  of the position, over its degrees", "/nees/per_degree/position", 2},
-    {"  of the velocity", "/nees/per_degree/velocity", 2},
-    {"  of the heading", "/nees/per_degree/heading", 2},
-    {"  of the speed", "/nees/per_degree/speed", 2},
-    {"  of the acceleration", "/nees/per_degree/acceleration", 2},
-    {"  of the length", "/nees/per_degree/length", 2},
-    {"  of the width", "/nees/per_degree/width", 2},
-    {"NIS (1 for consistent predictions)", "/nis/per_degree", 2, 1.0, false, true},
-    {"age when fused, mean [ms]", "/age_when_fused/mean_ms", 1, 1.0, false, true},
-    {"  worst [ms]", "/age_when_fused/worst_ms", 1},
-    {"age when used, mean [ms]", "/age_when_used/mean_ms", 1, 1.0, false, true},
-    {"  worst [ms]", "/age_when_used/worst_ms", 1},
-    {"observation lists received", "/observations/received", 0},
-    {"  out of sequence", "/observations/out_of_sequence", 0},
-    {"  fused late", "/observations/late", 0},
-    {"  times held back", "/observations/held", 0},
-    {"  lost", "/observations/lost", 0},
-    {"uses of an image", "/uses", 0},
-    {"  refused for its age", "/uses_refused_as_stale", 0, 1.0, true},
-    {"  with a warning", "/uses_with_warning", 0},
-    {"objects compared", "/objects/compared", 0},
-    {"  missed", "/objects/missed", 0},
-    {"  spurious", "/objects/spurious", 0},
-    {"GOSPA [m]", "/gospa/distance_m", 3, 1.0, false, true},
-    {"  its part from pairs [m^p]", "/gospa/localisation", 3},
-    {"  from missed objects [m^p]", "/gospa/missed", 3},
-    {"  from false ones [m^p]", "/gospa/false", 3},
-    {"OSPA [m]", "/ospa/distance_m", 3},
-    {"cut-off of both, c [m]", "/gospa/cut_off_m", 1},
-    {"  their order, p", "/gospa/order", 1},
-    {"MOTA [%]", "/clear_mot/mota", 1, 100.0, false, true},
-    {"MOTP [m]", "/clear_mot/motp_m", 3},
-    {"switches of track", "/clear_mot/switches", 0},
-    {"objects mostly tracked", "/track_life/mostly_tracked", 0},
-    {"  partly tracked", "/track_life/partly_tracked", 0},
-    {"  mostly lost", "/track_life/mostly_lost", 0},
-    {"life tracked, mean [%]", "/track_life/mean_fraction_tracked", 1, 100.0},
-    {"tracks broken and resumed", "/track_life/fragmentations", 0},
-    {"precision of the time base [us]", "/precision_us", 3},
-    {"slot problems", "/slot_problems", 0},
-    {"deadlines missed", "/deadlines_missed", 0},
-    {"times that odometry stopped", "/odometry/stops", 0, 1.0, true},
-    {"fragments refused", "/refused_fragments", 0, 1.0, true},
-    {"CAN frames refused", "/refused_can_frames", 0, 1.0, true},
-    {"FlexRay load per channel [%]", "/flexray_load", 1, 100.0},
-};
-// Counts that are 0 in a sound drive.
-constexpr std::pair<const char*, const char*> kTroubles[] = {{"/deadlines_missed", "missed deadline"},
-                                                             {"/observations/lost", "lost observation list"},
-                                                             {"/slot_problems", "slot problem"},
-                                                             {"/objects/missed", "missed object"}};
 
 // The drives of every seed that all strategies share, strategy by strategy.
 struct Repeated {
@@ -121,13 +48,20 @@ std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
   return all;
 }
 
-experiments::results::Interval interval(const Repeated& repeated, const char* pointer, std::size_t strategy,
+const Measure& position_error() { return evaluation::measures::measure_at("/rmse_truth/position_m"); }
+
+bool is_on_page(const Measure& row) {
+  return !row.path.empty() && !row.shown.label.empty() && row.shown.place != evaluation::measures::Place::kTable;
+}
+
+// In the unit that people see.
+experiments::results::Interval interval(const Repeated& repeated, const Measure& row, std::size_t strategy,
                                         std::optional<std::size_t> against) {
   experiments::results::Moments moments;
-  for (const std::vector<const Drive*>& row : repeated.drives) {
-    const auto value = measure_at(*row[strategy], pointer);
-    const auto other = against ? measure_at(*row[*against], pointer) : 0.0;
-    if (value && other) moments.add(*value - *other);
+  for (const std::vector<const Drive*>& drives : repeated.drives) {
+    const auto value = value_at(*drives[strategy], row.path);
+    const auto other = against ? value_at(*drives[*against], row.path) : 0.0;
+    if (value && other) moments.add((*value - *other) * row.shown.scale.factor);
   }
   return experiments::results::interval_of(moments, kConfidence);
 }
@@ -148,11 +82,10 @@ std::string single_answer(const std::vector<ToldDrive>& drives) {
 }
 
 std::string repeated_answer(const std::string& scenario, const Repeated& repeated) {
-  const char* const pointer = kMeasureRows[0].pointer;
   std::size_t best = 0;
   std::vector<double> means;
   for (std::size_t s = 0; s < repeated.strategies.size(); ++s) {
-    means.push_back(interval(repeated, pointer, s, std::nullopt).mean);
+    means.push_back(interval(repeated, position_error(), s, std::nullopt).mean);
     if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;  // the first may have no value
   }
   if (!std::isfinite(means[best]))
@@ -163,14 +96,14 @@ std::string repeated_answer(const std::string& scenario, const Repeated& repeate
   std::vector<bool> of_best;
   for (std::size_t s = 0; s < repeated.strategies.size(); ++s)
     for (std::size_t other = s + 1; other < repeated.strategies.size(); ++other) {
-      pairs.push_back(interval(repeated, pointer, s, other));
+      pairs.push_back(interval(repeated, position_error(), s, other));
       of_best.push_back(s == best || other == best);
     }
   const experiments::results::Family family = family_of(pairs, kConfidence);
   bool certain = family.comparisons > 0;
   for (std::size_t p = 0; p < pairs.size(); ++p)
     certain = certain && (!of_best[p] || family.stays[p] || !std::isfinite(pairs[p].mean));
-  const experiments::results::Interval least = interval(repeated, pointer, best, std::nullopt);
+  const experiments::results::Interval least = interval(repeated, position_error(), best, std::nullopt);
   const std::string mean = drawing::with_interval(least.mean, least.half_width) + " m";
   std::string text =
       certain ? fmt::format("Over {} runs of {}, {} has the smallest position error, for certain: {} (95 %)",
@@ -179,7 +112,7 @@ std::string repeated_answer(const std::string& scenario, const Repeated& repeate
                             repeated.drives.size(), scenario, repeated.strategies[best], mean);
   for (std::size_t s = 0; s < repeated.strategies.size(); ++s) {
     if (s == best) continue;
-    const experiments::results::Interval more = interval(repeated, pointer, s, best);
+    const experiments::results::Interval more = interval(repeated, position_error(), s, best);
     text += std::isfinite(more.mean) ? fmt::format("; {} {} m", repeated.strategies[s],
                                                    drawing::with_interval(more.mean, more.half_width, true))
                                      : fmt::format("; {} has no value", repeated.strategies[s]);
@@ -187,20 +120,13 @@ std::string repeated_answer(const std::string& scenario, const Repeated& repeate
   return text + ".";
 }
 
-// Returns 0 without a count.
-std::uint64_t count_at(const Drive& drive, const char* pointer) {
-  if (!drive.summary.is_object()) return 0;
-  const Json::json_pointer at(pointer);
-  if (!drive.summary.contains(at) || !drive.summary.at(at).is_number_unsigned()) return 0;
-  return drive.summary.at(at).get<std::uint64_t>();
-}
-
 // Adds the troubles of a drive.
 void troubles_of(const ToldDrive& told, std::vector<std::string>& more) {
   const Drive& drive = *told.drive;
   std::vector<std::string> troubles;
-  for (const auto& [pointer, what] : kTroubles)
-    if (const std::uint64_t count = count_at(drive, pointer); count > 0) troubles.push_back(counted(count, what));
+  for (const Measure& row : measures())
+    if (const auto count = value_at(drive, row.path); !row.shown.trouble.empty() && count && *count > 0.0)
+      troubles.push_back(counted(static_cast<std::uint64_t>(*count), std::string(row.shown.trouble)));
   if (!troubles.empty()) more.push_back(fmt::format("{}: {}.", drive.label, joined(troubles, " and ")));
   if (std::string beyond = beyond_words(drive.label, drive.stages); !beyond.empty()) more.push_back(std::move(beyond));
   if (const auto& faults = told.series.faults; !faults.empty()) {
@@ -214,7 +140,7 @@ void troubles_of(const ToldDrive& told, std::vector<std::string>& more) {
 
 // Returns a sentence that a sound drive deserves, too; empty if its summary has nothing of the kind.
 std::string remark_on(const Drive& drive) {
-  const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
+  const auto at = [&](std::string_view pointer) { return value_at(drive, pointer); };
   std::string text;
   if (const auto mean = at("/age_when_used/mean_ms"), worst = at("/age_when_used/worst_ms"); mean && worst)
     text = fmt::format("a measurement is {:.1f} ms old on average when it is used, {:.1f} ms at worst", *mean, *worst);
@@ -227,23 +153,22 @@ std::string remark_on(const Drive& drive) {
 
 // Returns whether a summary tells that nothing went wrong.
 bool is_sound(const ToldDrive& told) {
-  return std::ranges::all_of(kTroubles, [&](const auto& trouble) {
-    const auto count = measure_at(*told.drive, trouble.first);
-    return count && *count == 0.0;
+  return std::ranges::all_of(measures(), [&](const Measure& row) {
+    return row.shown.trouble.empty() || value_at(*told.drive, row.path) == 0.0;
   });
 }
 
 }  // namespace
 
-std::optional<double> measure_at(const Drive& drive, const char* pointer) {
-  if (!drive.summary.is_object()) return std::nullopt;
-  const Json::json_pointer at(pointer);
+std::optional<double> value_at(const Drive& drive, std::string_view pointer) {
+  if (!drive.summary.is_object() || pointer.empty()) return std::nullopt;
+  const Json::json_pointer at{std::string(pointer)};
   if (!drive.summary.contains(at) || !drive.summary.at(at).is_number()) return std::nullopt;
   return drive.summary.at(at).get<double>();
 }
 
 double position_rmse(const ToldDrive& told) {
-  if (const auto error = measure_at(*told.drive, kMeasureRows[0].pointer)) return *error;
+  if (const auto error = value_at(*told.drive, position_error().path)) return *error;
   if (!told.drive->summary.is_null() || told.series.position_error.empty()) return std::nan("");
   double squares = 0.0;
   for (const TimedValue& one : told.series.position_error) squares += one.value * one.value;
@@ -253,13 +178,14 @@ double position_rmse(const ToldDrive& told) {
 page::PageTable measure_table(const std::vector<ToldDrive>& drives) {
   page::PageTable table{"", {"measure"}, {}};
   for (const ToldDrive& told : drives) table.header.push_back(told.drive->label);
-  for (const MeasureRow& row : kMeasureRows) {
-    std::vector<std::string> cells{row.name};
+  for (const Measure& row : measures()) {
+    if (!is_on_page(row)) continue;
+    std::vector<std::string> cells{label_of(row)};
     bool any = false;
     for (const ToldDrive& told : drives) {
-      const auto value = measure_at(*told.drive, row.pointer);
-      cells.push_back(value ? drawing::cell(*value * row.factor, row.decimals) : "-");
-      any = any || (value && (*value != 0.0 || !row.rare));
+      const auto value = value_at(*told.drive, row.path);
+      cells.push_back(value ? drawing::cell(*value * row.shown.scale.factor, row.shown.decimals) : "-");
+      any = any || (value && (*value != 0.0 || !row.shown.is_rare));
     }
     if (any) table.rows.push_back(std::move(cells));
   }
@@ -276,18 +202,18 @@ std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drive
     for (const std::string& strategy : one.strategies) table.header.push_back(strategy);
     for (std::size_t s = 1; s < one.strategies.size(); ++s)
       table.header.push_back(fmt::format("{} − {}", one.strategies[s], one.strategies[0]));
-    for (const MeasureRow& row : kMeasureRows) {
-      if (!row.repeated) continue;
-      std::vector<std::string> cells{row.name};
+    for (const Measure& row : measures()) {
+      if (!row.shown.has_interval) continue;
+      std::vector<std::string> cells{label_of(row)};
       bool any = false;
       for (std::size_t s = 0; s < one.strategies.size(); ++s) {
-        const experiments::results::Interval mean = interval(one, row.pointer, s, std::nullopt);
+        const experiments::results::Interval mean = interval(one, row, s, std::nullopt);
         cells.push_back(drawing::with_interval(mean.mean, mean.half_width));
         any = any || std::isfinite(mean.mean);
       }
       if (!any) continue;
       for (std::size_t s = 1; s < one.strategies.size(); ++s) {
-        const experiments::results::Interval difference = interval(one, row.pointer, s, 0);
+        const experiments::results::Interval difference = interval(one, row, s, 0);
         cells.push_back(fmt::format("{} {}", drawing::with_interval(difference.mean, difference.half_width, true),
                                     drawing::verdict(difference.mean, difference.half_width)));
       }

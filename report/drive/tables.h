@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/drive/results_folder.h"
@@ -19,7 +20,7 @@ struct ToldDrive {
 };
 
 // Returns the number at the pointer ("/rmse_truth/position_m") of a drive's summary.
-std::optional<double> measure_at(const Drive& drive, const char* pointer);
+std::optional<double> value_at(const Drive& drive, std::string_view pointer);
 // Returns the position error [m] from the summary or, without one, from the log over the whole drive.
 double position_rmse(const ToldDrive& told);
 

@@ -9,7 +9,8 @@ source "$(dirname "$0")/expect.sh"
 expect 0 'Examples: ttfusion keys scenario' keys --help
 expect 0 '^world.objects\[\].speed: number 0..100 m/s, default 0$' keys scenario
 expect 0 '^flexray.gdStaticSlot: whole number 4..661 macroticks, optional' keys cluster
-expect 2 '^error: command line: kind = voyage: must be one of scenario, cluster, plan, experiment, track, faults$' keys voyage
+expect 0 '^strategies\[\].rmse_truth.position_m: number or null, root mean square' keys summary
+expect 2 '^error: command line: kind = voyage: must be one of scenario, cluster, plan, experiment, track, faults, summary$' keys voyage
 expect 2 '^error: command line: --format = json-schema: goes with one kind' keys --format json-schema
 expect 0 '^wrote .*/faults.json$' keys faults --format json-schema -o "$work/faults.json"
 cmp -s "$work/faults.json" "$source/keys/schemas/faults.schema.json" || fail "keys writes another schema than the one kept"

@@ -29,7 +29,7 @@ expect 0 'No fault-free node was harmed' run "$cold" "${tt[@]}"
 sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 ms/' "$cold"
 expect 1 'HARMED by fault 0, .*never became normal active' run "$cold" "${tt[@]}"
 # For a cluster that never started, the table shows failure, and no perfect values.
-says '^uses of an image +0$' '^objects compared / missed / spurious +-$' '^precision of the time base \[us\] +-$'
+says '^uses of an image +0$' '^objects compared / missed / spurious +0 / - / -$' '^precision of the time base \[us\] +-$'
 expect 1 '^error: with tt no node ever became active: laser_pre, camera_pre, fusion, feature, laser, camera$' \
   run "$cold" --no-log --out "$work/cold"
 

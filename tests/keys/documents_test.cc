@@ -15,6 +15,7 @@
 #include "core/file_kind.h"
 #include "keys/render.h"
 #include "keys/rows.h"
+#include "keys/summary/summary.h"
 #include "keys/value_words.h"
 
 namespace ttf::keys {
@@ -118,16 +119,21 @@ void expect_committed(const std::filesystem::path& file, const std::string& text
 
 TEST(Documents, PagesAndSchemasAreThoseInTheTree) {
   std::set<std::string> files{"README.md"};
+  std::vector<Page> pages = summary::pages();
   for (const Document& document : documents()) {
-    for (const Page& page : markdown_pages(document, outline_of(document))) {
-      EXPECT_LE(std::count(page.text.begin(), page.text.end(), '\n'), static_cast<std::ptrdiff_t>(kMostLines))
-          << page.file;
-      expect_committed(std::filesystem::path("docs/keys") / page.file, page.text);
-      files.insert(page.file);
-    }
+    for (Page& page : markdown_pages(document, outline_of(document))) pages.push_back(std::move(page));
     expect_committed(std::filesystem::path("keys/schemas") / schema_file(document),
                      json_schema(document, outline_of(document)));
     files.insert(schema_file(document));
+  }
+  const Page of_summary = summary::schema();
+  expect_committed(std::filesystem::path("keys/schemas") / of_summary.file, of_summary.text);
+  files.insert(of_summary.file);
+  for (const Page& page : pages) {
+    EXPECT_LE(std::count(page.text.begin(), page.text.end(), '\n'), static_cast<std::ptrdiff_t>(kMostLines))
+        << page.file;
+    expect_committed(std::filesystem::path("docs/keys") / page.file, page.text);
+    files.insert(page.file);
   }
   for (const char* folder : {"docs/keys", "keys/schemas"})
     for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TTF_SOURCE_DIR) / folder))

@@ -153,7 +153,7 @@ class Schemas(unittest.TestCase):
                 for inner in schema:
                     walk(inner, whole)
 
-        self.assertEqual(set(SCHEMAS), {"scenario", "cluster", "plan", "experiment", "track", "faults"})
+        self.assertEqual(set(SCHEMAS), {"scenario", "cluster", "plan", "experiment", "track", "faults", "summary"})
         for kind, schema in SCHEMAS.items():
             with self.subTest(kind):
                 jsonschema.Draft7Validator.check_schema(schema)
@@ -188,6 +188,48 @@ class Schemas(unittest.TestCase):
                 self.assertEqual(code, 2, errors)
                 self.assertRegex(errors, rf"wrong\.yaml:[0-9]+: [^ ]*\b{key}\b")
                 print(f"{name}: {said[0]}")
+
+
+# Drives whose summaries have all parts but those of real time: a scenario, options, and members of each strategy.
+DRIVES = [
+    ("paper_scenario1", ["--duration", "1.6"], {"age_by_stage", "can_load", "clear_mot"}),
+    ("acc_braking_lead", ["--strategy", "tt"], {"driving", "odometry"}),
+    ("lane_keeping", ["--strategy", "tt", "--duration", "4"], {"driving"}),
+    ("faulty_bus", ["--strategy", "tt"], {"faults", "unattributed", "fault_free_nodes"}),
+    ("faulty_can", ["--strategy", "tt"], {"faults", "cans"}),
+    ("cold_start", ["--strategy", "tt"], {"startup"}),
+]
+
+
+class Summaries(unittest.TestCase):
+    """summary.json of real drives fits its schema, which refuses any other member."""
+
+    @staticmethod
+    def refusals(summary) -> list[str]:
+        return [".".join(map(str, error.absolute_path)) + ": " + error.message
+                for error in jsonschema.Draft7Validator(SCHEMAS["summary"]).iter_errors(summary)]
+
+    def drive(self, scenario: str, *options: str):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([PROGRAM, "run", scenario, "--no-log", "--json", "--out", f"{folder}/out", *options],
+                                  capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_drives_fit(self):
+        for scenario, options, members in DRIVES:
+            with self.subTest(scenario):
+                summary = self.drive(scenario, *options)
+                self.assertEqual(self.refusals(summary), [])
+                for strategy in summary["strategies"]:
+                    self.assertLessEqual(members, set(strategy))
+
+    def test_another_member_and_an_absent_one_are_refused(self):
+        right = self.drive("paper_scenario1", "--strategy", "tt", "--duration", "1.6")
+        for change in (lambda rmse: rmse.update(z=0.0), lambda rmse: rmse.pop("x"), lambda rmse: rmse.update(x="small")):
+            wrong = json.loads(json.dumps(right))
+            change(wrong["strategies"][0]["rmse_truth"])
+            self.assertTrue(any("rmse_truth" in line for line in self.refusals(wrong)))
 
 
 if __name__ == "__main__":

@@ -4,14 +4,16 @@
 #include <cmath>
 #include <utility>
 
+#include "evaluation/measures/measure.h"
 #include "experiments/results/multiplicity.h"
 #include "experiments/sweep/answers/expectations.h"
 #include "experiments/sweep/answers/interactions.h"
 #include "experiments/sweep/answers/point_drives.h"
-#include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep::answers {
 namespace {
+
+using evaluation::measures::find_measure;
 
 using results::Interval;
 using results::Moments;

@@ -6,13 +6,15 @@
 #include <utility>
 
 #include "core/counted.h"
+#include "evaluation/measures/measure.h"
 #include "experiments/results/equivalence.h"
 #include "experiments/sweep/answers/figures.h"
 #include "experiments/sweep/answers/point_drives.h"
-#include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep::answers {
 namespace {
+
+using evaluation::measures::find_measure;
 
 using results::Interval;
 using results::Moments;

@@ -2,10 +2,12 @@
 
 #include <utility>
 
+#include "evaluation/measures/measure.h"
 #include "experiments/results/share.h"
-#include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep::answers {
+
+using evaluation::measures::find_measure;
 
 PointDrives::PointDrives(const SweepFile& sweep, std::vector<results::Row> rows)
     : rows_(std::move(rows)), first_(sweep.drawn().size()), by_paradigm_(sweep.paradigms.size()) {

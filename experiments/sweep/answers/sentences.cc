@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "core/counted.h"
+#include "evaluation/measures/measure.h"
 #include "experiments/sweep/answers/figures.h"
-#include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep::answers {
 namespace {
+
+using evaluation::measures::find_measure;
 
 using results::Interval;
 using results::Ratio;

@@ -6,14 +6,17 @@
 #include <cmath>
 
 #include "core/counted.h"
+#include "evaluation/measures/measure.h"
 #include "experiments/results/percent.h"
 #include "experiments/sweep/answers/columns.h"
 #include "experiments/sweep/answers/figures.h"
 #include "experiments/sweep/answers/sentences.h"
-#include "experiments/sweep/measures.h"
 
 namespace ttf::experiments::sweep::answers {
 namespace {
+
+using evaluation::measures::find_measure;
+using evaluation::measures::Measure;
 
 std::string with_unit(const Measure& measure) {
   return measure.unit.empty() ? std::string(measure.name) : fmt::format("{} [{}]", measure.name, measure.unit);
