@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 #include "nodes/driving/command.h"
 #include "nodes/driving/steering/commands.h"
@@ -21,9 +22,12 @@ namespace ttf::nodes::driving {
 // (steering/commands.h).
 class Actuator final : public host::Step {
  public:
+  static constexpr std::string_view kName = "actuator";  // in a schedule
+
   Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
            const sim::world::vehicle::ActuatorConfig& config);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view) const override { return true; }  // the newest command is the demand
 
  private:
   struct Port {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
@@ -33,6 +34,7 @@ class AdaptiveCruiseControl final : public host::Step {
   AdaptiveCruiseControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                         const CruiseConfig& config);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view port) const override { return port == "odometry"; }
 
  private:
   CruiseConfig config_;

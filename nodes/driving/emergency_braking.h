@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
@@ -33,6 +34,7 @@ class EmergencyBraking final : public host::Step {
   EmergencyBraking(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const EmergencyConfig& config);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view port) const override { return port == "odometry"; }
 
  private:
   void tell(host::StepContext& context, std::uint8_t service, bool on, TrackId track, double time_to_collision);

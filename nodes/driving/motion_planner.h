@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/strict_yaml.h"
@@ -37,6 +38,7 @@ class MotionPlanner final : public host::Step {
   MotionPlanner(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                 const PlannerConfig& config, std::vector<Picture> pictures);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view port) const override { return port == "odometry"; }
 
  private:
   struct Chosen {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "core/strict_yaml.h"
 #include "nodes/control/proportional_integral.h"
@@ -36,6 +37,7 @@ class VehicleControl final : public host::Step {
   VehicleControl(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                  const ControlConfig& config);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view) const override { return true; }
 
  private:
   double steering(const Place& own);

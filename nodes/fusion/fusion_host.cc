@@ -93,7 +93,7 @@ SensorId odometry_of(const schedules::model::Cluster& cluster, const schedules::
 SensorId fused_odometry(const schedules::model::Cluster& cluster) {
   for (const schedules::model::Node& node : cluster.nodes)
     for (const schedules::model::Task& task : node.tasks)
-      if (task.step == "fusion")
+      if (task.step == FusionStep::kName)
         if (const SensorId sensor = odometry_of(cluster, task); sensor != kNoSensor) return sensor;
   return kNoSensor;
 }

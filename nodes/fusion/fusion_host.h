@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fusion/config/tracker_config.h"
@@ -82,6 +83,8 @@ class RoundsBelieved {
 // sample that is not the newest one, or is from the future.
 class FusionStep final : public host::Step {
  public:
+  static constexpr std::string_view kName = "fusion";  // in a schedule
+
   FusionStep(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
              std::shared_ptr<FusionHost> host);
   void run(host::StepContext& context) override;

@@ -38,11 +38,10 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
                      SensorLines& lines, recording::records::Sink& sink)
     : config_(config), node_(config.cluster->node(config.node)), steps_(std::move(steps)),
       time_(config.node, config.oscillator, config.true_clock), records_(*config.cluster, time_, sink),
-      wiring_(*config.cluster, node_, connect(flexray, cans), time_, records_),
+      wiring_(*config.cluster, node_, steps_, connect(flexray, cans), time_, records_),
       processor_(node_.tasks, {config.seed, config.replication, config.node}, time_, records_.counts()),
       sensors_(*config.cluster, config.node, {config.seed, config.replication}, time_, lines), lines_(lines),
       asleep_(flexray_ && !config.clock && config.cold == ColdStart::kSleeps) {
-  TTF_CHECK(steps_.size() == node_.tasks.size(), "{} steps for {} tasks", steps_.size(), node_.tasks.size());
   if (flexray_ && config.clock) flexray_->start_integrated(*config.clock);
   if (!asleep_) power_on(config.power_on);
   arm_cycle();

@@ -12,9 +12,4 @@ const schedules::model::PortBinding& binding_of(const std::vector<schedules::mod
   return *found;
 }
 
-bool is_service(std::string_view step) {
-  return step == "feature_service" || step == "adaptive_cruise_control" || step == "emergency_braking" ||
-         step == "motion_planner" || step == "blind_spot_warning";
-}
-
 }  // namespace ttf::nodes::host

@@ -47,7 +47,5 @@ std::vector<std::size_t> bind_elements(const schedules::model::Cluster& cluster,
 // Returns the binding of a task's `port`; ports are known to exist by then (schedules/model/ports.h).
 const schedules::model::PortBinding& binding_of(const std::vector<schedules::model::PortBinding>& bindings,
                                                 std::string_view port);
-// Returns whether the step is a service: it uses the image, and may read odometry beside it.
-bool is_service(std::string_view step);
 
 }  // namespace ttf::nodes::host

@@ -113,6 +113,9 @@ class Step {
  public:
   virtual ~Step() = default;
   virtual void run(StepContext& context) = 0;
+  // Returns whether only the newest list at this port counts, because it describes a state: one that is overwritten unread
+  // is no loss.
+  virtual bool reads_newest(std::string_view /*port*/) const { return false; }
 };
 
 // Returns the measurement of a raw list, new or not, if its strobe is among the newest.

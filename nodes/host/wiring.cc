@@ -4,29 +4,16 @@
 #include <utility>
 
 #include "core/check.h"
-#include "nodes/host/signals.h"
 
 namespace ttf::nodes::host {
-namespace {
-
-// The fusion needs every sample of odometry. To services the newest one is the vehicle's state. To an actuator the newest
-// command is the demand, to low-level control the newest plan, and to lane keeping the newest marks are the lane.
-bool tells_a_state(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
-                   const schedules::model::PortBinding& port) {
-  if (task.step == "actuator" || task.step == "vehicle_control" || task.step == "lane_keeping") return true;
-  const SensorId sensor = cluster.pdu(port.pdu).sensor;
-  if (task.step == "adaptive_camera") return true;  // it looks at the newest picture
-  return is_service(task.step) && sensor != kNoSensor &&
-         cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry;
-}
-
-}  // namespace
 
 Wiring::Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node,
-               std::vector<Connection> media, const NodeTime& time, NodeRecords& records)
+               std::span<const std::shared_ptr<Step>> steps, std::vector<Connection> media, const NodeTime& time,
+               NodeRecords& records)
     : media_(std::move(media)), time_(time), records_(records) {
+  TTF_CHECK(steps.size() == node.tasks.size(), "{} steps for {} tasks", steps.size(), node.tasks.size());
   tasks_.reserve(node.tasks.size());
-  for (const schedules::model::Task& task : node.tasks) connect(cluster, task);
+  for (std::size_t t = 0; t < steps.size(); ++t) connect(cluster, node.tasks[t], *steps[t]);
 }
 
 ListMedium* Wiring::find(schedules::model::MediumId medium) const {
@@ -41,7 +28,7 @@ Wiring::Route* Wiring::find_route(schedules::model::MediumId medium, PduId pdu) 
   return found == routes_.end() ? nullptr : &*found;
 }
 
-void Wiring::connect(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
+void Wiring::connect(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const Step& step) {
   const std::size_t index = tasks_.size();
   TaskPorts& ports = tasks_.emplace_back();
   for (const schedules::model::PortBinding& port : task.reads) {
@@ -52,7 +39,7 @@ void Wiring::connect(const schedules::model::Cluster& cluster, const schedules::
     route->readers.push_back({index, ports.inputs.size()});
     if (activates(task, port)) route->sets_off.push_back(index);
     ports.inputs.push_back({port.port, port.pdu, &cluster.pdu(port.pdu), std::nullopt, false});
-    ports.sources.push_back({port.medium, lists->incoming(port.pdu), std::nullopt, tells_a_state(cluster, task, port)});
+    ports.sources.push_back({port.medium, lists->incoming(port.pdu), std::nullopt, step.reads_newest(port.port)});
   }
   for (const schedules::model::PortBinding& port : task.writes) {
     ListMedium* const lists = find(port.medium);

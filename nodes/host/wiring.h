@@ -44,8 +44,10 @@ struct ListArrival {
 class Wiring {
  public:
   // `cluster`, `time` and `records` outlive this. A task with a port to a medium outside `media` stops the program.
-  Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node, std::vector<Connection> media,
-         const NodeTime& time, NodeRecords& records);
+  // `steps`: by task.
+  Wiring(const schedules::model::Cluster& cluster, const schedules::model::Node& node,
+         std::span<const std::shared_ptr<Step>> steps, std::vector<Connection> media, const NodeTime& time,
+         NodeRecords& records);
 
   // Returns the inputs of the task at its start `at`.
   std::span<Input> read(std::size_t task, const recording::records::Stamp& at);
@@ -88,7 +90,7 @@ class Wiring {
   };
   ListMedium* find(schedules::model::MediumId medium) const;
   Route* find_route(schedules::model::MediumId medium, PduId pdu);
-  void connect(const schedules::model::Cluster& cluster, const schedules::model::Task& task);
+  void connect(const schedules::model::Cluster& cluster, const schedules::model::Task& task, const Step& step);
 
   std::vector<Connection> media_;
   const NodeTime& time_;

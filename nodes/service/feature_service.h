@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/strict_yaml.h"
@@ -45,6 +46,7 @@ class FeatureService final : public host::Step {
   FeatureService(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                  const FeatureConfig& config);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view port) const override { return port == "odometry"; }
 
  private:
   FeatureConfig config_;

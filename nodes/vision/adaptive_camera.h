@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "nodes/host/step.h"
@@ -33,6 +34,7 @@ class AdaptiveCamera final : public host::Step {
   AdaptiveCamera(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                  const AdaptiveCameraConfig& config, std::vector<SharedCamera> cameras, const DetectionKey& key);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view) const override { return true; }  // it looks at the newest picture
 
  private:
   // The detection at work.

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nodes/host/step.h"
@@ -28,6 +29,7 @@ class ModeCamera final : public host::Step {
   ModeCamera(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
              const AdaptiveCameraConfig& config, std::vector<SharedCamera> cameras, const DetectionKey& key);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view) const override { return true; }
 
  private:
   struct Frame {

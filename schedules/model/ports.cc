@@ -15,9 +15,9 @@ constexpr std::string_view kLibraryEnd = ".so", kObjects = "_objects";
 struct Direction {
   std::string_view key;  // "reads" or "writes"
   const std::vector<PortBinding>& bound;
-  const std::vector<std::string_view>& needed;
+  const PortNames& needed;
   bool any;  // the names of sensors are ports too
-  std::vector<std::string_view> optional = {};
+  const PortNames& optional;
 };
 
 std::string sensors_names(const Direction& direction) {
@@ -25,7 +25,7 @@ std::string sensors_names(const Direction& direction) {
   return direction.key == "reads" ? "the sensors' names" : fmt::format("the sensors' names with {} behind", kObjects);
 }
 
-std::string others(const std::vector<std::string_view>& optional) {
+std::string others(const PortNames& optional) {
   return optional.empty() ? std::string() : fmt::format(", and {}", fmt::join(optional, ", "));
 }
 
@@ -43,10 +43,7 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
       findings.add(cluster.finding(task.line, fmt::format("{}.{}", path, direction.key), "",
                                    fmt::format("must bind the port {}: step {} needs it", port, task.step)));
   for (const PortBinding& binding : direction.bound) {
-    const auto is_among = [&](const std::vector<std::string_view>& ports) {
-      return std::find(ports.begin(), ports.end(), binding.port) != ports.end();
-    };
-    const bool known = is_among(direction.needed) || is_among(direction.optional);
+    const bool known = direction.needed.contains(binding.port) || direction.optional.contains(binding.port);
     const auto sensor = direction.any ? sensor_of(cluster, direction, binding.port) : std::nullopt;
     const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
     if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
@@ -60,9 +57,9 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
                     sensors_names(direction) + others(direction.optional))));
   }
   if (direction.any && direction.bound.empty())
-    findings.add(cluster.finding(task.line, fmt::format("{}.{}", path, direction.key), "",
-                                 fmt::format("must bind at least one sensor's list: step {} {} them", task.step,
-                                             task.step == "fusion" ? "fuses" : direction.key)));
+    findings.add(cluster.finding(
+        task.line, fmt::format("{}.{}", path, direction.key), "",
+        fmt::format("must bind at least one sensor's list: step {} {} them", task.step, direction.key)));
 }
 
 // A zero would end the name for the system, and other control characters would hide it from the reader.

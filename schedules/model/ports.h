@@ -3,6 +3,10 @@
 // not loaded here, and says for itself whether they suit it (nodes/foreign/ttfusion_step.h).
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,17 +16,34 @@
 
 namespace ttf::schedules::model {
 
+// A few names of ports, as tables of steps have them; more of them do not compile.
+class PortNames {
+ public:
+  constexpr PortNames() = default;
+  constexpr PortNames(std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) names_.at(count_++) = name;
+  }
+  constexpr const std::string_view* begin() const { return names_.data(); }
+  constexpr const std::string_view* end() const { return names_.data() + count_; }
+  constexpr bool empty() const { return count_ == 0; }
+  constexpr bool contains(std::string_view name) const { return std::find(begin(), end(), name) != end(); }
+
+ private:
+  std::array<std::string_view, 4> names_{};
+  std::size_t count_ = 0;
+};
+
 // The ports that the code of one step reads and writes.
 struct StepPorts {
   std::string_view step;
-  std::vector<std::string_view> reads;
-  std::vector<std::string_view> writes;
-  bool any_reads = false;                       // besides `reads`, the step reads at least one sensor's list, by a
-                                                // port with that sensor's name
-  std::vector<std::string_view> may_read = {};  // ports that a task may leave out
+  PortNames reads = {};
+  PortNames writes = {};
+  bool any_reads =
+      false;  // besides `reads`, the step reads at least one sensor's list, by a port with that sensor's name
+  PortNames may_read = {};  // ports that a task may leave out
   // It writes sensors' lists, too, each at the port written_port() of its sensor.
   bool any_writes = false;
-  std::vector<std::string_view> may_write = {};
+  PortNames may_write = {};
 };
 
 // Returns the port by which a step with any_writes writes the lists of a sensor: camera_objects for the sensor camera.

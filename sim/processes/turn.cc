@@ -10,6 +10,7 @@
 
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
+#include "nodes/driving/actuator.h"
 #include "schedules/model/limits.h"
 
 namespace ttf::sim::processes {
@@ -118,7 +119,7 @@ double read_number(TurnBytes& in, const char* what) {
 }
 
 nodes::host::Actuation read_actuation(TurnBytes& in, const TurnHeader& turn, const schedules::model::Cluster& cluster) {
-  if (!schedules::model::has_step(cluster.node(turn.node), "actuator"))
+  if (!schedules::model::has_step(cluster.node(turn.node), nodes::driving::Actuator::kName))
     throw std::runtime_error("a turn with an actuation, of a node without an actuator");
   const auto from =
       static_cast<std::int64_t>(in.take<std::uint64_t>(static_cast<std::uint64_t>(kLastTick), "actuation"));

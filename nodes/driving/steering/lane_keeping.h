@@ -6,6 +6,8 @@
 // centripetal acceleration is at most largest_lateral, 3 m/s^2 as in ISO 11270.
 #pragma once
 
+#include <string_view>
+
 #include "core/strict_yaml.h"
 #include "nodes/control/stanley.h"
 #include "nodes/driving/command.h"
@@ -34,6 +36,7 @@ class LaneKeeping final : public host::Step {
   LaneKeeping(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
               const LaneKeepingConfig& config);
   void run(host::StepContext& context) override;
+  bool reads_newest(std::string_view) const override { return true; }  // the newest marks are the lane
 
  private:
   double steering_for(const Lane& lane) const;

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "nodes/driving/actuator.h"
+
 namespace ttf::nodes::runner::vehicle {
 namespace {
 
@@ -90,7 +92,7 @@ void Line::send_to_all(std::span<const std::byte> message) const {
 std::vector<std::size_t> processes_of(const schedules::model::Cluster& cluster) {
   std::vector<std::size_t> processes;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    const bool acts = schedules::model::has_step(cluster.nodes[n], "actuator");
+    const bool acts = schedules::model::has_step(cluster.nodes[n], driving::Actuator::kName);
     const bool measures = std::ranges::any_of(
         cluster.sensors, [n](const auto& sensor) { return sensor.device == static_cast<NodeId>(n); });
     if (acts || measures) processes.push_back(n);
