@@ -7,6 +7,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "report/drawing/fault_lanes.h"
 
 namespace ttf::report::startup {
 
@@ -35,19 +36,12 @@ struct StartupData {
     std::uint8_t channel;
     bool null_frame, startup;
   };
-  struct Fault {
-    TrueTime at;
-    std::uint32_t fault;
-    std::uint8_t what;
-    NodeId node;
-    std::string kind, text;
-  };
 
-  std::vector<Change> changes;  // from the whole log: a state lasts until it is left
-  std::vector<Power> power;     // likewise
-  std::vector<Fault> faults;    // likewise
-  std::vector<Symbol> symbols;  // up to the window's end: the cycles count from one of them
-  std::vector<Frame> frames;    // likewise
+  std::vector<Change> changes;              // from the whole log: a state lasts until it is left
+  std::vector<Power> power;                 // likewise
+  std::vector<drawing::FaultEvent> faults;  // likewise
+  std::vector<Symbol> symbols;              // up to the window's end: the cycles count from one of them
+  std::vector<Frame> frames;                // likewise
 };
 
 // States that the picture and the leading node's cycles depend on.

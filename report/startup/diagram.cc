@@ -33,8 +33,7 @@ void StartupDiagram::on(const recording::records::SlotFrameSent& r) {
         {start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame, recording::exports::is_startup_frame(r)});
 }
 void StartupDiagram::on(const recording::records::FaultActivity& r) {
-  if (drawing::possible(r.at))
-    data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+  if (drawing::possible(r.at)) data_.faults.push_back(r);
 }
 
 std::string StartupDiagram::svg(const drawing::Sheet& sheet) const {

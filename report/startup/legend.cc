@@ -33,12 +33,6 @@ std::vector<drawing::LegendEntry> startup_legend(const StartupData& data, const 
     legend.push_back({K::kMarker, "power on", std::string(drawing::kGreen), drawing::Marker::kTriangle, true});
   if (power(false))
     legend.push_back({K::kMarker, "power off", std::string(drawing::kVermilion), drawing::Marker::kDownTriangle, true});
-  if (const auto faults = faults_within(data.faults, from, to); !faults.empty()) {
-    legend.push_back({K::kBox, "fault, from begin to end", std::string(kFaultFill), {}, true});
-    const auto acts = [&](const auto& f) { return f.what == recording::records::kFaultActs && visible(f.at, f.at); };
-    if (std::ranges::any_of(faults, acts))
-      legend.push_back({K::kLine, "the fault acts", std::string(drawing::kVermilion)});
-  }
   return legend;
 }
 

@@ -24,7 +24,7 @@ std::string_view symbol_name(std::uint8_t kind) {
 class StartupPainter {
   // The longest name of a state of one double cycle fits into that double cycle.
   static constexpr double kPixelsPerCycle = 78, kPixelsPerMs = 14, kLeastPlot = 900, kMostPlot = 5600;
-  static constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kFaultLane = 22, kText = 9.5;
+  static constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kText = 9.5;
   // Places within a node's lane, from its top.
   static constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
 
@@ -32,8 +32,9 @@ class StartupPainter {
   StartupPainter(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to,
                  const drawing::Sheet& sheet)
       : names_(names), data_(data), sheet_(sheet), text_(sheet.text(kText)), from_(from), to_(to),
-        spans_(state_spans(data, from, to)), faults_(faults_within(data.faults, from, to)), leader_(leading_node(data)),
+        spans_(state_spans(data, from, to)), faults_(data.faults, names, from, to), leader_(leading_node(data)),
         legend_(startup_legend(data, spans_, from, to)) {
+    faults_.add_to(legend_);
     if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
     for (const auto& c : data.changes) on_flexray_.insert(c.node);
     for (const auto& f : data.frames) on_flexray_.insert(f.node);
@@ -42,12 +43,8 @@ class StartupPainter {
     for (const auto& p : data.power) nodes.insert(p.node);
     plot_.x = 40;
     write_head();
-    double y = plot_.y;
-    for (const auto& f : faults_) {
-      if (!fault_top_.try_emplace(f.fault, y).second) continue;
-      y += kFaultLane;
-      plot_.x = std::max(plot_.x, drawing::text_width(fault_label(f), 11) + 24);
-    }
+    double y = plot_.y + faults_.height();
+    if (faults_.count() > 0) plot_.x = std::max(plot_.x, faults_.label_width() + 24);
     for (const NodeId node : nodes) {
       node_top_[node] = y;
       y += on_flexray_.count(node) != 0 ? kNodeLane : kLaneOffFlexRay;
@@ -71,7 +68,7 @@ class StartupPainter {
     grid();
     lanes();
     svg.open_group("events", plot_);
-    faults();
+    faults_.draw(svg, plot_, [&](TrueTime t) { return x(t); });
     states();
     frames();
     symbols();
@@ -107,9 +104,6 @@ class StartupPainter {
   bool visible(TrueTime start, TrueTime end) const { return start < to_ && end >= from_; }
   double stay_inside(double px) const { return std::clamp(px, plot_.x, plot_.x + plot_.width); }
   double top(NodeId node) const { return node_top_.at(node); }
-  std::string fault_label(const StartupData::Fault& f) const {
-    return f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names_.node(f.node));
-  }
 
   // A cycle's number stands in its middle, if it fits.
   void grid() {
@@ -143,11 +137,7 @@ class StartupPainter {
     const auto line_at = [&](double y) {
       svg_->line({12, y}, {plot_.x + plot_.width, y}, {.stroke = "#999999", .width = 0.8});
     };
-    std::set<std::uint32_t> labelled;
-    for (const auto& f : faults_)
-      if (labelled.insert(f.fault).second)
-        svg_->text({plot_.x - 10, fault_top_.at(f.fault) + 15}, fault_label(f),
-                   {.size = 11, .anchor = drawing::Anchor::kEnd});
+    faults_.draw_labels(*svg_, plot_);
     for (const auto& [node, y] : node_top_) {
       if (y > plot_.y) line_at(y);
       svg_->text({plot_.x - 10, y + kBar + 12}, names_.node(node), {.size = 11, .anchor = drawing::Anchor::kEnd});
@@ -160,29 +150,6 @@ class StartupPainter {
       }
     }
     svg_->close_group();
-  }
-
-  // Draws each fault from its begin to its end, or to the end of the window.
-  void faults() {
-    const auto bar = [&](const StartupData::Fault& f, TrueTime start, TrueTime end) {
-      const double left = stay_inside(x(start)), right = stay_inside(x(end));
-      if (visible(start, end))
-        svg_->rect({left, fault_top_.at(f.fault) + 4, std::max(1.5, right - left), 14},
-                   {.fill = kFaultFill, .stroke = drawing::kVermilion, .width = 0.7}, f.text, "fault");
-    };
-    std::map<std::uint32_t, const StartupData::Fault*> open;
-    for (const auto& f : faults_) {
-      if (f.what == recording::records::kFaultBegins) open[f.fault] = &f;
-      if (f.what != recording::records::kFaultEnds) continue;
-      if (const auto o = open.find(f.fault); o != open.end()) {
-        bar(*o->second, o->second->at, f.at);
-        open.erase(o);
-      }
-    }
-    for (const auto& [fault, begin] : open) bar(*begin, begin->at, to_);
-    for (const auto& f : faults_)
-      if (f.what == recording::records::kFaultActs && visible(f.at, f.at))
-        svg_->rect({x(f.at) - 0.7, fault_top_.at(f.fault) + 4, 1.4, 14}, {.fill = drawing::kVermilion}, f.text, "acts");
   }
 
   void states() {
@@ -276,11 +243,10 @@ class StartupPainter {
   std::vector<std::string> title_lines_, leader_lines_;
   TrueTime from_, to_;
   std::vector<StateSpan> spans_;
-  std::vector<StartupData::Fault> faults_;
+  drawing::FaultLanes faults_;
   std::optional<LeadingNode> leader_;
   std::vector<drawing::LegendEntry> legend_;
   std::map<std::int64_t, TrueTime> cycles_;
-  std::map<std::uint32_t, double> fault_top_;
   std::map<NodeId, double> node_top_;
   std::set<NodeId> on_flexray_;
   drawing::Area plot_;

@@ -11,8 +11,7 @@
 
 namespace ttf::report::startup {
 
-inline constexpr std::string_view kStartupFrameFill = drawing::kBlue, kOtherFrameFill = drawing::kStatusFrame,
-                                  kFaultFill = "#f2b8a0";
+inline constexpr std::string_view kStartupFrameFill = drawing::kBlue, kOtherFrameFill = drawing::kStatusFrame;
 
 std::string paint_startup(const drawing::Names& names, const StartupData& data, Duration cycle, TrueTime from,
                           TrueTime to, const drawing::Sheet& sheet);

@@ -109,20 +109,4 @@ std::string_view short_name(std::uint8_t state) {
   }
 }
 
-std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
-                                              TrueTime to) {
-  std::map<std::uint32_t, std::pair<TrueTime, TrueTime>> spans;  // from its first record to its end
-  for (const StartupData::Fault& f : faults) {
-    auto& [begin, end] = spans.try_emplace(f.fault, f.at, to).first->second;
-    begin = std::min(begin, f.at);
-    if (f.what == recording::records::kFaultEnds) end = f.at;
-  }
-  std::vector<StartupData::Fault> there;
-  std::copy_if(faults.begin(), faults.end(), std::back_inserter(there), [&](const StartupData::Fault& f) {
-    const auto& [begin, end] = spans.at(f.fault);
-    return begin < to && end >= from;
-  });
-  return there;
-}
-
 }  // namespace ttf::report::startup

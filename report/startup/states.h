@@ -38,8 +38,4 @@ StatePhase phase_of(std::uint8_t state);
 // Returns a name for narrow bars, or "" if the state has no short name.
 std::string_view short_name(std::uint8_t state);
 
-// Returns all records of the faults that are present in a window.
-std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
-                                              TrueTime to);
-
 }  // namespace ttf::report::startup

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "recording/records/records.h"
+#include "report/drawing/fault_lanes.h"
 
 namespace ttf::report::timing {
 
@@ -77,13 +78,6 @@ struct TimingData {
     bool fresh;
     bool stale = false;  // too late to be of use
   };
-  struct Fault {
-    TrueTime at;
-    std::uint32_t fault;
-    std::uint8_t what;
-    NodeId node;
-    std::string kind, text;
-  };
   struct OnChannel {  // recording::records::ChannelFrame
     TrueTime start, end;
     NodeId sender;
@@ -112,7 +106,8 @@ struct TimingData {
   std::vector<Step> steps;
   std::vector<Image> images;
   std::vector<Use> uses;
-  std::vector<Fault> faults;  // begins and ends of the log up to the window's end; acts only in the window
+  std::vector<drawing::FaultEvent>
+      faults;  // begins and ends of the log up to the window's end; acts only in the window
   std::vector<OnChannel> on_channel;
   std::vector<Problem> problems;
 };

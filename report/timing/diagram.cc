@@ -62,7 +62,7 @@ void TimingDiagram::on(const recording::records::FeatureUsed& r) {
 void TimingDiagram::on(const recording::records::FaultActivity& r) {
   // An old fault may still last.
   if (drawing::possible(r.at) && r.at <= to_ && (r.what != recording::records::kFaultActs || r.at >= from_))
-    data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+    data_.faults.push_back(r);
 }
 void TimingDiagram::on(const recording::records::ChannelFrame& r) {
   if (near(r.start, r.end) && drawing::possible(r.sent))

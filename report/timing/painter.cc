@@ -29,7 +29,7 @@ class TimingPainter : TimingCanvas {
  public:
   TimingPainter(const TimingCanvas& empty, Duration cycle)
       : TimingCanvas(empty), cycle_(cycle), transfers_(transfers_of(data)), ways_(ways_of(data)),
-        faults_(data, names, from, to) {
+        faults_(data.faults, names, from, to) {
     lanes_ = lanes_of(data, names, ways_);
     const double ms = (to - from).seconds() * 1e3;
     plot.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
@@ -68,9 +68,14 @@ class TimingPainter : TimingCanvas {
     if (!tags.on()) svg.lines({24, 22}, title_lines_, {.size = 14, .bold = true});
     grid();
     faults_.draw_labels(svg, plot);
+    if (const double y = plot.y + faults_.height(); faults_.count() > 0)
+      svg.line({12, y}, {plot.x + plot.width, y}, {.stroke = "#999999", .width = 0.8});
     svg.open_group("events", plot);
     faults_.draw(
-        svg, plot, [&](TrueTime t) { return x(t); }, tags);
+        svg, plot, [&](TrueTime t) { return x(t); },
+        [&](TrueTime start, std::optional<TrueTime> end, bool beyond) {
+          return end ? tags.span(start, *end) + (beyond ? tags.beyond() : "") : tags.at(start);
+        });
     slots();
     channel_marks();
     can();
@@ -267,7 +272,7 @@ class TimingPainter : TimingCanvas {
   std::vector<std::string> title_lines_;
   std::vector<Transfer> transfers_;
   Ways ways_;
-  FaultLanes faults_;
+  drawing::FaultLanes faults_;
   std::vector<ChannelMark> marks_;
   std::optional<ProblemMarks> problems_;  // set once the lanes are known
   std::vector<Lane> lanes_;

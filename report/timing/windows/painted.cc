@@ -12,10 +12,6 @@ namespace {
 // Records come in the order of their begins, some a little later: a second is more than any of them waits.
 constexpr Duration kSlack = Duration::milliseconds(1000);
 
-recording::records::FaultActivity activity(const auto& fault) {
-  return {fault.at, fault.fault, fault.what, fault.node, fault.kind, fault.text};
-}
-
 }  // namespace
 
 PaintedWindows::PaintedWindows(drawing::Names names, Duration cycle, TrueTime anchor, Duration length, Painted painted)
@@ -45,7 +41,7 @@ void PaintedWindows::open(std::int64_t window) {
   const auto [one, opened] =
       open_.try_emplace(window, names_, cycle_, std::max(begin_of(window), TrueTime{}), begin_of(window + 1));
   if (!opened) return;
-  for (const Fault& fault : faults_) one->second.on(activity(fault));
+  for (const drawing::FaultEvent& fault : faults_) one->second.on(fault.record());
 }
 
 void PaintedWindows::close_before(TrueTime t) {
@@ -80,7 +76,7 @@ void PaintedWindows::on(const recording::records::TimingProblem& r) { pass(r, r.
 void PaintedWindows::on(const recording::records::FaultActivity& r) {
   if (r.what == recording::records::kFaultActs) return pass(r, r.at, r.at);
   for (auto& [window, diagram] : open_) diagram.on(r);
-  faults_.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+  faults_.push_back(r);
 }
 
 }  // namespace ttf::report::timing::windows

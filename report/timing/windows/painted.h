@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "recording/records/records.h"
+#include "report/drawing/fault_lanes.h"
 #include "report/drawing/names.h"
 #include "report/timing/diagram.h"
 
@@ -53,15 +54,6 @@ class PaintedWindows final : public recording::records::Sink {
   void close_before(TrueTime t);
   void paint(std::int64_t window);
 
-  // A fault's begin or end, which later windows show, too.
-  struct Fault {
-    TrueTime at;
-    std::uint32_t fault;
-    std::uint8_t what;
-    NodeId node;
-    std::string kind, text;
-  };
-
   drawing::Names names_;
   Duration cycle_;
   TrueTime anchor_;
@@ -70,7 +62,7 @@ class PaintedWindows final : public recording::records::Sink {
   std::map<std::int64_t, TimingDiagram> open_;  // by number; 0 begins at the anchor
   std::int64_t next_;                           // windows before it are painted
   TrueTime newest_{};
-  std::vector<Fault> faults_;
+  std::vector<drawing::FaultEvent> faults_;  // their begins and ends, which later windows show, too
   bool full_ = false;
 };
 

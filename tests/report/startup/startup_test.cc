@@ -292,19 +292,6 @@ TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheSt
   EXPECT_EQ(spans.at(0).start.ns, 0);
 }
 
-TEST(StartupStates, FaultsAreThereFromBeginToEnd) {
-  const auto record = [](std::int64_t at, std::uint32_t fault, std::uint8_t what) {
-    return StartupData::Fault{{at}, fault, what, kNoNode, "noise", ""};
-  };
-  const std::vector<StartupData::Fault> faults = {
-      record(10, 0, recording::records::kFaultBegins), record(20, 0, recording::records::kFaultEnds),
-      record(10, 1, recording::records::kFaultBegins), record(60, 1, recording::records::kFaultEnds),
-      record(30, 2, recording::records::kFaultBegins), record(90, 3, recording::records::kFaultBegins)};
-  EXPECT_EQ(faults_within(faults, {40}, {80}).size(), 3u);
-  EXPECT_EQ(faults_within(faults, {0}, {100}).size(), faults.size());
-  EXPECT_EQ(faults_within(faults, {0}, {10}).size(), 0u);
-}
-
 TEST(StartupStates, ANodeThatBeganIntegratedWasInItsFirstStateFromTheBeginningOn) {
   StartupData data;
   data.changes = {change(30, 2, kStateNormalActive, kStateHalt)};
