@@ -50,15 +50,9 @@ std::string_view name_of(CanHarm harm) {
   TTF_CHECK(false, "harm {}", static_cast<int>(harm));
 }
 
-CanJudgement::Since CanJudgement::detected() const {
-  Since first;
-  for (const Since& since : seen_by_others)
-    if (since && (!first || *since < *first)) first = since;
-  return first;
-}
-
 CanJudge::CanJudge(const schedules::model::Cluster& cluster, const CanJudgeSettings& settings)
-    : settings_(settings), states_(cluster.nodes.size()), out_since_(cluster.nodes.size()) {
+    : CanJudgeBase(settings.from, settings.until, cluster.nodes.size()), settings_(settings),
+      states_(cluster.nodes.size()) {
   const schedules::model::CanBus& bus = cluster.can_buses[settings.bus];
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     if (is_on_can(cluster.nodes[n], settings.bus) && static_cast<NodeId>(n) != settings.faulty)
@@ -81,26 +75,13 @@ CanJudge::Message* CanJudge::message_of(std::uint32_t identifier) {
   return nullptr;
 }
 
-void CanJudge::notice(CanCheck check, bool by_others, bool by_itself, TrueTime at) {
-  if (!counts(at)) return;
-  const auto c = static_cast<std::size_t>(check);
-  if (by_others && !judgement_.seen_by_others[c]) judgement_.seen_by_others[c] = at;
-  if (by_itself && !judgement_.seen_by_itself[c]) judgement_.seen_by_itself[c] = at;
-}
-
-void CanJudge::harm(CanHarm harm, TrueTime at, NodeId node, NodeId sender, std::uint32_t identifier) {
-  if (!counts(at)) return;
-  auto& harmed = judgement_.harms[static_cast<std::size_t>(harm)];
-  if (!harmed) harmed = CanJudgement::Harmed{at, node, sender, identifier};
-}
-
 bool CanJudge::is_late(const Message& message, const Owed& frame, TrueTime at) const {
   const auto errors = std::min<std::int64_t>(kMostErrors, static_cast<std::int64_t>(errors_ - frame.errors_before));
   return at > frame.queued + message.response + cost_of_error_ * errors;
 }
 
 void CanJudge::lose(const Message& message, std::size_t first, std::size_t end, NodeId receiver, TrueTime at) {
-  if (first < end) harm(CanHarm::kFrameLost, at, receiver, message.sender, message.identifier);
+  if (first < end) harm(CanHarm::kFrameLost, at, receiver, message.sender, static_cast<int>(message.identifier));
 }
 
 void CanJudge::queued(NodeId sender, std::uint32_t identifier, std::span<const std::byte> data, TrueTime at) {
@@ -124,11 +105,13 @@ void CanJudge::received(NodeId receiver, std::uint32_t identifier, std::span<con
       std::find_if(message->frames.begin() + static_cast<std::ptrdiff_t>(next), message->frames.end(), is_it);
   if (found == message->frames.end()) {
     const bool twice = std::any_of(message->frames.begin(), found, is_it);
-    return harm(twice ? CanHarm::kFrameTwice : CanHarm::kFrameWrong, at, receiver, message->sender, identifier);
+    return harm(twice ? CanHarm::kFrameTwice : CanHarm::kFrameWrong, at, receiver, message->sender,
+                static_cast<int>(identifier));
   }
   const auto index = static_cast<std::size_t>(found - message->frames.begin());
   lose(*message, next, index, receiver, at);
-  if (is_late(*message, *found, at)) harm(CanHarm::kFrameLate, at, receiver, message->sender, identifier);
+  if (is_late(*message, *found, at))
+    harm(CanHarm::kFrameLate, at, receiver, message->sender, static_cast<int>(identifier));
   next = index + 1;
 }
 
@@ -169,21 +152,12 @@ void CanJudge::state_changed(const recording::records::CanStateChanged& change) 
   const NodeId node = change.stamp.node;
   const bool itself = node == settings_.faulty;
   states_[index_of(node)] = change.to;
-  std::optional<TrueTime>& out_since = out_since_[index_of(node)];
-  if (change.to == recording::records::kCanErrorActive) {
-    if (!out_since) return;
-    const TrueTime since = settings_.until <= at ? std::max(settings_.until, *out_since) : *out_since;
-    judgement_.recovery = std::max(judgement_.recovery.value_or(Duration{}), at - since);
-    out_since.reset();
-    return;
-  }
+  if (change.to == recording::records::kCanErrorActive) return came_back(node, at);
   const bool off = change.to == recording::records::kCanBusOff;
   notice(off ? CanCheck::kBusOff : CanCheck::kPassive, !itself, itself, at);
   if (itself && off) fails_ = 0;
-  if (!counts(at)) return;
-  if (!out_since) out_since = at;
-  CanJudgement::Since& first = off ? judgement_.bus_off : judgement_.passive;
-  if (!first) first = at;
+  went_out(node, at);
+  set_first(off ? judgement_.halt : judgement_.passive, at);
 }
 
 const CanJudgement& CanJudge::finish(TrueTime at) {
@@ -193,9 +167,7 @@ const CanJudgement& CanJudge::finish(TrueTime at) {
       for (std::size_t f = message.next[index_of(receiver)]; f < message.frames.size(); ++f)
         if (is_late(message, message.frames[f], at)) lose(message, f, f + 1, receiver, at);
     }
-  judgement_.still_out = static_cast<int>(
-      std::count_if(out_since_.begin(), out_since_.end(), [](const auto& since) { return since.has_value(); }));
-  return judgement_;
+  return finished();
 }
 
 }  // namespace ttf::evaluation::faults

@@ -12,30 +12,14 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "evaluation/faults/can_checks.h"
+#include "evaluation/faults/judgement.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::evaluation::faults {
 
-struct CanJudgement {
-  using Since = std::optional<TrueTime>;
-  std::array<Since, kAllCanChecks.size()> seen_by_others{};  // by CanCheck
-  std::array<Since, kAllCanChecks.size()> seen_by_itself{};  // by the faulty node's controller
-  struct Harmed {
-    TrueTime first{};
-    NodeId node = kNoNode;    // the receiver; kNoNode: uncontained
-    NodeId sender = kNoNode;  // the frame's
-    std::uint32_t identifier = 0;
-  };
-  std::array<std::optional<Harmed>, kAllCanHarms.size()> harms{};  // by CanHarm
-  Since passive, bus_off;                                          // any node's, the faulty one included
-  // Nodes that left error active: the longest time until one was back, and how many did not come back. The time counts
-  // from the loss or the end of the fault, whichever was later.
-  std::optional<Duration> recovery;
-  int still_out = 0;
-
-  Since detected() const;  // by others
-};
+using CanJudgeBase = JudgeOf<CanCheck, kAllCanChecks.size(), CanHarm, kAllCanHarms.size()>;
+using CanJudgement = CanJudgeBase::Judgement;
 
 struct CanJudgeSettings {
   std::size_t bus = 0;
@@ -44,7 +28,7 @@ struct CanJudgeSettings {
   TrueTime until{};         // its end
 };
 
-class CanJudge {
+class CanJudge : private CanJudgeBase {
  public:
   // Precondition: each message has a bounded response.
   CanJudge(const schedules::model::Cluster& cluster, const CanJudgeSettings& settings);
@@ -77,10 +61,7 @@ class CanJudge {
     std::vector<std::size_t> next;  // by receiver: the first frame that it has not received
   };
   Message* message_of(std::uint32_t identifier);
-  bool counts(TrueTime at) const { return at >= settings_.from; }
   bool is_late(const Message& message, const Owed& frame, TrueTime at) const;
-  void notice(CanCheck check, bool by_others, bool by_itself, TrueTime at);
-  void harm(CanHarm harm, TrueTime at, NodeId node, NodeId sender, std::uint32_t identifier);
   void lose(const Message& message, std::size_t first, std::size_t end, NodeId receiver, TrueTime at);
   void fails(std::uint8_t error, TrueTime at);
 
@@ -88,14 +69,12 @@ class CanJudge {
   std::vector<NodeId> receivers_;  // fault-free nodes
   std::vector<Message> messages_;
   Duration cost_of_error_{};
-  std::size_t errors_ = 0;                          // error frames
-  std::vector<std::uint8_t> states_;                // by NodeId
-  std::vector<std::optional<TrueTime>> out_since_;  // by NodeId
+  std::size_t errors_ = 0;            // error frames
+  std::vector<std::uint8_t> states_;  // by NodeId
   TrueTime frame_began_{};
   std::optional<std::uint32_t> lowest_;  // among frames that began together; none behind an error frame
   NodeId winner_ = kNoNode;
   std::uint32_t fails_ = 0;  // the faulty node's failures in a row
-  CanJudgement judgement_;
 };
 
 }  // namespace ttf::evaluation::faults

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "bus/controller/controller.h"
@@ -12,33 +11,14 @@
 #include "core/time.h"
 #include "evaluation/faults/checks.h"
 #include "evaluation/faults/frame_ledger.h"
+#include "evaluation/faults/judgement.h"
 #include "evaluation/faults/standings.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::evaluation::faults {
 
-// The judge's findings.
-struct Judgement {
-  using Since = std::optional<TrueTime>;                  // the first time, if any
-  std::array<Since, kAllChecks.size()> seen_by_others{};  // by Check
-  std::array<Since, kAllChecks.size()> seen_by_itself{};  // by the faulty node's own controller
-  struct Harmed {
-    TrueTime first{};
-    NodeId node = kNoNode;    // kNoNode: the precision is harmed
-    NodeId sender = kNoNode;  // the frame's
-    int slot = 0;
-  };
-  std::array<std::optional<Harmed>, kAllHarms.size()> harms{};  // by Harm
-  Since passive, halt;                                          // any node's, the faulty one included
-  // Nodes that lost normal active or their supply: the longest time until one was normal active again, and the
-  // number of nodes that did not come back. The time counts from the loss or the end of the fault, whichever
-  // was later.
-  std::optional<Duration> reintegration;
-  int still_out = 0;
-
-  bool harmed() const;
-  Since detected() const;  // by others
-};
+using FlexRayJudgeBase = JudgeOf<Check, kAllChecks.size(), Harm, kAllHarms.size()>;
+using Judgement = FlexRayJudgeBase::Judgement;
 
 struct JudgeSettings {
   std::vector<bool> faulty;  // by NodeId: named by the fault
@@ -51,7 +31,7 @@ struct JudgeSettings {
   std::array<bool, kAllChecks.size()> usual{};
 };
 
-class FaultJudge {
+class FaultJudge : private FlexRayJudgeBase {
  public:
   // Nodes are in normal operation if the drive begins so; else they have no supply.
   FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings settings);
@@ -81,17 +61,12 @@ class FaultJudge {
   const Judgement& finish(TrueTime at);
 
  private:
-  bool counts(TrueTime at) const { return at >= settings_.from; }
   void notice(Check check, NodeId by, TrueTime at);
-  void harm(Harm harm, TrueTime at, NodeId node, NodeId sender = kNoNode, int slot = 0);
   void left_active(NodeId node, TrueTime at);
-  void came_back(NodeId node, TrueTime at);
 
   JudgeSettings settings_;
   Standings standings_;
-  std::vector<std::optional<TrueTime>> out_since_;  // by NodeId: lost normal active, or its supply
   FrameLedger ledger_;
-  Judgement judgement_;
 };
 
 }  // namespace ttf::evaluation::faults

@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "evaluation/faults/can_judge.h"
 #include "experiments/campaign/full_list.h"
+#include "experiments/campaign/judged.h"
 #include "sim/engine/can_simulation.h"
 #include "sim/faults/injector.h"
 
@@ -162,48 +163,6 @@ class Trial final : public sim::engine::CanHosts, public recording::records::Sin
   std::vector<std::byte> bytes_;
 };
 
-template <class Times> unsigned bits_of(const Times& times) {
-  unsigned bits = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) bits |= times[i].has_value() ? 1u << i : 0u;
-  return bits;
-}
-
-FaultOutcome outcome_of(const CanJudgement& judgement, const sim::faults::Injector::Activation& activation) {
-  FaultOutcome outcome;
-  outcome.activated = activation.times > 0;
-  outcome.seen_by_others = static_cast<std::uint16_t>(bits_of(judgement.seen_by_others));
-  outcome.seen_by_itself = static_cast<std::uint16_t>(bits_of(judgement.seen_by_itself));
-  outcome.harms = static_cast<std::uint8_t>(bits_of(judgement.harms));
-  outcome.still_out = static_cast<std::int16_t>(judgement.still_out);
-  const auto after = [&](const CanJudgement::Since& since) {
-    return since ? std::optional(std::max<std::int64_t>(0, (*since - activation.first).ns)) : std::nullopt;
-  };
-  outcome.detected_after = after(judgement.detected());
-  outcome.passive_after = after(judgement.passive);
-  outcome.halt_after = after(judgement.bus_off);
-  if (judgement.recovery) outcome.reintegrated_after = judgement.recovery->ns;
-  const CanJudgement::Harmed* first = nullptr;
-  for (const auto& harm : judgement.harms)
-    if (harm && (first == nullptr || harm->first < first->first)) first = &*harm;
-  if (first != nullptr) {
-    outcome.harmed = first->node;
-    outcome.sender = first->sender;
-    outcome.frame_id = static_cast<int>(first->identifier);
-    outcome.harmed_after = after(first->first);
-  }
-  return outcome;
-}
-
-void tell(const CanJudgement& judgement, Story& story) {
-  for (const evaluation::faults::CanCheck check : evaluation::faults::kAllCanChecks) {
-    const auto c = static_cast<std::size_t>(check);
-    if (const auto& at = judgement.seen_by_others[c])
-      story.say(*at, fmt::format("noticed by others: {}", name_of(check)));
-    if (const auto& at = judgement.seen_by_itself[c])
-      story.say(*at, fmt::format("noticed by itself: {}", name_of(check)));
-  }
-}
-
 }  // namespace
 
 FaultOutcome run_trial(const Setting& setting, const Variant& variant, const DrawnFault& drawn, std::uint32_t index,
@@ -212,7 +171,7 @@ FaultOutcome run_trial(const Setting& setting, const Variant& variant, const Dra
   if (bit_by_bit) trial.go_bit_by_bit();
   trial.run_until(TrueTime{} + setting.campaign.duration);
   const CanJudgement& judgement = trial.finish();
-  if (story != nullptr) tell(judgement, *story);
+  if (story != nullptr) tell(judgement, evaluation::faults::kAllCanChecks, *story);
   return outcome_of(judgement, trial.activation());
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bus/poc/reason.h"
+#include "experiments/campaign/judged.h"
 
 namespace ttf::experiments::campaign::flexray {
 namespace {
@@ -42,13 +43,7 @@ void StoryInWords::guardian_intervened(const sim::medium::StarCoupler::Intervent
 }
 
 void StoryInWords::judged(const evaluation::faults::Judgement& judgement) {
-  for (const evaluation::faults::Check check : evaluation::faults::kAllChecks) {
-    const auto c = static_cast<std::size_t>(check);
-    if (judgement.seen_by_others[c])
-      story_.say(*judgement.seen_by_others[c], fmt::format("noticed by others: {}", name_of(check)));
-    if (judgement.seen_by_itself[c])
-      story_.say(*judgement.seen_by_itself[c], fmt::format("noticed by itself: {}", name_of(check)));
-  }
+  tell(judgement, evaluation::faults::kAllChecks, story_);
 }
 
 }  // namespace ttf::experiments::campaign::flexray

@@ -1,10 +1,10 @@
 #include "experiments/campaign/flexray/trial.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "evaluation/faults/reach.h"
 #include "experiments/campaign/flexray/trial_simulation.h"
+#include "experiments/campaign/judged.h"
 #include "faults/believed_schedule.h"
 #include "schedules/model/wire_times.h"
 #include "sim/medium/disturbance.h"
@@ -13,39 +13,6 @@ namespace ttf::experiments::campaign::flexray {
 namespace {
 
 constexpr int kCyclesToSettle = 2;  // after the last node became active
-
-template <class Times> std::uint16_t bits_of(const Times& times) {
-  unsigned bits = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) bits |= times[i].has_value() ? 1u << i : 0u;
-  return static_cast<std::uint16_t>(bits);
-}
-
-FaultOutcome outcome_of(const evaluation::faults::Judgement& judgement,
-                        const sim::faults::Injector::Activation& activation) {
-  FaultOutcome outcome;
-  outcome.activated = activation.times > 0;
-  outcome.seen_by_others = bits_of(judgement.seen_by_others);
-  outcome.seen_by_itself = bits_of(judgement.seen_by_itself);
-  outcome.harms = static_cast<std::uint8_t>(bits_of(judgement.harms));
-  outcome.still_out = static_cast<std::int16_t>(judgement.still_out);
-  const auto after = [&](const evaluation::faults::Judgement::Since& since) {
-    return since ? std::optional(std::max<std::int64_t>(0, (*since - activation.first).ns)) : std::nullopt;
-  };
-  outcome.detected_after = after(judgement.detected());
-  outcome.passive_after = after(judgement.passive);
-  outcome.halt_after = after(judgement.halt);
-  if (judgement.reintegration) outcome.reintegrated_after = judgement.reintegration->ns;
-  const evaluation::faults::Judgement::Harmed* first = nullptr;
-  for (const auto& harm : judgement.harms)
-    if (harm && (first == nullptr || harm->first < first->first)) first = &*harm;
-  if (first != nullptr) {
-    outcome.harmed = first->node;
-    outcome.sender = first->sender;
-    outcome.frame_id = first->slot;
-    outcome.harmed_after = after(first->first);
-  }
-  return outcome;
-}
 
 // A start-up without the fault: its findings are not effects of the fault.
 struct UsualStartup {

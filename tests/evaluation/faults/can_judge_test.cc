@@ -129,7 +129,7 @@ TEST_F(Judged, AFrameThatALaterOneOvertakesIsLost) {
   EXPECT_EQ(lost->first, at_us(2'100));
   EXPECT_EQ(lost->node, kReceiver);
   EXPECT_EQ(lost->sender, kSender);
-  EXPECT_EQ(lost->identifier, kOfSender);
+  EXPECT_EQ(lost->frame_id, static_cast<int>(kOfSender));
 }
 
 TEST_F(Judged, AFrameThatNeverComesIsLostOnceItIsOverdue) {
@@ -201,8 +201,8 @@ TEST_F(Judged, StatesAndTheirEnds) {
   EXPECT_EQ(judgement.seen_by_others[static_cast<std::size_t>(CanCheck::kPassive)], at_us(2'000));
   EXPECT_EQ(judgement.seen_by_itself[static_cast<std::size_t>(CanCheck::kBusOff)], at_us(3'000));
   EXPECT_EQ(judgement.passive, at_us(2'000));
-  EXPECT_EQ(judgement.bus_off, at_us(3'000));
-  EXPECT_EQ(judgement.recovery, Duration::milliseconds(4));
+  EXPECT_EQ(judgement.halt, at_us(3'000));
+  EXPECT_EQ(judgement.reintegration, Duration::milliseconds(4));
   EXPECT_EQ(judgement.still_out, 1);
   EXPECT_EQ(judgement.detected(), at_us(2'000));
 }

@@ -125,7 +125,7 @@ TEST_F(Story, H4AFrameReceivedOnNoChannelIsLost) {
   ASSERT_TRUE(harm(Harm::kFrameLost));
   EXPECT_EQ(harm(Harm::kFrameLost)->node, kBob);
   EXPECT_EQ(harm(Harm::kFrameLost)->sender, kAlice);
-  EXPECT_EQ(harm(Harm::kFrameLost)->slot, 2);
+  EXPECT_EQ(harm(Harm::kFrameLost)->frame_id, 2);
   EXPECT_EQ(harm(Harm::kFrameLost)->first, in_cycle(5, 50));
 }
 
