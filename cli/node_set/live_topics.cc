@@ -11,23 +11,21 @@
 #include "bus/can/confinement.h"
 #include "bus/dds/ros/publisher.h"
 #include "sim/drives/observer.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::node_set {
 namespace {
 
+using sim::drives::StepRole;
+
 constexpr Duration kHealthPeriod = Duration::milliseconds(1000);
 
-// Returns the period of the first task with that step, in real time; zero if the task has no time-triggered activation.
-Duration period_of(const NodeSet& set, std::string_view step, const nodes::runner::DriveClock& clock) {
-  for (const schedules::model::Node& node : set.cluster.nodes)
-    for (const schedules::model::Task& task : node.tasks)
-      if (task.step == step && task.activation.kind == schedules::model::ActivationKind::kTime)
-        return clock.in_real(set.cluster.cycle() * task.activation.at.repetition);
+// Returns the period of the first task of that role that time activates, in real time; zero without one.
+Duration period_of(const NodeSet& set, StepRole role, const nodes::runner::DriveClock& clock) {
+  for (const auto& [node, task] : tasks_with(set.cluster, role))
+    if (task->activation.kind == schedules::model::ActivationKind::kTime)
+      return clock.in_real(set.cluster.cycle() * task->activation.at.repetition);
   return {};
-}
-
-bool runs(const NodeSet& set, NodeId node, std::string_view step) {
-  return schedules::model::has_step(set.cluster.node(node), step);
 }
 
 Duration period_of(const NodeSet& set, const schedules::model::Sensor& sensor, const nodes::runner::DriveClock& clock) {
@@ -48,11 +46,11 @@ bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::Dr
   options.domain = bus::dds::ros::domain_of_environment();
   options.origin_realtime_ns = utc_ns(clock.origin());
   options.time_scale_ppm = clock.scale_ppm();
-  options.image_period = period_of(set, "image_output", clock);
-  options.step_period = period_of(set, "fusion", clock);
+  options.image_period = period_of(set, StepRole::kImageOutput, clock);
+  options.step_period = period_of(set, StepRole::kFusion, clock);
   options.health_period = kHealthPeriod;
-  options.images = runs(set, node, "image_output");
-  options.tracks = runs(set, node, "fusion");
+  options.images = has_role(set.cluster.node(node), StepRole::kImageOutput);
+  options.tracks = has_role(set.cluster.node(node), StepRole::kFusion);
   if (tells_truth(set, node)) {
     const sim::drives::Scenario& scenario = set.scenario;
     options.truth_objects =

@@ -1,25 +1,15 @@
 #include "experiments/sweep/driving.h"
 
-#include <string_view>
-
 #include "nodes/control/r157.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::experiments::sweep {
-namespace {
-
-const schedules::model::Task* task_of(const schedules::model::Cluster& cluster, std::string_view step) {
-  for (const schedules::model::Node& node : cluster.nodes)
-    for (const schedules::model::Task& task : node.tasks)
-      if (task.step == step) return &task;
-  return nullptr;
-}
-
-}  // namespace
 
 std::optional<evaluation::driving::LaneConfig> lane_kept(const sim::drives::Scenario& scenario,
                                                          const schedules::model::Cluster& cluster) {
   const sim::world::vehicle::EgoConfig& ego = *scenario.world.ego;
-  if (!ego.on || !scenario.world.road || !schedules::model::has_step(cluster, "lane_keeping")) return std::nullopt;
+  if (!ego.on || !scenario.world.road || !sim::drives::has_role(cluster, sim::drives::StepRole::kLaneKeeping))
+    return std::nullopt;
   return evaluation::driving::LaneConfig{*scenario.world.road, ego.on->lane, ego.vehicle.wheelbase(), ego.width};
 }
 
@@ -34,10 +24,10 @@ evaluation::driving::DrivingConfig driving_config(const sim::drives::Scenario& s
   config.reaction_speed_mps = scenario.reaction_speed_mps;
   config.minimum_gap = &nodes::control::minimum_following_distance;
   config.lane = lane_kept(scenario, cluster);
-  if (const schedules::model::Task* actuator = task_of(cluster, "actuator"))
-    config.reads_every = cluster.cycle() * actuator->activation.at.repetition;
-  config.warns_ahead = schedules::model::has_step(cluster, "emergency_braking");
-  if (schedules::model::has_step(cluster, "blind_spot_warning")) {
+  if (const auto actuators = sim::drives::tasks_with(cluster, sim::drives::StepRole::kActuator); !actuators.empty())
+    config.reads_every = cluster.cycle() * actuators.front().task->activation.at.repetition;
+  config.warns_ahead = sim::drives::has_role(cluster, sim::drives::StepRole::kEmergencyBraking);
+  if (sim::drives::has_role(cluster, sim::drives::StepRole::kBlindSpotWarning)) {
     const nodes::driving::BlindSpotConfig& spot = scenario.blind_spot;
     config.blind_spot = {spot.ahead_m, spot.behind_m, spot.nearest_m, spot.furthest_m};
   }

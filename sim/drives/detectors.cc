@@ -10,6 +10,7 @@
 #include "core/nearest.h"
 #include "schedules/model/ports.h"
 #include "schedules/sequence/history.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -167,8 +168,6 @@ void check_regions(const Scenario& scenario, const Cluster& cluster, const sched
 
 }  // namespace
 
-bool is_detector(const Task& task) { return task.step == "adaptive_camera"; }
-
 std::vector<SensorId> cameras_of(const Cluster& cluster, const Task& task) {
   std::vector<SensorId> cameras;
   for (const PortBinding& read : task.reads)
@@ -177,18 +176,17 @@ std::vector<SensorId> cameras_of(const Cluster& cluster, const Task& task) {
 }
 
 bool looks_at_regions(const Cluster& cluster, SensorId camera) {
-  for (const schedules::model::Node& node : cluster.nodes)
-    for (const Task& task : node.tasks)
-      if (is_detector(task)) return std::ranges::count(cameras_of(cluster, task), camera) > 0;
-  return true;
+  const std::vector<PlacedTask> detectors = tasks_with(cluster, StepRole::kDetector);
+  return detectors.empty() || std::ranges::count(cameras_of(cluster, *detectors.front().task), camera) > 0;
 }
 
 void check_detectors(const Cluster& cluster, Findings& findings) {
   std::string first;
   for (const schedules::model::Node& node : cluster.nodes)
     for (const Task& task : node.tasks) {
-      const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
-      if (is_detector(task)) {
+      const std::string path = PlacedTask{&node, &task}.path();
+      const bool detects = has_role(task, StepRole::kDetector);
+      if (detects) {
         if (!first.empty())
           findings.add(cluster.finding(
               task.line, path + ".step", task.step,
@@ -202,22 +200,17 @@ void check_detectors(const Cluster& cluster, Findings& findings) {
             line_of_holds(cluster, task, path), path + ".holds", fmt::format("{:g} ms", in_ms(task.holds)),
             fmt::format("must be absent: step {} writes at the end of the execution that reads", task.step)));
       }
-      if (!task.modes.empty() && !is_detector(task))
+      if (!task.modes.empty() && !detects)
         findings.add(cluster.finding(task.line, path + ".activation", "modes",
                                      fmt::format("must be of another kind: step {} knows no modes", task.step)));
     }
 }
 
-void check_detections(const Scenario& scenario, const Cluster& cluster) {
-  Findings findings;
-  for (const schedules::model::Node& node : cluster.nodes)
-    for (const Task& task : node.tasks) {
-      if (!is_detector(task)) continue;
-      check_whole_picture(scenario, cluster, task, fmt::format("nodes.{}.tasks.{}", node.name, task.name), findings);
-      check_modes_named(scenario, cluster, task, findings);
-      check_regions(scenario, cluster, node, task, findings);
-    }
-  findings.throw_if_any();
+void check_detection(const Scenario& scenario, const Cluster& cluster, const schedules::model::Node& node,
+                     const Task& task, Findings& findings) {
+  check_whole_picture(scenario, cluster, task, PlacedTask{&node, &task}.path(), findings);
+  check_modes_named(scenario, cluster, task, findings);
+  check_regions(scenario, cluster, node, task, findings);
 }
 
 std::vector<nodes::vision::SharedCamera> pictures_of(const Scenario& scenario, const Cluster& cluster,

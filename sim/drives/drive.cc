@@ -12,7 +12,6 @@
 #include "faults/believed_schedule.h"
 #include "nodes/fusion/fusion_host.h"
 #include "recording/records/tee.h"
-#include "sim/drives/detectors.h"
 #include "sim/drives/known_fields.h"
 #include "sim/drives/played_recording.h"
 #include "sim/drives/step_catalog.h"
@@ -100,14 +99,12 @@ void check_late(const Scenario& scenario, const schedules::model::Cluster& clust
 
 void check_fusion(const schedules::model::Cluster& cluster, fusion::strategies::StrategyKind strategy) {
   if (fusion::strategies::row_of(strategy).relies_on != fusion::strategies::ReliesOn::kSchedule) return;
-  for (const schedules::model::Node& node : cluster.nodes)
-    for (const schedules::model::Task& task : node.tasks)
-      if (task.step == "fusion" && task.activation.kind != schedules::model::ActivationKind::kTime)
-        throw InputError(cluster.finding(
-            task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
-            fmt::format(
-                "must be of kind time with strategy {}, which relies on fusion instants that the schedule knows",
-                name_of(strategy))));
+  for (const PlacedTask& fusion : tasks_with(cluster, StepRole::kFusion))
+    if (fusion.task->activation.kind != schedules::model::ActivationKind::kTime)
+      throw InputError(cluster.finding(
+          fusion.task->line, fusion.path() + ".activation", "",
+          fmt::format("must be of kind time with strategy {}, which relies on fusion instants that the schedule knows",
+                      name_of(strategy))));
 }
 
 void check_described(const schedules::model::Cluster& cluster) {
@@ -125,7 +122,7 @@ void check_fits(const Scenario& scenario, const schedules::model::Cluster& clust
   check_fusion(cluster, strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
-  check_detections(scenario, cluster);
+  check_tasks(scenario, cluster);
   const ttf::faults::FaultPlan faults = ttf::faults::resolve(scenario.faults, cluster);
   const ttf::faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -144,7 +141,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   check_fusion(cluster, config.strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
-  check_detections(scenario, cluster);
+  check_tasks(scenario, cluster);
   std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;

@@ -7,26 +7,13 @@
 #include "core/check.h"
 #include "faults/plan.h"
 #include "sim/drives/drive.h"
+#include "sim/drives/step_catalog.h"
 
 namespace ttf::sim::drives {
 namespace {
 
 using schedules::model::Cluster;
-using schedules::model::Node;
 using schedules::model::Task;
-
-struct ActuatorTask {
-  const Node* node;
-  const Task* task;
-};
-
-std::vector<ActuatorTask> actuators(const Cluster& cluster) {
-  std::vector<ActuatorTask> found;
-  for (const Node& node : cluster.nodes)
-    for (const Task& task : node.tasks)
-      if (task.step == "actuator") found.push_back({&node, &task});
-  return found;
-}
 
 // The vehicle has room for actuations of readings by time (sim/world/vehicle/driven.h). Lists that activate a task may
 // come in any number, if a node babbles.
@@ -36,8 +23,6 @@ bool is_by_time(const Task& task) { return task.activation.kind == schedules::mo
 Duration period_by_time(const Cluster& cluster, const Task& task) {
   return task.activation.at.repetition * cluster.cycle();
 }
-
-std::string key_of(const ActuatorTask& one) { return "nodes." + one.node->name + ".tasks." + one.task->name + ".step"; }
 
 const sim::world::Device& device_of(const Sensors& sensors, const schedules::model::Sensor& sensor) {
   switch (sensor.kind) {
@@ -63,12 +48,12 @@ Duration oldest_told(const Cluster& cluster) { return Duration{cluster.round().n
 }  // namespace
 
 void check_loop(const Scenario& scenario, const Cluster& cluster) {
-  const std::vector<ActuatorTask> found = actuators(cluster);
+  const std::vector<PlacedTask> found = tasks_with(cluster, StepRole::kActuator);
   const bool driven = scenario.world.ego && scenario.world.ego->actuator;
   if (found.empty() && !driven) return;
   const std::string key = "world.ego.actuator";
   if (!driven)
-    throw InputError(cluster.finding(found.front().task->line, key_of(found.front()), "actuator",
+    throw InputError(cluster.finding(found.front().task->line, found.front().path() + ".step", "actuator",
                                      fmt::format("needs a vehicle that it drives: {} has no {}", scenario.file, key)));
   const int line = scenario.world.ego->actuator_line;
   if (found.empty())
@@ -77,12 +62,12 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                                   cluster.file)});
   if (found.size() > 1)
     throw InputError(
-        cluster.finding(found[1].task->line, key_of(found[1]), "actuator",
+        cluster.finding(found[1].task->line, found[1].path() + ".step", "actuator",
                         fmt::format("must be absent: {} has an actuator, and a vehicle has one", found[0].node->name)));
   const Task& task = *found[0].task;
   if (!is_by_time(task) || period_by_time(cluster, task) < kLeastBetween)
     throw InputError(cluster.finding(
-        task.line, "nodes." + found[0].node->name + ".tasks." + task.name + ".activation", "",
+        task.line, found[0].path() + ".activation", "",
         fmt::format("must be by time, once in {:g} ms at most: the task moves the vehicle", in_ms(kLeastBetween))));
   if (scenario.truth)
     throw InputError(
@@ -99,12 +84,6 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                       fmt::format("{:g} ms", in_ms(actuator.oldest)),
                       fmt::format("must be from 1 ms to below {:g} ms: stamps are told apart within a round of {}",
                                   in_ms(oldest_told(cluster)), cluster.file)});
-  for (const Node& node : cluster.nodes)
-    for (const Task& service : node.tasks)
-      if (service.step == "lane_keeping" && !scenario.world.road)
-        throw InputError(cluster.finding(service.line, "nodes." + node.name + ".tasks." + service.name + ".step",
-                                         "lane_keeping",
-                                         fmt::format("needs a lane: {} has no world.road", scenario.file)));
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
     const sim::world::DriveError time = device_of(scenario.sensors, sensor).time;
     if (time.fixed != 0.0 || time.sigma != 0.0)
@@ -135,7 +114,8 @@ std::string unused_sections(const Scenario& scenario, std::span<const Cluster> c
     if (std::ranges::any_of(clusters, [&](const Cluster& one) { return has_step(one, section.step); })) continue;
     if (!text.empty()) text += '\n';
     // The judge measures the error of the gap against this service's gap (experiments/sweep/driving.h).
-    const bool judges = section.step == "adaptive_cruise_control" && scenario.world.ego && scenario.world.ego->actuator;
+    const bool judges =
+        find_step(section.step)->role == StepRole::kCruise && scenario.world.ego && scenario.world.ego->actuator;
     text += Finding{scenario.file, section.line, section.step, "",
                     fmt::format("has no effect{}: no task of the cluster has this step",
                                 judges ? " but on the judged error of the gap" : "")}
@@ -145,13 +125,13 @@ std::string unused_sections(const Scenario& scenario, std::span<const Cluster> c
 }
 
 Duration between_readings(const Cluster& cluster) {
-  const std::vector<ActuatorTask> found = actuators(cluster);
+  const std::vector<PlacedTask> found = tasks_with(cluster, StepRole::kActuator);
   if (found.empty() || !is_by_time(*found.front().task)) return kLeastBetween;
   return std::max(kLeastBetween, period_by_time(cluster, *found.front().task));
 }
 
 std::optional<NodeId> actuator_node(const Cluster& cluster) {
-  const std::vector<ActuatorTask> found = actuators(cluster);
+  const std::vector<PlacedTask> found = tasks_with(cluster, StepRole::kActuator);
   return found.empty() ? std::nullopt : cluster.find_node(found.front().node->name);
 }
 

@@ -5,6 +5,7 @@
 #include "core/counted.h"
 #include "core/decimal.h"
 #include "sim/drives/drive.h"
+#include "sim/drives/step_catalog.h"
 #include "sim/engine/cluster_simulation.h"
 
 namespace ttf::sim::drives {
@@ -28,10 +29,9 @@ std::string sentence_of(const RecordingUse::OfSensor& of, const RecordingUse& us
 
 std::vector<SensorId> played_sensors(const schedules::model::Cluster& cluster) {
   std::vector<SensorId> sensors;
-  for (const schedules::model::Node& node : cluster.nodes)
-    for (const schedules::model::Task& task : node.tasks)
-      if (task.step == "recorded_source" && task.activation.kind == schedules::model::ActivationKind::kSensor)
-        sensors.push_back(task.activation.sensor);
+  for (const PlacedTask& source : tasks_with(cluster, StepRole::kRecordedSource))
+    if (source.task->activation.kind == schedules::model::ActivationKind::kSensor)
+      sensors.push_back(source.task->activation.sensor);
   return sensors;
 }
 

@@ -81,7 +81,7 @@ std::string refusal(const std::string& key, const std::string& changed, const st
     const schedules::model::Cluster cluster = schedules::file::parse_cluster(text, "cluster.yaml");
     check_steps(cluster);
     const std::string file = shipped(kShared);
-    check_detections(parse_scenario(read_file(file) + scenario, "shared.yaml"), cluster);
+    check_tasks(parse_scenario(read_file(file) + scenario, "shared.yaml"), cluster);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -121,7 +121,7 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
     std::string other = text;
     other.replace(other.find(region), region.size(), changed);
     try {
-      check_detections(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
+      check_tasks(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -137,7 +137,7 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
     std::string other = text;
     other.replace(at, end - at, place);
     try {
-      check_detections(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
+      check_tasks(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -154,7 +154,7 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
 schedules::model::Task& detector_of(schedules::model::Cluster& cluster) {
   for (schedules::model::Node& node : cluster.nodes)
     for (schedules::model::Task& task : node.tasks)
-      if (is_detector(task)) return task;
+      if (has_role(task, StepRole::kDetector)) return task;
   throw std::logic_error("no detector");
 }
 

@@ -172,7 +172,7 @@ std::string refused(const std::string& rows) {
     for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path))
       text.replace(at, path.size(), shipped("schedules/"));
   try {
-    check_detections(parse_scenario(text, "modes.yaml"), Drive(kDrive, StrategyKind::kTt).cluster);
+    check_tasks(parse_scenario(text, "modes.yaml"), Drive(kDrive, StrategyKind::kTt).cluster);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -187,8 +187,8 @@ TEST(ModesOfAScenario, AreThoseOfTheDetectorAndItsCameras) {
   EXPECT_THAT(refused("    - {mode: ABC, regions: [camera_d]}\n"),
               HasSubstr("adaptive_camera.modes.regions = camera_d: must be cameras of the detector of "));
   try {
-    check_detections(load_scenario(shipped(kDrive)),
-                     schedules::file::load_cluster(shipped("schedules/adaptive_loop_synchronised.yaml")));
+    check_tasks(load_scenario(shipped(kDrive)),
+                schedules::file::load_cluster(shipped("schedules/adaptive_loop_synchronised.yaml")));
     FAIL() << "taken";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("adaptive_camera.modes.mode = ABC: must be absent: the detector of "));
@@ -196,7 +196,7 @@ TEST(ModesOfAScenario, AreThoseOfTheDetectorAndItsCameras) {
   Scenario slow = load_scenario(shipped(kDrive));
   slow.adaptive_camera.hardware_factor = 0.3;
   try {
-    check_detections(slow, Drive(kDrive, StrategyKind::kTt).cluster);
+    check_tasks(slow, Drive(kDrive, StrategyKind::kTt).cluster);
     FAIL() << "taken";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("modes.ABC.detections[0].lasts = 59 ms: must be at least 69.45 ms: a whole "
