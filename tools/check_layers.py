@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Compares every source with the modules' table, tools/modules.toml: which module may include which, and by which public headers. A test.
 
-    check_layers.py [REPOSITORY]      exit 1 and one line for every problem
+    check_layers.py [REPOSITORY]                exit 1 and one line for every problem
+    check_layers.py --changed [REPOSITORY]      of the files that differ from the last commit alone: a second, before a commit
 
 Between modules, the rule covers every header that a file sees, directly or through others. Between parts and at public headers, it
 covers the file's own includes. Every source lies in a module. The project's own headers are included with quotes, by their path
@@ -12,8 +13,10 @@ tests/tools/check_layers_test.py tries the ways around.
 
 import pathlib
 import re
+import subprocess
 import sys
 import tomllib
+from collections.abc import Callable
 
 MOST_SOURCES = 25
 THREAD_HEADERS = {"thread", "mutex", "shared_mutex", "future", "atomic", "condition_variable", "semaphore", "latch",
@@ -112,16 +115,16 @@ def include_problem(table: Modules, root: pathlib.Path, include: str) -> str | N
     return None
 
 
-def seen_from(name: str, quoted: dict[str, list[str]]) -> dict[str, list[str]]:
+def seen_from(name: str, quoted: Callable[[str], list[str]]) -> dict[str, list[str]]:
     """Every header a file sees, with the way to it: the headers in between."""
     ways = {}
-    waiting = [(include, []) for include in quoted.get(name, [])]
+    waiting = [(include, []) for include in quoted(name)]
     while waiting:
         include, way = waiting.pop(0)
         if include in ways:
             continue
         ways[include] = way
-        waiting += [(further, way + [include]) for further in quoted.get(include, [])]
+        waiting += [(further, way + [include]) for further in quoted(include)]
     return ways
 
 
@@ -211,49 +214,88 @@ def namespace_problems(name: str, text: str) -> list[str]:
             if space not in own and DEFINITION.search(body)]
 
 
-def problems(root: pathlib.Path, table: Modules) -> list[str]:
-    found = circles(table.allowed)
-    quoted = {}
-    files = source_files(root)
-    for file in files:
-        name = file.relative_to(root).as_posix()
-        if table.module_of(name) is None:
-            found.append(f"{name}: is in no module")
-            continue
-        if file.suffix not in SOURCES and not (file.suffix == ".c" and table.module_of(name) in MAY_BE_IN_C):
-            found.append(f"{name}: sources are .h and .cc")
-        quoted[name] = []
-        text = file.read_text(encoding="utf-8")
-        found += namespace_problems(name, text)
-        found += shared_state_problems(name, text)
-        for argument in directives(text):
-            if quotes := re.fullmatch(r'"([^"]+)"', argument):
-                if problem := include_problem(table, root, quotes[1]):
-                    found.append(f'{name}: "{quotes[1]}" {problem}')
-                else:
-                    quoted[name].append(quotes[1])
-                    found += inside_problems(table, name, quotes[1])
-            elif angles := re.fullmatch(r"<([^>]+)>", argument):
-                parts = angles[1].split("/")
-                if ".." in parts or "." in parts or "" in parts or (root / angles[1]).exists() or table.module_of(angles[1]):
-                    found.append(f"{name}: <{angles[1]}>: the project's own headers are included with quotes")
-                if angles[1] in THREAD_HEADERS and not table.may_use_threads(name):
-                    found.append(f"{name}: <{angles[1]}>: threads live only in the runner, the media, the log writer and "
-                                 "the sweep engine")
+def file_problems(table: Modules, root: pathlib.Path, name: str, text: str, quoted: list[str]) -> list[str]:
+    """The problems of one source, and in `quoted` the project's own headers that it includes."""
+    module = table.module_of(name)
+    if module is None:
+        return [f"{name}: is in no module"]
+    found = []
+    suffix = pathlib.PurePath(name).suffix
+    if suffix not in SOURCES and not (suffix == ".c" and module in MAY_BE_IN_C):
+        found.append(f"{name}: sources are .h and .cc")
+    found += namespace_problems(name, text)
+    found += shared_state_problems(name, text)
+    for argument in directives(text):
+        if quotes := re.fullmatch(r'"([^"]+)"', argument):
+            if problem := include_problem(table, root, quotes[1]):
+                found.append(f'{name}: "{quotes[1]}" {problem}')
             else:
-                found.append(f"{name}: #include {argument}: includes name a file")
-    for name in quoted:
+                quoted.append(quotes[1])
+                found += inside_problems(table, name, quotes[1])
+        elif angles := re.fullmatch(r"<([^>]+)>", argument):
+            parts = angles[1].split("/")
+            if ".." in parts or "." in parts or "" in parts or (root / angles[1]).exists() or table.module_of(angles[1]):
+                found.append(f"{name}: <{angles[1]}>: the project's own headers are included with quotes")
+            if angles[1] in THREAD_HEADERS and not table.may_use_threads(name):
+                found.append(f"{name}: <{angles[1]}>: threads live only in the runner, the media, the log writer and "
+                             "the sweep engine")
+        else:
+            found.append(f"{name}: #include {argument}: includes name a file")
+    return found
+
+
+class Sources:
+    """Reads a source when it is first asked for: its problems, and the project's own headers that it includes."""
+
+    def __init__(self, root: pathlib.Path, table: Modules):
+        self.root, self.table, self.read = root, table, {}
+
+    def of(self, name: str) -> tuple[list[str], list[str]]:
+        if name not in self.read:
+            quoted = []
+            file = self.root / name
+            found = (file_problems(self.table, self.root, name, file.read_text(encoding="utf-8"), quoted)
+                     if file.is_file() else [])   # a generated header
+            self.read[name] = (found, quoted)
+        return self.read[name]
+
+    def quoted(self, name: str) -> list[str]:
+        return self.of(name)[1]
+
+
+def problems(root: pathlib.Path, table: Modules, only: set[str] | None = None) -> list[str]:
+    """Returns the problems of all sources, or of these in `only`."""
+    found = circles(table.allowed)
+    sources = Sources(root, table)
+    names = [file.relative_to(root).as_posix() for file in source_files(root)]
+    checked = [name for name in names if only is None or name in only]
+    for name in checked:
+        found += sources.of(name)[0]
+    placed = [name for name in names if table.module_of(name) is not None]
+    for name in checked:
         module = table.module_of(name)
-        for include, way in seen_from(name, quoted).items():
+        if module is None:
+            continue
+        for include, way in seen_from(name, sources.quoted).items():
             target = table.module_of(include)
             if target != module and target not in table.allowed[module]:
                 over = f" over {', '.join(way)}" if way else ""
                 found.append(f'{name}: {module} may not include {target} ("{include}"{over})')
-    return found + folder_problems(table, list(quoted))
+    return found + folder_problems(table, placed)
+
+
+def changed(root: pathlib.Path) -> set[str]:
+    """The files that differ from the last commit."""
+    git = ["git", "-C", str(root)]
+    said = [subprocess.run(git + command, check=True, capture_output=True, text=True).stdout.splitlines()
+            for command in (["diff", "--name-only", "HEAD"], ["ls-files", "--others", "--exclude-standard"])]
+    return set(said[0] + said[1])
 
 
 if __name__ == "__main__":
-    top = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
-    result = problems(top, read_modules())
+    arguments = sys.argv[1:]
+    part = arguments[:1] == ["--changed"]
+    top = pathlib.Path((arguments[part:] or ["."])[0]).resolve()
+    result = problems(top, read_modules(), changed(top) if part else None)
     print("\n".join(result) or "layers: every include obeys the table")
     sys.exit(1 if result else 0)

@@ -3,6 +3,7 @@
 
     tools/words.py FILE...      for each file: sentences, mean words a sentence, the longest, and each find with its line
     tools/words.py --check      all of the tree against the bounds in tools/words.toml: exit 1 and name what is over
+    tools/words.py --changed    the files that differ from the last commit: exit 1 and name each find that the commit has not
     tools/words.py --update     lowers the bounds to the values of today; never raises one
 
 A text is what comments (C++, shell, Python, CMake, YAML) and Markdown pages say in sentences. Code blocks, tables,
@@ -12,8 +13,9 @@ line, at an empty line, and at each item of a list. A find is a phrase of PHRASE
 import re
 import subprocess
 import sys
+import tempfile
 import tomllib
-from collections import defaultdict
+from collections import Counter, defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -135,13 +137,44 @@ def room_of(name):
     return name.parts[0] if len(name.parts) > 1 else "."
 
 
+def git(root, *command):
+    return subprocess.run(["git", "-C", root, *command], check=True, capture_output=True, text=True).stdout
+
+
+def has_sentences(name):
+    return name.suffix in CODE_SUFFIXES | HASH_SUFFIXES | {".md"} or name.name == "CMakeLists.txt"
+
+
+def new_finds(root):
+    """(file, find) of the files that differ from the last commit: finds that the commit has not."""
+    names = git(root, "diff", "--name-only", "HEAD").splitlines()
+    names += git(root, "ls-files", "--others", "--exclude-standard").splitlines()
+    committed = set(git(root, "ls-tree", "-r", "--name-only", "HEAD").splitlines())
+    for name in sorted(set(names)):
+        if not has_sentences(Path(name)) or not (root / name).is_file():
+            continue
+        known = Counter()
+        if name in committed:
+            with tempfile.NamedTemporaryFile("w", suffix=Path(name).suffix) as before:
+                before.write(git(root, "show", f"HEAD:{name}"))
+                before.flush()
+                known = Counter((reason, match) for _, reason, match, _ in measure(Path(before.name))[2])
+        for find in measure(root / name)[2]:
+            known[find[1:3]] -= 1
+            if known[find[1:3]] < 0:
+                yield name, find
+
+
+def show(name, find):
+    line, reason, match, sentence = find
+    print(f"  {name}:{line}: {reason}: '{match.strip()[:40]}' in: {sentence[:90]}")
+
+
 def measured_tree():
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard"],
-                            check=True, capture_output=True, text=True).stdout.splitlines()
+    listed = git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines()
     words, count, finds = defaultdict(int), defaultdict(int), defaultdict(int)
     for name in sorted(map(Path, listed)):
-        known = name.suffix in CODE_SUFFIXES | HASH_SUFFIXES | {".md"} or name.name == "CMakeLists.txt"
-        if not known or not (ROOT / name).is_file():
+        if not has_sentences(name) or not (ROOT / name).is_file():
             continue
         _, lengths, found = measure(ROOT / name)
         module = room_of(name)
@@ -186,6 +219,11 @@ def check(update):
 def main(arguments):
     if arguments in (["--check"], ["--update"]):
         return check(arguments == ["--update"])
+    if arguments == ["--changed"]:
+        found = list(new_finds(ROOT))
+        for name, find in found:
+            show(name, find)
+        return 1 if found else 0
     if not arguments or arguments[0].startswith("-"):
         print(__doc__)
         return 2
@@ -197,8 +235,8 @@ def main(arguments):
         longest = max(range(len(said)), key=lambda i: lengths[i])
         print(f"{name}: {len(said)} sentences, {sum(lengths) / len(said):.1f} words each, "
               f"{lengths[longest]} the longest (line {said[longest][0]}), {len(finds)} finds")
-        for line, reason, match, sentence in finds:
-            print(f"  {name}:{line}: {reason}: '{match.strip()[:40]}' in: {sentence[:90]}")
+        for find in finds:
+            show(name, find)
     return 0
 
 
