@@ -21,7 +21,7 @@ config::TrackerConfig uniting(double probability = 0.99) {
   return config;
 }
 
-int confirmed(const TrackSet& set) {
+int confirmed_count(const TrackSet& set) {
   return static_cast<int>(
       std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; }));
 }
@@ -57,12 +57,12 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
       int most = 0;
       bool were_united = false;
       for (const OwnedList& s : two_views()) {
-        const int before = confirmed(united.current());
+        const int before = confirmed_count(united.current());
         const bool both_live =
             std::all_of(united.current().tracks.begin(), united.current().tracks.end(),
                         [](const Track& t) { return !t.confirmed || (t.misses < 10 && t.existence > 0.5); });
         united.insert(s.view());
-        const int after = confirmed(united.current());
+        const int after = confirmed_count(united.current());
         most = std::max(most, after);
         were_united = were_united || (before == 2 && after == 1 && both_live);
         if (first == kNoTrack && after == 1) first = united.current().tracks[0].id;
@@ -70,7 +70,7 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
       EXPECT_EQ(most, 2) << "each view had its track";
       EXPECT_TRUE(were_united) << "neither was about to end by itself: " << static_cast<int>(association)
                                << static_cast<int>(birth);
-      ASSERT_EQ(confirmed(united.current()), 1);
+      ASSERT_EQ(confirmed_count(united.current()), 1);
       EXPECT_EQ(united.current().tracks[0].id, first) << "the older identity stays";
       const estimators::State x = state_of(united.current().tracks[0]);
       EXPECT_NEAR(x(0), 20.0 + 5.0 * 0.02 * 199, 0.3);
@@ -95,7 +95,7 @@ TEST(Twins, CarsSideBySideStayTwo) {
         list.push_back(position(x + sigma * stream.normal(), y + sigma * stream.normal(), sigma));
       tracker.step(set, list_of(0, k, at_ms(40 * k), list).view());
       if (k >= 5) {
-        ASSERT_GE(confirmed(set), 2) << k;
+        ASSERT_GE(confirmed_count(set), 2) << k;
       }
     }
   }

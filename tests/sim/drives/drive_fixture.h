@@ -30,4 +30,10 @@ struct Drive {
   }
 };
 
+inline evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
+  evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
+  drive.run(measures);
+  return measures.finish();
+}
+
 }  // namespace ttf::sim::drives

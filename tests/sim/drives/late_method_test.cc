@@ -20,12 +20,6 @@ Drive straight_drive(const char* scenario, StrategyKind strategy) {
   return drive;
 }
 
-evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
-  evaluation::accuracy::DriveMeasures measures(evaluation_start(drive.scenario));
-  drive.run(measures);
-  return measures.finish();
-}
-
 // Errors agree within some per cent, objects and lists exactly.
 void expect_nearly(const evaluation::accuracy::DriveSummary& other,
                    const evaluation::accuracy::DriveSummary& rewinding) {

@@ -13,12 +13,6 @@ namespace {
 
 using fusion::strategies::StrategyKind;
 
-evaluation::accuracy::DriveSummary summary_of(const Drive& drive) {
-  evaluation::accuracy::DriveMeasures measures(TrueTime{} + drive.scenario.evaluate_from);
-  drive.run(measures);
-  return measures.finish();
-}
-
 // The parked car alone, until the vehicle passes it.
 Drive past_a_parked_car(StrategyKind kind, const std::string& faults = {}) {
   const std::string file = shipped("scenarios/turning_ego.yaml");
