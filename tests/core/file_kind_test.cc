@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "tests/support/refusals.h"
 
 namespace ttf {
 namespace {
@@ -14,12 +15,7 @@ namespace {
 std::optional<FileKind> kind(const std::string& text) { return kind_of(StrictYaml::parse(text, "a.yaml")); }
 
 std::string refusal(const std::string& text, FileKind wanted) {
-  try {
-    expect_kind(StrictYaml::parse(text, "a.yaml"), wanted);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "left to the loader";
+  return support::refusal_of([&] { expect_kind(StrictYaml::parse(text, "a.yaml"), wanted); }, "left to the loader");
 }
 
 TEST(FileKind, IsToldByKeysThatNoOtherKindHas) {
@@ -61,12 +57,7 @@ std::string written(const char* name, const std::string& text) {
 }
 
 std::string refusal_of_file(const std::string& path, FileKind wanted) {
-  try {
-    (void)load_of_kind(path, wanted);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "left to the loader";
+  return support::refusal_of([&] { (void)load_of_kind(path, wanted); }, "left to the loader");
 }
 
 TEST(FileKind, FormatsOfExchangeAreTold) {
@@ -108,12 +99,7 @@ TEST(FileKind, TheLoaderHasTheRest) {
 
 TEST(FileKind, ARecordingIsOfNoKind) {
   const auto refusal_of = [](const char* path) -> std::string {
-    try {
-      refuse_any_kind(path, "a recording");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "left to the reader";
+    return support::refusal_of([&] { refuse_any_kind(path, "a recording"); }, "left to the reader");
   };
   EXPECT_EQ(refusal_of("scenarios/dynamics.yaml"),
             "scenarios/dynamics.yaml: this is a scenario, not a recording; `ttfusion run` takes it");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.h"
+#include "tests/support/refusals.h"
 
 namespace ttf {
 namespace {
@@ -21,12 +22,7 @@ const std::string kText =
 
 std::string with(std::string_view path, std::string_view value) { return with_value(kText, "a.yaml", path, value); }
 std::string refusal(std::string_view path, std::string_view value) {
-  try {
-    (void)with(path, value);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return support::refusal_of([&] { (void)with(path, value); }, "taken");
 }
 
 std::string replaced(const std::string& what, const std::string& by) {

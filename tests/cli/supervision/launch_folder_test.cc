@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "tests/cli/supervision/launch_fixture.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::cli::supervision {
 namespace {
@@ -145,12 +146,7 @@ TEST_F(Folder, SaysWhyItCannotBe) {
 
 TEST_F(Folder, IsOfOneLaunchAtATime) {
   const auto sentence_of = [&](const std::function<void()>& taken) -> std::string {
-    try {
-      taken();
-      return "";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+    return support::refusal_of([&] { taken(); });
   };
   const auto another = [&] { LaunchFolder(path("run"), {{"seed", 8}}, at(1)); };
   const auto look = [&] { FolderLock::refuse_if_held(path("run")); };

@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "experiments/sweep/drives.h"
 #include "tests/experiments/sweep/small_sweep.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -19,13 +20,12 @@ const std::string kHead =
 
 SweepFile file(const std::string& more) { return parse_sweep(kHead + more, TTF_SOURCE_DIR "/experiments/small.yaml"); }
 std::string refusal(const std::string& text) {
-  try {
-    const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
-    const SweepDrives drives(sweep);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return support::refusal_of(
+      [&] {
+        const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+        const SweepDrives drives(sweep);
+      },
+      "taken");
 }
 
 TEST(SweepFile, ListsRangesSettingsAndDraws) {

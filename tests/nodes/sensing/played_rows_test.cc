@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "schedules/file/loader.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::nodes::sensing {
 namespace {
@@ -53,12 +54,7 @@ PlayedRows played(const std::vector<std::int64_t>& stamps, const RecordedPlaying
 
 std::string refusal(const std::vector<std::int64_t>& stamps, const RecordedPlaying& playing = {},
                     const schedules::model::Cluster& cluster = shipped("laser_radar")) {
-  try {
-    (void)played(stamps, playing, cluster);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return support::refusal_of([&] { (void)played(stamps, playing, cluster); });
 }
 
 TEST(PlayedRows, OfTheScheduleAreThoseInTheirOrder) {

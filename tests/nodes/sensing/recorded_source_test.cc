@@ -7,6 +7,7 @@
 
 #include "nodes/sensing/recorded.h"
 #include "schedules/file/loader.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::nodes::sensing {
 namespace {
@@ -28,16 +29,13 @@ std::string refusal(const std::string& sensor, const RecordedInput& input) {
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");
   const SensorId id = *cluster.find_sensor(sensor);
   const schedules::model::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
-  try {
+  return support::refusal_of([&] {
     PlayedRows rows;
     for (const RecordedObservation& row : input.observations)
       if (row.sensor == sensor) rows.at.emplace_back(row);
     rows.times.resize(rows.at.size());
     const RecordedSource source(cluster, task, id, std::move(rows), TrueTime{});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(RecordedSource, TakesRowsOfItsSensorAndKindOnly) {

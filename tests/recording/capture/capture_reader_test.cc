@@ -4,6 +4,7 @@
 
 #include "core/errors.h"
 #include "tests/recording/capture_fixture.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::recording::capture {
 namespace {
@@ -47,12 +48,7 @@ Bytes section(bool big) {
 }
 
 std::string refusal(const std::string& bytes) {
-  try {
-    parse_capture(bytes, "bus.pcapng");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { parse_capture(bytes, "bus.pcapng"); });
 }
 
 std::string two_packets() {

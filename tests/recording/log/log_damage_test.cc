@@ -10,6 +10,7 @@
 #include "recording/records/tee.h"
 #include "tests/recording/log/log_fixture.h"
 #include "tests/recording/record_text.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::recording::log {
 namespace {
@@ -39,12 +40,7 @@ bool is_prefix(const std::vector<std::string>& part, const std::vector<std::stri
 
 // The refusal of a log cut to this size; empty if it is read.
 std::string refusal(std::size_t size) {
-  try {
-    (void)read(std::string_view(small_log()).substr(0, size));
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return support::refusal_of([&] { (void)read(std::string_view(small_log()).substr(0, size)); });
 }
 
 // The smallest readable part: it has the manifest.

@@ -10,6 +10,7 @@
 #include "recording/replay/sensor_timing.h"
 #include "tests/fusion/ego/vehicle.h"
 #include "tests/recording/replay/replay_rows.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::recording::replay {
 namespace {
@@ -118,12 +119,7 @@ TEST(RecordedEgo, EveryRowIsWithinTheMotion) {
 TEST(RecordedEgo, ContradictionsAreRefused) {
   ReplayConfig across = parse_replay_config("tracker: {cross_noise: 0.1}\n", "c.yaml", {}), both = exact_config();
   const auto sentence = [](ReplayConfig& config, bool poses) -> std::string {
-    try {
-      recorded_ego_of(motion(poses), "ego.csv", config);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+    return support::refusal_of([&] { recorded_ego_of(motion(poses), "ego.csv", config); }, "taken");
   };
   EXPECT_EQ(
       sentence(across, false),
@@ -141,12 +137,7 @@ TEST(EgoRows, AreReadInAnyOrder) {
 }
 
 std::string mistake(const std::string& text) {
-  try {
-    parse_ego_rows(text, "e.csv");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return support::refusal_of([&] { parse_ego_rows(text, "e.csv"); }, {});
 }
 TEST(EgoRows, MistakesAreTold) {
   EXPECT_EQ(mistake("time,x,y\n1,2,3\n"),

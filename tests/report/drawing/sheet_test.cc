@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "report/drawing/axes.h"
 #include "tests/report/layout.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::report::drawing {
 namespace {
@@ -13,12 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::string refused(double width_mm, double font_pt) {
-  try {
-    Sheet(width_mm, font_pt);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { Sheet(width_mm, font_pt); });
 }
 
 TEST(Sheet, HasTheWidthAndTheFontOfPaper) {

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "report/paper/drive.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::report::paper {
 namespace {
@@ -29,12 +30,7 @@ std::map<std::string, std::string> paper(const std::string& summary) {
 }
 
 std::string refusal(const std::string& summary) {
-  try {
-    paper(summary);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return support::refusal_of([&] { paper(summary); }, "taken");
 }
 
 TEST(PaperExperiment, OneTableAndOneScriptAMeasure) {

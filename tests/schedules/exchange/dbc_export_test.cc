@@ -13,6 +13,7 @@
 #include "schedules/model/sensor_lines.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/exchange/dbc_reader.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::schedules::exchange {
 namespace {
@@ -207,12 +208,7 @@ TEST(Dbc, NamesAreCIdentifiersAndUnique) {
 }
 
 std::string refusal(const model::Cluster& cluster, const std::string& can) {
-  try {
-    dbc_text(cluster, can);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { dbc_text(cluster, can); });
 }
 
 TEST(Dbc, RefusesWhatOneFileCannotSay) {

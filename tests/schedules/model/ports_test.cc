@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::schedules::model {
 namespace {
@@ -40,12 +41,7 @@ Cluster with_ports() {
 const std::vector<StepPorts> kSteps{{"fusion", {}, {}, true}, {"gateway", {"in"}, {"out"}, false}};
 
 std::vector<Finding> port_findings(const Cluster& cluster) {
-  try {
-    bind_ports(cluster, kSteps);
-  } catch (const InputError& error) {
-    return error.findings();
-  }
-  return {};
+  return support::findings_of([&] { bind_ports(cluster, kSteps); });
 }
 
 TEST(Ports, FitBothWays) { EXPECT_TRUE(port_findings(with_ports()).empty()); }

@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "schedules/synthesis/plan/loader.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::schedules::synthesis {
 
@@ -45,12 +46,7 @@ inline std::string without_instants(std::string text) {
 
 // Returns the findings of a plan's loader.
 inline std::vector<Finding> plan_findings(const std::string& text) {
-  try {
-    (void)plan::parse_plan(text, "plan.yaml");
-    return {};
-  } catch (const InputError& error) {
-    return error.findings();
-  }
+  return support::findings_of([&] { (void)plan::parse_plan(text, "plan.yaml"); });
 }
 
 }  // namespace ttf::schedules::synthesis

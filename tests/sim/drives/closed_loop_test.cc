@@ -13,6 +13,7 @@
 #include "tests/schedules/cluster_file.h"
 #include "tests/sim/drives/drive_fixture.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -140,12 +141,7 @@ TEST(ClosedLoop, KeepsItsLaneInABend) {
 }
 
 std::string refusal(const Drive& drive) {
-  try {
-    check_loop(drive.scenario, drive.cluster);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { check_loop(drive.scenario, drive.cluster); });
 }
 
 TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
@@ -189,14 +185,11 @@ std::string refusal_after(const std::string& change, const std::string& to) {
   const std::size_t at = text.find(change);
   if (at == std::string::npos) throw std::runtime_error(change);
   text.replace(at, change.size(), to);
-  try {
+  return support::refusal_of([&] {
     const schedules::model::Cluster cluster = schedules::file::parse_cluster(std::move(text), "loop.yaml");
     if (auto findings = schedules::check::check(cluster); !findings.empty()) throw InputError(std::move(findings));
     check_steps(cluster);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(ClosedLoop, AServiceThatIsNotFedOrReadIsRefused) {

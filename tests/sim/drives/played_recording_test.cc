@@ -16,6 +16,7 @@
 #include "sim/drives/surroundings.h"
 #include "sim/engine/cluster_simulation.h"
 #include "tests/sim/drives/drive_fixture.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -223,12 +224,7 @@ TEST(PlayedRecording, NoiseOfItsOwnReachesTheLists) {
 TEST(PlayedRecording, NoiseOfNoSensorIsRefused) {
   const schedules::model::Cluster cluster = schedules::file::load_cluster(shipped("schedules/laser_radar.yaml"));
   const auto refusal = [&](const std::string& noise) -> std::string {
-    try {
-      check_recording(with_noise(noise), cluster, true);
-      return "";
-    } catch (const InputError& error) {
-      return error.what();
-    }
+    return support::refusal_of([&] { check_recording(with_noise(noise), cluster, true); });
   };
   EXPECT_EQ(refusal(""), "");
   EXPECT_EQ(refusal("  sensors: {radar: {range: 0.2}}\n"), "");

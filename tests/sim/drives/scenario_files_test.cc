@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "sim/drives/scenario.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -79,12 +80,7 @@ TEST(ScenarioFiles, AnUnknownKeyAndATruncatedFileAreRefused) {
   const std::string path = ::testing::TempDir() + "broken_scenario.yaml";
   const auto refused = [&](const std::string& content) -> std::vector<Finding> {
     std::ofstream(path) << content;
-    try {
-      load_scenario(path);
-    } catch (const InputError& error) {
-      return error.findings();
-    }
-    return {};
+    return support::findings_of([&] { load_scenario(path); });
   };
   const auto unknown = refused(text + "\nweather: rain\n");
   ASSERT_EQ(unknown.size(), 1U);

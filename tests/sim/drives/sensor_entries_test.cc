@@ -15,6 +15,7 @@
 #include "sim/drives/scenario.h"
 #include "sim/drives/step_catalog.h"
 #include "sim/drives/surroundings.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -30,15 +31,14 @@ Scenario with(const std::string& text) {
 }
 
 std::string refusal(const std::string& text, const std::string& cluster = "two_lasers_synchronised") {
-  try {
-    const Scenario scenario = with(text);
-    schedules::model::Cluster checked = schedules::file::load_cluster(kFolder + cluster + ".yaml");
-    checked.file = cluster + ".yaml";
-    check_sensors(scenario, checked);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return support::refusal_of(
+      [&] {
+        const Scenario scenario = with(text);
+        schedules::model::Cluster checked = schedules::file::load_cluster(kFolder + cluster + ".yaml");
+        checked.file = cluster + ".yaml";
+        check_sensors(scenario, checked);
+      },
+      "taken");
 }
 
 TEST(SensorEntries, ASensorHasItsOwnOrThatOfItsKind) {
@@ -164,14 +164,13 @@ TEST(Odometry, AFusionThatReadsNoneHasATrackerWithoutIt) {
   EXPECT_TRUE(nodes::fusion::tracker_in(without_odometry(""), {}, "car.yaml").odometry);
   EXPECT_FALSE(nodes::fusion::tracker_in(without_odometry("fusion"), {}, "car.yaml").odometry);
   const auto refused = [](const std::string& tracker, std::string_view step) -> std::string {
-    try {
-      Findings none;
-      YamlMap root = StrictYaml::parse(tracker, "car.yaml").root(none);
-      (void)nodes::fusion::tracker_in(without_odometry(step), fusion::loading::load_tracker(root), "car.yaml");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+    return support::refusal_of(
+        [&] {
+          Findings none;
+          YamlMap root = StrictYaml::parse(tracker, "car.yaml").root(none);
+          (void)nodes::fusion::tracker_in(without_odometry(step), fusion::loading::load_tracker(root), "car.yaml");
+        },
+        "taken");
   };
   EXPECT_EQ(refused("motion: ctra\nodometry: {lever: 20}\n", "fusion"),
             "car.yaml:2: tracker.odometry: must be absent: no fusion task of moving.yaml reads odometry");

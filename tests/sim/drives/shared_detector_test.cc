@@ -12,6 +12,7 @@
 #include "sim/drives/detectors.h"
 #include "tests/sim/drives/drive_fixture.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -77,15 +78,14 @@ std::string refusal(const std::string& key, const std::string& changed, const st
   const std::size_t at = text.find(key);
   if (at == std::string::npos) return "no " + key;
   text.replace(at, key.size(), changed);
-  try {
-    const schedules::model::Cluster cluster = schedules::file::parse_cluster(text, "cluster.yaml");
-    check_steps(cluster);
-    const std::string file = shipped(kShared);
-    check_tasks(parse_scenario(read_file(file) + scenario, "shared.yaml"), cluster);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return support::refusal_of(
+      [&] {
+        const schedules::model::Cluster cluster = schedules::file::parse_cluster(text, "cluster.yaml");
+        check_steps(cluster);
+        const std::string file = shipped(kShared);
+        check_tasks(parse_scenario(read_file(file) + scenario, "shared.yaml"), cluster);
+      },
+      "taken");
 }
 
 TEST(SharedDetector, RefusesWhatItCannotLookAt) {
@@ -120,12 +120,8 @@ TEST(SharedDetector, RegionsAreOfItsCameras) {
   const auto refused = [&](const std::string& changed) -> std::string {
     std::string other = text;
     other.replace(other.find(region), region.size(), changed);
-    try {
-      check_tasks(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+    return support::refusal_of(
+        [&] { check_tasks(parse_scenario(other, "shared.yaml"), Drive(kShared, StrategyKind::kTt).cluster); }, "taken");
   };
   EXPECT_EQ(refused("{camera: camera_b,"), "taken");
   EXPECT_THAT(refused("{camera: camera_d,"),

@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "sim/drives/startup.h"
 #include "tests/bus/bus_rig.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives {
 namespace {
@@ -24,12 +25,7 @@ Startup startup_of(const std::string& yaml) {
 }
 
 std::string refusal(const std::string& yaml) {
-  try {
-    startup_of(yaml);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { startup_of(yaml); });
 }
 
 // Nodes node0 .. node3 on FlexRay, and a device off it.
@@ -43,12 +39,7 @@ schedules::model::Cluster five() {
 }
 
 std::string refusal(const Startup& startup, const schedules::model::Cluster& cluster) {
-  try {
-    node_starts(startup, cluster, 1, 0);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { node_starts(startup, cluster, 1, 0); });
 }
 
 TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {

@@ -11,6 +11,7 @@
 
 #include "nodes/sensing/scene.h"
 #include "tests/sim/world/drives.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::world {
 namespace {
@@ -27,21 +28,11 @@ WorldConfig with_ego(const std::string& ego, const std::string& objects = "") {
 }
 
 std::string sentence_about(const std::string& text) {
-  try {
-    world_from(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { world_from(text); });
 }
 
 std::vector<Finding> sentences_about(const std::string& text) {
-  try {
-    world_from(text);
-  } catch (const InputError& error) {
-    return error.findings();
-  }
-  return {};
+  return support::findings_of([&] { world_from(text); });
 }
 
 TEST(Ego, StandsAtTheOriginUnlessItDrives) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/sim/world/drives.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::world {
 namespace {
@@ -148,12 +149,7 @@ TEST(Sizes, AnObjectsOwnKeyReplacesTheWorlds) {
 }
 
 std::string mistake_in(const std::string& size) {
-  try {
-    world_from(with_size(size));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return support::refusal_of([&] { world_from(with_size(size)); }, "accepted");
 }
 
 TEST(Sizes, MistakesAreTold) {

@@ -19,6 +19,7 @@
 #include "bus/dds/exchange/exchange_supervisor.h"
 #include "core/errors.h"
 #include "tests/bus/dds/common/sessions.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::bus::dds::common {
 namespace {
@@ -30,12 +31,7 @@ using testing::IsEmpty;
 std::string called(const Session& session) { return "session " + session.name + " on DDS domain 17: "; }
 
 std::string complaint(const Session& session) {
-  try {
-    validate(session);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { validate(session); });
 }
 
 TEST(DdsSession, IsCheckedBeforeAnythingStarts) {

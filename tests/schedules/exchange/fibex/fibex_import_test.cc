@@ -12,6 +12,7 @@
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/exchange/fibex/fibex_compare.h"
 #include "tests/schedules/exchange/fibex/fibex_example.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::schedules::exchange::fibex {
 namespace {
@@ -32,12 +33,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string refusal_of(const std::string& text) {
-  try {
-    parse_fibex(text, "demo.xml");
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return support::refusal_of([&] { parse_fibex(text, "demo.xml"); });
 }
 
 class Powertrain : public testing::Test {

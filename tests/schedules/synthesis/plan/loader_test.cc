@@ -6,6 +6,7 @@
 #include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
 #include "tests/schedules/synthesis/plans.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::schedules::synthesis::plan {
 namespace {
@@ -98,12 +99,7 @@ std::vector<Finding> findings_beside(const std::string& base, const std::string&
   std::filesystem::create_directories(folder);
   for (const auto& [name, text] : {std::pair{"base.yaml", base}, std::pair{"heir.yaml", heir}})
     std::ofstream(folder + "/" + name, std::ios::binary) << text;
-  try {
-    (void)load_plan(folder + "/heir.yaml");
-    return {};
-  } catch (const InputError& error) {
-    return error.findings();
-  }
+  return support::findings_of([&] { (void)load_plan(folder + "/heir.yaml"); });
 }
 
 // A finding about what a base says names the base's file and line.

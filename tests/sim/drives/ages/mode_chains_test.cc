@@ -18,6 +18,7 @@
 #include "sim/drives/detectors.h"
 #include "tests/sim/drives/ages/followed_chains.h"
 #include "tests/sim/drives/drive_fixture.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::drives::ages {
 namespace {
@@ -171,12 +172,8 @@ std::string refused(const std::string& rows) {
   for (const std::string path : {"../schedules/"})
     for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path))
       text.replace(at, path.size(), shipped("schedules/"));
-  try {
-    check_tasks(parse_scenario(text, "modes.yaml"), Drive(kDrive, StrategyKind::kTt).cluster);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return support::refusal_of(
+      [&] { check_tasks(parse_scenario(text, "modes.yaml"), Drive(kDrive, StrategyKind::kTt).cluster); }, "taken");
 }
 
 TEST(ModesOfAScenario, AreThoseOfTheDetectorAndItsCameras) {

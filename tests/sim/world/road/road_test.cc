@@ -8,6 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "tests/support/refusals.h"
+
 namespace ttf::sim::world::road {
 namespace {
 
@@ -25,12 +27,7 @@ RoadConfig road_from(const std::string& text) {
 }
 
 std::string sentence_about(const std::string& text) {
-  try {
-    road_from(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { road_from(text); });
 }
 
 // Straight, into a left bend, back, and into a right one.

@@ -8,6 +8,7 @@
 
 #include "sim/world/traffic/lane_driver.h"
 #include "tests/sim/world/drives.h"
+#include "tests/support/refusals.h"
 
 namespace ttf::sim::world::traffic {
 namespace {
@@ -21,12 +22,7 @@ WorldConfig world(const std::string& text, std::int64_t ms = 20'000) {
 }
 
 std::string sentence_about(const std::string& text) {
-  try {
-    world_from(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return support::refusal_of([&] { world_from(text); });
 }
 
 // esmini's alks_r157_cut_in_quick_brake (v3.6.0, step 0.01 s): a lane change of 3 s from 2 s on, and braking from 4 s on.
