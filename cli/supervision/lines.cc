@@ -5,28 +5,20 @@
 #include <algorithm>
 #include <array>
 
+#include "core/utf8.h"
+
 namespace ttf::cli::supervision {
 namespace {
 
 constexpr unsigned char byte_of(char c) { return static_cast<unsigned char>(c); }
 constexpr bool is_continuation(char c) { return (byte_of(c) & 0xc0u) == 0x80u; }
 
-// Returns the length of the printable UTF-8 character that begins `text`; 0 otherwise. RFC 3629: no overlong forms, no
-// surrogates, at most U+10FFFF. C1 controls (U+0080..U+009F) are excluded, because terminals obey them.
+// Returns the length of the printable character that begins `text`; 0 otherwise. C1 controls (U+0080..U+009F) are
+// excluded, because terminals obey them.
 std::size_t character(std::string_view text) {
   const unsigned char lead = byte_of(text[0]);
-  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
-  if (lead < 0xc2 || lead > 0xf4) return 0;
-  const std::size_t length = lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-  if (text.size() < length) return 0;
-  if (!std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), is_continuation)) return 0;
-  const unsigned char second = byte_of(text[1]);
-  if (lead == 0xc2 && second < 0xa0) return 0;
-  if (lead == 0xe0 && second < 0xa0) return 0;
-  if (lead == 0xed && second > 0x9f) return 0;
-  if (lead == 0xf0 && second < 0x90) return 0;
-  if (lead == 0xf4 && second > 0x8f) return 0;
-  return length;
+  if (lead < 0x20 || lead == 0x7f || (lead == 0xc2 && text.size() > 1 && byte_of(text[1]) < 0xa0)) return 0;
+  return utf8_length(text);
 }
 
 // Returns the length of the first piece of a long line, without splitting a character.

@@ -1,422 +1,271 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <tuple>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
+#include "core/utf8.h"
 #include "recording/log/codec.h"
-#include "recording/records/lateness_bins.h"
+#include "recording/log/wire.h"
+#include "recording/records/fields.h"
 
 namespace ttf::recording::log {
 namespace {
 
-// Narrows a payload's values to a record's types, and remembers whether all of them fitted.
-class Reading {
+struct Nothing {};
+// A field's member only views its list, which stands in this storage.
+template <class Member> struct StorageOf : std::type_identity<Nothing> {};
+template <class Item, std::size_t extent>
+struct StorageOf<std::span<const Item, extent>> : std::type_identity<std::vector<Item>> {};
+template <> struct StorageOf<std::span<const std::byte>> : std::type_identity<Nothing> {};
+template <> struct StorageOf<std::optional<records::BelievedBox>> : std::type_identity<std::vector<double>> {};
+
+template <class Record, class Member, class Range>
+typename StorageOf<Member>::type storage_for(const records::Field<Record, Member, Range>&);
+template <class Record> Nothing storage_for(const records::Optional<Record>&);
+template <class Record, std::size_t count> Nothing storage_for(const records::Elements<Record, count>&);
+template <class Item, std::size_t columns> struct ColumnItems {
+  std::vector<Item> items;
+  std::array<std::size_t, columns> sizes;  // by column
+};
+template <class Record, class Item, class... Fields>
+ColumnItems<Item, sizeof...(Fields)> storage_for(const records::Columns<Record, Item, Fields...>&);
+
+template <class... Entries>
+std::tuple<decltype(storage_for(std::declval<Entries>()))...> storage(std::tuple<Entries...>);
+template <class Described>
+using Storage = decltype(storage(std::declval<decltype(records::kDescription<Described>.fields)>()));
+
+template <std::size_t... i>
+std::tuple<Storage<records::RecordAt<i + 1>>...> storage_of_kinds(std::index_sequence<i...>);  // only its type counts
+
+// The number of a struct's members: the most values that can initialise it. Fewer may fail, as some types have no
+// default.
+struct Anything {
+  template <class T> operator T() const;
+};
+template <class T, std::size_t... i> constexpr bool takes(std::index_sequence<i...>) {
+  return requires { T{(static_cast<void>(i), Anything{})...}; };
+}
+template <class T, std::size_t most = 30> constexpr std::size_t members_of() {
+  if constexpr (takes<T>(std::make_index_sequence<most>{}))
+    return most;
+  else
+    return members_of<T, most - 1>();
+}
+
+template <class Described> Described empty() { return {}; }
+template <> records::TrackState empty() {
+  static constexpr std::array<double, 36> kNothing{};
+  return {.stamp = {}, .state = std::span(kNothing).first<6>(), .covariance = std::span(kNothing)};
+}
+
+// Reads the fields of one record, or of a part of it, and remembers whether all of them fitted.
+template <class Described> class Decoding {
  public:
-  explicit Reading(Decoder::Lists& kept) : lists(kept) {}
+  static_assert(members_of<Described>() == std::tuple_size_v<Storage<Described>>, "a member without a field");
 
-  template <class Out, class In>
-  Out to(In value, Out low = std::numeric_limits<Out>::min(), Out high = std::numeric_limits<Out>::max()) {
-    must(value >= static_cast<In>(low) && value <= static_cast<In>(high));
-    return static_cast<Out>(value);
-  }
-  template <class Enum> Enum id(std::uint32_t value) {
-    return static_cast<Enum>(to<std::underlying_type_t<Enum>>(value));
-  }
-  template <class Enum> Enum choice(std::uint32_t value, Enum low, Enum high) {
-    using Number = std::underlying_type_t<Enum>;
-    return static_cast<Enum>(to<Number>(value, static_cast<Number>(low), static_cast<Number>(high)));
-  }
-  records::Stamp stamp(const ttfusion::Stamp& in) {
-    return {TrueTime{in.true_time()}, LocalTime{in.local()}, GlobalTime{in.global()}, id<NodeId>(in.node())};
-  }
-  MeasurementId measurement(const ttfusion::MeasurementId& in) { return {id<SensorId>(in.sensor()), in.sequence()}; }
-  records::ImageObject object(const ttfusion::ImageObject& in) {
-    return {id<TrackId>(in.track()),
-            in.x(),
-            in.y(),
-            in.heading(),
-            in.speed(),
-            in.acceleration(),
-            in.length(),
-            in.width(),
-            in.sigma_x(),
-            in.sigma_y(),
-            in.correlation_xy(),
-            in.sigma_heading(),
-            in.sigma_speed(),
-            in.sigma_acceleration(),
-            in.sigma_length(),
-            in.sigma_width(),
-            to<std::uint8_t>(in.status(), std::uint8_t{0}, std::uint8_t{15})};
-  }
-  template <int n> std::span<const double, n> exactly(const google::protobuf::RepeatedField<double>& in) {
-    static constexpr std::array<double, n> kNone{};
-    must(in.size() == n);
-    return std::span<const double, n>(in.size() == n ? in.data() : kNone.data(), n);
-  }
-  std::optional<records::BelievedBox> box(const google::protobuf::RepeatedField<double>& in) {
-    if (in.empty()) return std::nullopt;
-    const std::span<const double, 10> all = exactly<10>(in);
-    return records::BelievedBox{
-        {all[0], all[1]}, {all[2], all[3]}, {all[4], all[5]}, {all[6], all[7]}, {all[8], all[9]}};
-  }
-  void must(bool holds) { ok_ = ok_ && holds; }
-  bool ok() const { return ok_; }
+  Decoding(Described& out, Storage<Described>& lists) : out_(out), lists_(lists) {}
 
-  Decoder::Lists& lists;
+  // An absent field is zero or empty, whatever the record's default.
+  void clear() {
+    each([this](const auto& entry, auto& list) { clear(entry, list); });
+  }
+  // As in protobuf, the last of several numbers counts, and parts of a message are merged.
+  bool read(std::string_view bytes) {
+    WireReader in(bytes);
+    std::uint32_t misfits = 0;
+    while (in.more()) {
+      const std::uint32_t tag = in.tag();
+      bool taken = false;
+      std::uint32_t bit = 1;
+      each([&]<class List>(const auto& entry, List& list) {
+        if (!taken) {
+          fits_ = true;
+          taken = take(entry, list, tag, in);
+          if (!std::is_same_v<List, Nothing>)
+            must(fits_);
+          else if (taken)
+            misfits = fits_ ? misfits & ~bit : misfits | bit;
+        }
+        bit <<= 1;
+      });
+      if (!taken) in.skip(tag);
+    }
+    must(in.ok());
+    sound_ = ok_;
+    must(misfits == 0);
+    each([this](const auto& entry, auto& list) { end(entry, list); });
+    return ok_;
+  }
+  // Whether protobuf could read it, too.
+  bool sound() const { return sound_; }
 
  private:
-  bool ok_ = true;
+  template <class F> void each(F&& f) {
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (f(std::get<i>(records::kDescription<Described>.fields), std::get<i>(lists_)), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<Storage<Described>>>{});
+  }
+  void must(bool holds) { ok_ = ok_ && holds; }
+
+  template <class Member, class Range, class List>
+  void clear(const records::Field<Described, Member, Range>& field, List& list) {
+    if constexpr (!std::is_same_v<List, Nothing>)
+      list.clear();
+    else
+      out_.*field.member = Member{};
+  }
+  void clear(const records::Optional<Described>& field, Nothing) {
+    out_.*field.member = std::numeric_limits<double>::quiet_NaN();
+  }
+  template <std::size_t count> void clear(const records::Elements<Described, count>& elements, Nothing) {
+    out_.*elements.member = {};
+  }
+  template <class Item, class... Columns, class List>
+  void clear(const records::Columns<Described, Item, Columns...>&, List& list) {
+    list.items.clear();
+    list.sizes = {};
+  }
+
+  // Each returns whether the field was of the entry.
+  template <class Member, class Range, class List>
+  bool take(const records::Field<Described, Member, Range>& field, List& list, std::uint32_t tag, WireReader& in) {
+    if (tag >> 3 != field.number) return false;
+    if constexpr (std::is_same_v<List, Nothing>)
+      return one(out_.*field.member, tag, in);
+    else
+      return items<typename List::value_type>(tag, in, [&](const auto& item) { list.push_back(item); });
+  }
+  bool take(const records::Optional<Described>& field, Nothing, std::uint32_t tag, WireReader& in) {
+    return tag >> 3 == field.number && one(out_.*field.member, tag, in);
+  }
+  template <std::size_t count>
+  bool take(const records::Elements<Described, count>& elements, Nothing, std::uint32_t tag, WireReader& in) {
+    const std::uint32_t at = (tag >> 3) - elements.first;
+    return at < count && one((out_.*elements.member)[at], tag, in);
+  }
+  template <class Item, class... Columns, class List>
+  bool take(const records::Columns<Described, Item, Columns...>& all, List& list, std::uint32_t tag, WireReader& in) {
+    return std::apply(
+        [&](const auto&... column) {
+          std::size_t at = 0;
+          return (take_column(column, list, at++, tag, in) || ...);
+        },
+        all.columns);
+  }
+  template <class Item, class Member, class Range, class List>
+  bool take_column(const records::Field<Item, Member, Range>& column, List& list, std::size_t at, std::uint32_t tag,
+                   WireReader& in) {
+    return tag >> 3 == column.number && items<Member>(tag, in, [&](const Member& cell) {
+             const std::size_t row = list.sizes[at]++;
+             if (row == list.items.size()) list.items.emplace_back();
+             list.items[row].*column.member = cell;
+           });
+  }
+
+  // Reads one value, if the field is of its type on the wire.
+  template <class T> bool one(T& value, std::uint32_t tag, WireReader& in) {
+    const auto type = static_cast<WireType>(tag & 7);
+    if constexpr (IsVarint<T>) {
+      if (type != WireType::kVarint) return false;
+      if (!from_varint(in.varint(), value)) fits_ = false;
+    } else if constexpr (std::is_same_v<T, double>) {
+      if (type != WireType::kFixed64) return false;
+      value = in.take<double>();
+    } else {
+      if (type != WireType::kBlock) return false;
+      const std::string_view bytes = in.block();
+      if constexpr (records::IsDescribed<T>) {
+        Storage<T> none;
+        Decoding<T> part(value, none);
+        if (!part.read(bytes)) fits_ = false;
+        must(part.sound());
+      } else if constexpr (std::is_same_v<T, std::string_view>) {
+        must(is_utf8(bytes));
+        value = bytes;
+      } else {
+        value = std::as_bytes(std::span(bytes));
+      }
+    }
+    return true;
+  }
+  // Reads the items of a list, packed or one by one.
+  template <class Item, class Add> bool items(std::uint32_t tag, WireReader& in, Add&& add) {
+    Item item{};
+    if constexpr (!records::IsDescribed<Item>) {
+      if (static_cast<WireType>(tag & 7) == WireType::kBlock) {
+        WireReader packed(in.block());
+        const auto type = std::is_same_v<Item, double> ? WireType::kFixed64 : WireType::kVarint;
+        while (packed.more()) {
+          one(item, static_cast<std::uint32_t>(type), packed);
+          if (packed.ok()) add(item);
+        }
+        must(packed.ok());
+        return true;
+      }
+    }
+    if (!one(item, tag, in)) return false;
+    if (in.ok()) add(item);
+    return true;
+  }
+
+  template <class Member, class Range, class List>
+  void end(const records::Field<Described, Member, Range>& field, List& list) {
+    Member& member = out_.*field.member;
+    if constexpr (std::is_same_v<Member, std::optional<records::BelievedBox>>) {
+      constexpr std::size_t kNumbers = sizeof(records::BelievedBox) / sizeof(double);
+      must(list.empty() || list.size() == kNumbers);
+      if (list.size() != kNumbers) return void(member = std::nullopt);
+      std::array<double, kNumbers> numbers;
+      std::copy_n(list.begin(), kNumbers, numbers.begin());
+      member = std::bit_cast<records::BelievedBox>(numbers);
+    } else if constexpr (requires {
+                           Member::extent;
+                           list.size();
+                         }) {
+      constexpr bool kAnySize = Member::extent == std::dynamic_extent;
+      must(kAnySize || list.size() == Member::extent);
+      if (kAnySize || list.size() == Member::extent) member = Member(list.data(), list.size());
+      if constexpr (!std::is_same_v<Range, records::AnyValue>)
+        must(list.size() >= field.range.low && list.size() <= field.range.high);
+    } else if constexpr (!std::is_same_v<Range, records::AnyValue>) {
+      must(member >= field.range.low && member <= field.range.high);
+    }
+  }
+  void end(const records::Optional<Described>&, Nothing) {}
+  template <std::size_t count> void end(const records::Elements<Described, count>&, Nothing) {}
+  template <class Item, class... Columns, class List>
+  void end(const records::Columns<Described, Item, Columns...>& all, List& list) {
+    for (const std::size_t size : list.sizes) must(size == list.items.size());
+    out_.*all.member = list.items;
+  }
+
+  Described& out_;
+  Storage<Described>& lists_;
+  bool ok_ = true, fits_ = true, sound_ = true;
 };
-
-std::span<const std::byte> bytes_of(const std::string& in) {
-  return {reinterpret_cast<const std::byte*>(in.data()), in.size()};
-}
-
-records::Measured record_of(const ttfusion::Measured& in, Reading& read) {
-  read.lists.truth_ids.clear();
-  for (const std::uint32_t id : in.truth_ids()) read.lists.truth_ids.push_back(read.id<ObjectId>(id));
-  return {read.stamp(in.stamp()), read.measurement(in.id()), read.lists.truth_ids};
-}
-
-records::CanFrameSent record_of(const ttfusion::CanFrame& in, Reading& read) {
-  return {read.to<std::uint8_t>(in.bus()),
-          read.stamp(in.start()),
-          read.stamp(in.end()),
-          in.identifier(),
-          in.flexible_data_rate(),
-          read.id<PduId>(in.pdu()),
-          read.id<SensorId>(in.sensor()),
-          in.sequence(),
-          read.to<std::uint8_t>(in.fragment()),
-          bytes_of(in.data())};
-}
-
-records::SlotFrameSent record_of(const ttfusion::SlotFrame& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.stamp(in.end()),
-          in.cycle(),
-          read.to<std::uint16_t>(in.slot()),
-          read.to<std::uint8_t>(in.channel()),
-          in.null_frame(),
-          read.id<PduId>(in.pdu()),
-          read.id<SensorId>(in.sensor()),
-          in.sequence(),
-          read.to<std::uint8_t>(in.fragment()),
-          bytes_of(in.bytes())};
-}
-
-records::SlotProblem record_of(const ttfusion::SlotProblem& in, Reading& read) {
-  return {read.stamp(in.stamp()), in.cycle(), read.to<std::uint16_t>(in.slot()), read.to<std::uint8_t>(in.channel()),
-          read.to<std::uint8_t>(in.status())};
-}
-
-records::ListHop record_of(const ttfusion::ListHop& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.choice(in.hop(), records::Hop::kWritten, records::Hop::kDiscarded),
-          read.id<PduId>(in.pdu()),
-          read.id<SensorId>(in.sensor()),
-          in.sequence(),
-          read.to<std::int8_t>(in.can_bus())};
-}
-
-records::TaskRun record_of(const ttfusion::TaskRun& in, Reading& read) {
-  return {read.stamp(in.start()), read.to<std::uint8_t>(in.task()), read.stamp(in.activated()), read.stamp(in.end()),
-          in.deadline_met()};
-}
-
-records::ClockCorrected record_of(const ttfusion::ClockCorrected& in, Reading& read) {
-  return {read.stamp(in.stamp()), in.cycle(),        in.offset_microticks(), in.rate_microticks(),
-          in.offset_missing(),    in.rate_missing(), in.offset_limited(),    in.rate_limited()};
-}
-
-records::PrecisionSample record_of(const ttfusion::Precision& in, Reading&) {
-  return {TrueTime{in.at()}, in.cycle(), Duration{in.precision()}};
-}
-
-records::FusionInput record_of(const ttfusion::FusionInput& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          in.step(),
-          read.id<PduId>(in.pdu()),
-          read.id<SensorId>(in.sensor()),
-          in.sequence(),
-          GlobalTime{in.measured()},
-          read.to<std::uint16_t>(in.count()),
-          bytes_of(in.fragments())};
-}
-
-records::ListFused record_of(const ttfusion::ListFused& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          in.step(),
-          read.measurement(in.id()),
-          GlobalTime{in.measured()},
-          read.choice(in.disposition(), records::Disposition::kFused, records::Disposition::kDuplicate),
-          in.innovation_squares(),
-          in.innovation_degrees()};
-}
-
-records::OdometryTaken record_of(const ttfusion::Odometry& in, Reading& read) {
-  return {read.stamp(in.stamp()),    in.step(),           read.measurement(in.id()),
-          GlobalTime{in.measured()}, in.speed(),          in.yaw_rate(),
-          in.sigma_speed(),          in.sigma_yaw_rate(), in.stopped()};
-}
-
-records::FusionStep record_of(const ttfusion::FusionStep& in, Reading& read) {
-  return {read.stamp(in.stamp()), in.step(), read.to<std::uint16_t>(in.confirmed()),
-          read.to<std::uint16_t>(in.tentative())};
-}
-
-records::TrackState record_of(const ttfusion::Track& in, Reading& read) {
-  return {read.stamp(in.stamp()),       in.step(),
-          read.id<TrackId>(in.track()), GlobalTime{in.valid_at()},
-          read.exactly<6>(in.state()),  read.exactly<36>(in.covariance()),
-          in.predicted_for_image(),     read.box(in.box())};
-}
-
-records::ObservationSeen record_of(const ttfusion::Observation& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.measurement(in.id()),
-          GlobalTime{in.measured()},
-          read.to<std::uint16_t>(in.index()),
-          in.x(),
-          in.y(),
-          in.sxx(),
-          in.sxy(),
-          in.syy()};
-}
-
-records::ImageWritten record_of(const ttfusion::Image& in, Reading& read) {
-  read.lists.image_objects.clear();
-  read.lists.newest.clear();
-  for (const auto& object : in.objects()) read.lists.image_objects.push_back(read.object(object));
-  for (const auto& id : in.newest()) read.lists.newest.push_back(read.measurement(id));
-  return {read.stamp(in.stamp()),   in.sequence(),    GlobalTime{in.valid_at()}, GlobalTime{in.newest_measurement()},
-          read.lists.image_objects, read.lists.newest};
-}
-
-records::FeatureUsed record_of(const ttfusion::Feature& in, Reading& read) {
-  read.lists.feature_objects.clear();
-  const int objects = in.objects_size();
-  const bool parallel =
-      in.time_gap_s_size() == objects && in.time_to_collision_s_size() == objects && in.warning_size() == objects;
-  read.must(parallel);
-  for (int i = 0; parallel && i < objects; ++i)
-    read.lists.feature_objects.push_back(
-        {read.object(in.objects(i)), in.time_gap_s(i), in.time_to_collision_s(i), in.warning(i)});
-  return {read.stamp(in.stamp()),     in.image_sequence(), GlobalTime{in.image_valid_at()}, in.fresh(),
-          read.lists.feature_objects, in.stale()};
-}
-
-records::ReferenceFix record_of(const ttfusion::Reference& in, Reading& read) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return {TrueTime{in.measured_true()},
-          GlobalTime{in.measured()},
-          GlobalTime{in.available()},
-          read.id<ObjectId>(in.object()),
-          in.x(),
-          in.y(),
-          in.sigma(),
-          in.has_vx() ? in.vx() : kNone,
-          in.has_vy() ? in.vy() : kNone,
-          in.has_sigma_velocity() ? in.sigma_velocity() : kNone,
-          LocalTime{in.measured_local()}};
-}
-
-records::TruthState record_of(const ttfusion::Truth& in, Reading& read) {
-  return {TrueTime{in.at()},
-          read.id<ObjectId>(in.object()),
-          in.x(),
-          in.y(),
-          in.heading(),
-          in.speed(),
-          in.acceleration(),
-          in.yaw_rate(),
-          in.length(),
-          in.width(),
-          LocalTime{in.local()},
-          GlobalTime{in.global()},
-          read.id<NodeId>(in.node())};
-}
-
-records::Warning record_of(const ttfusion::Warning& in, Reading& read) {
-  return {read.stamp(in.stamp()), read.to<std::uint8_t>(in.service()), in.on(), read.id<TrackId>(in.track()),
-          in.time_to_collision()};
-}
-
-records::CommandIssued record_of(const ttfusion::Command& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.id<PduId>(in.pdu()),
-          in.sequence(),
-          in.valid(),
-          read.to<std::uint8_t>(in.reason()),
-          in.acceleration(),
-          in.steering(),
-          in.own_speed(),
-          in.gap(),
-          in.speed_ahead(),
-          read.id<TrackId>(in.track())};
-}
-
-records::CommandTaken record_of(const ttfusion::Actuator& in, Reading& read) {
-  return {read.stamp(in.stamp()), read.id<PduId>(in.pdu()),
-          in.sequence(),          read.to<std::uint8_t>(in.verdict()),
-          in.acceleration(),      in.steering(),
-          TrueTime{in.from()}};
-}
-
-records::DetectionMade record_of(const ttfusion::Detection& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          TrueTime{in.begin()},
-          read.measurement(in.id()),
-          in.frame(),
-          read.to<std::uint16_t>(in.place()),
-          in.secondary(),
-          in.area(),
-          Duration{in.took()},
-          read.to<std::uint16_t>(in.found())};
-}
-
-records::SequencePlanned record_of(const ttfusion::Sequence& in, Reading& read) {
-  return {read.stamp(in.stamp()), in.frame(), in.text(), Duration{in.bound()}, Duration{in.length()}};
-}
-
-records::PlanMade record_of(const ttfusion::Plan& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.id<PduId>(in.pdu()),
-          in.sequence(),
-          in.valid(),
-          read.to<std::uint8_t>(in.state()),
-          in.speed(),
-          read.id<TrackId>(in.track()),
-          in.gap(),
-          in.speed_ahead(),
-          in.own_speed(),
-          in.along(),
-          in.offset(),
-          in.heading(),
-          read.id<SensorId>(in.camera()),
-          {in.region_x(), in.region_y(), in.region_width(), in.region_height()}};
-}
-
-records::EgoTruth record_of(const ttfusion::Ego& in, Reading& read) {
-  return {TrueTime{in.at()},
-          in.x(),
-          in.y(),
-          in.heading(),
-          in.vx(),
-          in.vy(),
-          in.yaw_rate(),
-          in.acceleration(),
-          LocalTime{in.local()},
-          GlobalTime{in.global()},
-          read.id<NodeId>(in.node())};
-}
-
-records::StateChanged record_of(const ttfusion::StateChange& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.to<std::uint8_t>(in.from()),
-          read.to<std::uint8_t>(in.to()),
-          in.from_name(),
-          in.to_name(),
-          in.why(),
-          in.consequence()};
-}
-
-records::SymbolSent record_of(const ttfusion::Symbol& in, Reading& read) {
-  return {read.stamp(in.stamp()), read.stamp(in.end()), read.to<std::uint8_t>(in.channel()),
-          read.to<std::uint8_t>(in.kind(), records::kSymbolCas, records::kSymbolMediaTest)};
-}
-
-records::PowerChanged record_of(const ttfusion::Power& in, Reading& read) { return {read.stamp(in.stamp()), in.on()}; }
-
-records::FaultActivity record_of(const ttfusion::Fault& in, Reading& read) {
-  return {TrueTime{in.at()},
-          in.fault(),
-          read.to<std::uint8_t>(in.what(), records::kFaultBegins, records::kFaultEnds),
-          read.id<NodeId>(in.node()),
-          in.kind(),
-          in.text()};
-}
-
-records::GuardianIntervention record_of(const ttfusion::Guardian& in, Reading& read) {
-  return {TrueTime{in.at()},
-          read.id<NodeId>(in.branch()),
-          read.to<std::uint8_t>(in.channel(), std::uint8_t{0}, std::uint8_t{1}),
-          read.to<std::uint8_t>(in.signal(), records::kSignalFrame, records::kSignalUndecodable),
-          read.to<std::uint8_t>(in.reason()),
-          in.cut(),
-          TrueTime{in.until()},
-          in.why()};
-}
-
-records::ChannelFrame record_of(const ttfusion::ChannelFrame& in, Reading& read) {
-  constexpr std::uint8_t kAllStates = 31;
-  return {TrueTime{in.start()},
-          TrueTime{in.end()},
-          read.id<NodeId>(in.sender()),
-          read.to<std::uint8_t>(in.channel()),
-          read.to<std::uint8_t>(in.state(), std::uint8_t{0}, kAllStates),
-          read.to<std::uint16_t>(in.slot()),
-          read.to<std::uint8_t>(in.cycle_counter()),
-          TrueTime{in.sent()},
-          read.to<std::uint8_t>(in.sent_channel()),
-          bytes_of(in.bytes())};
-}
-
-records::TimingProblem record_of(const ttfusion::TimingProblem& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.to<std::uint8_t>(in.what(), records::kLateWakeUp, records::kFramesLost),
-          Duration{in.late()},
-          in.cycle(),
-          read.to<std::uint16_t>(in.slot()),
-          read.to<std::uint8_t>(in.channel(), std::uint8_t{0}, std::uint8_t{1}),
-          in.count()};
-}
-
-records::LatenessHistogram record_of(const ttfusion::Lateness& in, Reading& read) {
-  read.must(static_cast<std::size_t>(in.counts_size()) <= records::kLatenessBins);
-  read.lists.counts.assign(in.counts().begin(), in.counts().end());
-  return {read.stamp(in.stamp()),
-          read.to<std::uint8_t>(in.of(), records::kLatenessOfWakeUps, records::kLatenessOfTransits),
-          Duration{in.longest()}, read.lists.counts};
-}
-
-records::CanErrorFrame record_of(const ttfusion::CanError& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.to<std::uint8_t>(in.bus()),
-          read.to<std::uint8_t>(in.error(), records::kCanBitError, records::kCanAcknowledgementError),
-          in.as_transmitter(),
-          read.to<std::uint16_t>(in.transmit_errors()),
-          read.to<std::uint16_t>(in.receive_errors())};
-}
-
-records::CanStateChanged record_of(const ttfusion::CanState& in, Reading& read) {
-  return {read.stamp(in.stamp()),
-          read.to<std::uint8_t>(in.bus()),
-          read.to<std::uint8_t>(in.from(), records::kCanErrorActive, records::kCanBusOff),
-          read.to<std::uint8_t>(in.to(), records::kCanErrorActive, records::kCanBusOff),
-          read.to<std::uint16_t>(in.transmit_errors()),
-          read.to<std::uint16_t>(in.receive_errors())};
-}
-
-records::MediumCounts record_of(const ttfusion::Medium& in, Reading& read) {
-  return {read.stamp(in.stamp()), in.sent(),      in.received(), in.not_sent(), in.lost(),
-          in.foreign(),           in.malformed(), in.dropped()};
-}
 
 }  // namespace
 
+struct Decoder::Lists {
+  decltype(storage_of_kinds(std::make_index_sequence<records::kKindCount>{})) of_kind;
+};
+
+Decoder::Decoder() : lists_(std::make_unique<Lists>()) {}
+Decoder::~Decoder() = default;
+
 bool Decoder::decode(records::RecordKind kind, std::string_view bytes, records::Sink& sink) {
-  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) return false;
   bool decoded = false;
   records::for_kind(kind, [&]<class Record>() {
-    Payload<Record>& payload = payloads_.of<Record>();
-    if (!payload.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) return;
-    Reading reading(lists_);
-    static_assert(
-        requires { Record{record_of(payload, reading)}; }, "a kind of record that the log does not decode");
-    const Record record = record_of(payload, reading);
-    decoded = reading.ok();
+    Record record = empty<Record>();
+    Decoding<Record> fields(record, std::get<records::number_of(records::kKindOf<Record>) - 1>(lists_->of_kind));
+    fields.clear();
+    decoded = fields.read(bytes);
     if (decoded) sink.on(record);
   });
   return decoded;

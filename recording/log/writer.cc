@@ -10,9 +10,11 @@
 #include "recording/log/behind.h"
 #include "recording/log/codec.h"
 #include "recording/log/content_hash.h"
+#include "recording/log/log.pb.h"
 #include "recording/log/manifest_codec.h"
 #include "recording/mcap/protobuf_schema.h"
 #include "recording/mcap/writer.h"
+#include "recording/records/fields.h"
 
 namespace ttf::recording::log {
 namespace {
@@ -29,11 +31,9 @@ struct LogWriter::Impl {
   explicit Impl(const std::string& path) : mcap(path, kLogProfile, "ttfusion") {}
 
   void write(const Encoded& record) {
-    // Our payloads have no maps and no unknown fields, so fields are written in the order of their numbers.
-    bytes.clear();
     const auto kind = static_cast<std::uint8_t>(record.kind);
-    TTF_CHECK(record.payload.AppendToString(&bytes), "kind {}", kind);
-    const LogMessage message{kind, unsigned_time(record.times.log), unsigned_time(record.times.publish), bytes};
+    const LogMessage message{kind, unsigned_time(record.times.log), unsigned_time(record.times.publish),
+                             record.payload};
     if (behind)
       behind->add(message);
     else
@@ -47,8 +47,6 @@ struct LogWriter::Impl {
   }
 
   mcap::McapWriter mcap;
-  Payloads payloads;
-  std::string bytes;
   ContentHash hash;
   std::uint64_t records = 0;
   bool closed = false;
@@ -57,17 +55,18 @@ struct LogWriter::Impl {
 };
 
 LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
-    : impl_(std::make_unique<Impl>(path)),
-      encoder_(encoder(impl_->payloads, [this](const Encoded& record) { impl_->write(record); })) {
+    : impl_(std::make_unique<Impl>(path)), encoder_(encoder([this](const Encoded& record) { impl_->write(record); })) {
   mcap::McapWriter& mcap = impl_->mcap;
   mcap.add_metadata(kManifestName, manifest_entries(manifest));
+  const google::protobuf::FileDescriptor& schema = *ttfusion::Stamp::descriptor()->file();
   records::for_each_kind([&]<class Record>() {
-    const auto* type = Payload<Record>::descriptor();
+    const std::string name(records::kDescription<Record>.message);
+    const auto* type = schema.FindMessageTypeByName(name);
+    TTF_CHECK(type != nullptr, "the schema has no message {}", name);
     const auto id = static_cast<std::uint16_t>(records::kKindOf<Record>);
     mcap.add_schema(id, type->full_name(), "protobuf", mcap::protobuf_schema(*type));
     mcap.add_channel(id, id, records::topic_of(records::kKindOf<Record>), "protobuf");
   });
-  impl_->bytes.reserve(64 * 1024);
   if (writing == Writing::kBehind) impl_->behind.emplace([this](const LogMessage& message) { impl_->store(message); });
 }
 

@@ -10,6 +10,7 @@
 #include "core/int128.h"
 #include "recording/merge/stored_log.h"
 #include "recording/records/every.h"
+#include "recording/records/fields.h"
 #include "schedules/model/round.h"
 
 namespace ttf::recording::merge {
@@ -56,61 +57,20 @@ std::vector<CommonTime::Point> points_of(const Stamps& stamps, std::int64_t offs
 
 void rescale(const CommonTime& time, TrueTime& at) { at = time(at); }
 void rescale(const CommonTime& time, records::Stamp& stamp) { stamp.true_time = time(stamp.true_time); }
-template <class... Instants> void rescale_all(const CommonTime& time, Instants&... instants) {
-  (rescale(time, instants), ...);
-}
-
-// Rescales all instants of true time that a record holds.
-void put_on(const CommonTime& time, records::Measured& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::CanFrameSent& r) { rescale_all(time, r.start, r.end); }
-void put_on(const CommonTime& time, records::CanErrorFrame& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::CanStateChanged& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::SlotFrameSent& r) { rescale_all(time, r.stamp, r.end); }
-void put_on(const CommonTime& time, records::SlotProblem& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::ListHop& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::TaskRun& r) { rescale_all(time, r.activated, r.start, r.end); }
-void put_on(const CommonTime& time, records::ClockCorrected& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::PrecisionSample& r) { rescale_all(time, r.at); }
-void put_on(const CommonTime& time, records::FusionInput& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::OdometryTaken& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::ListFused& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::FusionStep& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::TrackState& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::ObservationSeen& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::ImageWritten& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::FeatureUsed& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::ReferenceFix& r) { rescale_all(time, r.measured_true); }
-void put_on(const CommonTime& time, records::TruthState& r) { rescale_all(time, r.at); }
-void put_on(const CommonTime& time, records::EgoTruth& r) { rescale_all(time, r.at); }
-void put_on(const CommonTime& time, records::Warning& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::CommandIssued& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::CommandTaken& r) { rescale_all(time, r.stamp, r.from); }
-void put_on(const CommonTime& time, records::DetectionMade& r) { rescale_all(time, r.stamp, r.begin); }
-void put_on(const CommonTime& time, records::SequencePlanned& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::PlanMade& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::StateChanged& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::SymbolSent& r) { rescale_all(time, r.stamp, r.end); }
-void put_on(const CommonTime& time, records::PowerChanged& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::FaultActivity& r) { rescale_all(time, r.at); }
-void put_on(const CommonTime& time, records::GuardianIntervention& r) { rescale_all(time, r.at, r.until); }
-void put_on(const CommonTime& time, records::ChannelFrame& r) {
-  if (r.slot == 0)
-    rescale_all(time, r.start, r.end);  // no controller sent it
-  else
-    rescale_all(time, r.start, r.end, r.sent);
-}
-void put_on(const CommonTime& time, records::TimingProblem& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::LatenessHistogram& r) { rescale_all(time, r.stamp); }
-void put_on(const CommonTime& time, records::MediumCounts& r) { rescale_all(time, r.stamp); }
+template <class Anything> void rescale(const CommonTime&, const Anything&) {}
 
 class OnCommonTime final : public records::Every<OnCommonTime> {
  public:
   OnCommonTime(const CommonTime& time, records::Sink& out) : time_(time), out_(out) {}
 
   template <class Record> void each(Record record) {
-    static_assert(
-        requires { put_on(time_, record); }, "a kind of record whose times the merge does not know");
-    put_on(time_, record);
+    const TrueTime* kept = nullptr;
+    if constexpr (std::is_same_v<Record, records::ChannelFrame>)
+      if (record.slot == 0) kept = &record.sent;
+    records::for_each_field<Record>([&](const auto& entry) {
+      auto& member = record.*entry.member;
+      if (static_cast<const void*>(&member) != kept) rescale(time_, member);
+    });
     out_.on(record);
   }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "recording/records/every.h"
+#include "recording/records/fields.h"
 #include "schedules/model/round.h"
 
 namespace ttf::recording::merge {
@@ -46,43 +47,21 @@ template <class Record> constexpr std::uint8_t rank_of(const Record&) {
 template <class Record> RecordPlace of_node(const Record& record, TrueTime at, NodeId node) {
   return {at, rank_of(record), true, index_of(node)};
 }
-template <class Record> RecordPlace of_node(const Record& record, const records::Stamp& stamp) {
-  return of_node(record, stamp.true_time, stamp.node);
-}
 template <class Record> RecordPlace of_drive(const Record& record, TrueTime at, std::uint64_t about) {
   return {at, rank_of(record), false, about};
 }
 
-RecordPlace place_of(const records::Measured& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::CanFrameSent& r) { return of_node(r, r.end); }
-RecordPlace place_of(const records::CanErrorFrame& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::CanStateChanged& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::SlotFrameSent& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::SlotProblem& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::ListHop& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::TaskRun& r) { return of_node(r, r.start); }
-RecordPlace place_of(const records::ClockCorrected& r) { return of_node(r, r.stamp); }
+template <class Record> RecordPlace place_of(const Record& r) {
+  constexpr auto instant = records::kDescription<Record>.instant;
+  if constexpr (requires { r.*instant; }) {
+    return of_node(r, (r.*instant).true_time, (r.*instant).node);
+  } else {
+    static_assert(instant.node != nullptr, "a kind of record that has no place among the others");
+    return of_node(r, r.*instant.true_time, r.*instant.node);
+  }
+}
 RecordPlace place_of(const records::PrecisionSample& r) { return of_drive(r, r.at, 0); }
-RecordPlace place_of(const records::FusionInput& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::OdometryTaken& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::ListFused& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::FusionStep& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::TrackState& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::ObservationSeen& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::ImageWritten& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::FeatureUsed& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::ReferenceFix& r) { return of_drive(r, r.measured_true, index_of(r.object)); }
-RecordPlace place_of(const records::TruthState& r) { return of_node(r, r.at, r.node); }
-RecordPlace place_of(const records::EgoTruth& r) { return of_node(r, r.at, r.node); }
-RecordPlace place_of(const records::Warning& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::CommandIssued& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::CommandTaken& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::DetectionMade& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::SequencePlanned& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::PlanMade& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::StateChanged& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::SymbolSent& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::PowerChanged& r) { return of_node(r, r.stamp); }
 RecordPlace place_of(const records::FaultActivity& r) {
   return of_drive(r, TrueTime{std::max(r.at.ns, kEarliest + kMicroticks_ns) - kMicroticks_ns},
                   std::uint64_t{r.fault} << 8 | r.what);
@@ -93,19 +72,12 @@ RecordPlace place_of(const records::GuardianIntervention& r) {
 RecordPlace place_of(const records::ChannelFrame& r) {
   return of_drive(r, r.start, std::uint64_t{r.channel} << 8 | index_of(r.sender));
 }
-RecordPlace place_of(const records::TimingProblem& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::LatenessHistogram& r) { return of_node(r, r.stamp); }
-RecordPlace place_of(const records::MediumCounts& r) { return of_node(r, r.stamp); }
 
 class Placing final : public records::Every<Placing> {
  public:
   explicit Placing(std::function<void(const RecordPlace&)> placed) : placed_(std::move(placed)) {}
 
-  template <class Record> void each(const Record& record) {
-    static_assert(
-        requires { place_of(record); }, "a kind of record that has no place among the others");
-    placed_(place_of(record));
-  }
+  template <class Record> void each(const Record& record) { placed_(place_of(record)); }
 
  private:
   std::function<void(const RecordPlace&)> placed_;

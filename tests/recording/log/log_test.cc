@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "recording/log/codec.h"
+#include "recording/log/log.pb.h"
 #include "recording/log/manifest_codec.h"
 #include "recording/log/reader.h"
 #include "recording/log/writer.h"
@@ -234,19 +235,36 @@ TEST(Log, KeepsHowPicturesShowItsSensors) {
   EXPECT_TRUE(other.sensor_styles.empty());
 }
 
+std::string payload_of(const auto& record) {
+  std::string payload;
+  encoder([&](const Encoded& encoded) { payload = encoded.payload; })->on(record);
+  return payload;
+}
+
 TEST(Log, AHistogramHasNoMoreBinsThanThereAre) {
   const std::vector<std::uint64_t> counts(records::kLatenessBins + 1, 1);
-  Payloads payloads;
   Decoder decoder;
   TextSink read;
   for (const std::size_t bins : {records::kLatenessBins, records::kLatenessBins + 1}) {
-    encoder(payloads, [](const Encoded&) {
-    })->on(records::LatenessHistogram{.stamp = {}, .counts = std::span(counts).first(bins)});
-    const std::string bytes = payloads.of<records::LatenessHistogram>().SerializeAsString();
-    EXPECT_EQ(decoder.decode(records::kKindOf<records::LatenessHistogram>, bytes, read),
+    const records::LatenessHistogram histogram{.stamp = {}, .counts = std::span(counts).first(bins)};
+    EXPECT_EQ(decoder.decode(records::kKindOf<records::LatenessHistogram>, payload_of(histogram), read),
               bins == records::kLatenessBins);
   }
   EXPECT_EQ(read.lines.size(), 1u);
+}
+
+TEST(Log, ATextThatIsNoUtf8IsRefused) {
+  Decoder decoder;
+  TextSink read;
+  for (const std::string_view text : {"", "a", "\u00e4\u20ac\U0001f697"})
+    EXPECT_TRUE(decoder.decode(records::kKindOf<records::SequencePlanned>,
+                               payload_of(records::SequencePlanned{.stamp = {}, .text = text}), read))
+        << text;
+  for (const std::string_view text : {"\x80", "a\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80"})
+    EXPECT_FALSE(decoder.decode(records::kKindOf<records::SequencePlanned>,
+                                payload_of(records::SequencePlanned{.stamp = {}, .text = text}), read))
+        << text;
+  EXPECT_EQ(read.lines.size(), 3u);
 }
 
 // A receiver without velocity, or a log older than its recording, gives an absent velocity instead of zero.
@@ -258,9 +276,8 @@ TEST(Log, AReferenceWithoutVelocityHasNone) {
   } fixes;
   records::ReferenceFix fix;
   fix.x = 3.0;
-  Payloads payloads;
-  encoder(payloads, [](const Encoded&) {})->on(fix);
-  auto& payload = payloads.of<records::ReferenceFix>();
+  ttfusion::Reference payload;
+  ASSERT_TRUE(payload.ParseFromString(payload_of(fix)));
   Decoder decoder;
   ASSERT_TRUE(decoder.decode(records::kKindOf<records::ReferenceFix>, payload.SerializeAsString(), fixes));
   payload.clear_vx();

@@ -171,7 +171,7 @@ TEST(Merge, WhatWasReportedMuchLaterStandsAtItsTime) {
     EXPECT_GT(merged.logs()[0].chunks().size(), 99u);
     const std::vector<std::string> lines = lines_of(merged);
     ASSERT_EQ(lines.size(), 301u);
-    EXPECT_EQ(lines[2].substr(0, 10), "reference ");
+    EXPECT_EQ(lines[2].substr(0, 10), "/reference");
   }
 }
 

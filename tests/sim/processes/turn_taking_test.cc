@@ -29,7 +29,7 @@ using Lines = std::vector<std::string>;
 
 // The clocks' largest difference is not recorded when no process sees two clocks.
 Lines sorted_without_precision(Lines lines) {
-  std::erase_if(lines, [](const std::string& line) { return line.starts_with("precision"); });
+  std::erase_if(lines, [](const std::string& line) { return line.starts_with("/precision "); });
   std::sort(lines.begin(), lines.end());
   return lines;
 }
@@ -212,7 +212,7 @@ std::vector<Lines> with_one_killed(const Drive& drive, std::size_t victim, int t
 
 std::ptrdiff_t slot_problems(const Lines& lines) {
   return std::count_if(lines.begin(), lines.end(),
-                       [](const std::string& line) { return line.starts_with("problem "); });
+                       [](const std::string& line) { return line.starts_with("/slot_problem "); });
 }
 
 // Killed at the first turn after 100 ms.
