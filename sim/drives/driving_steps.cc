@@ -125,7 +125,7 @@ std::shared_ptr<Step> actuator(const StepSite& site) {
       site.cluster(), site.task, ego_of(site).actuator.value_or(sim::world::vehicle::ActuatorConfig{}));
 }
 
-constexpr StepRow kSteps[] = {
+constexpr StepRow kDrivingSteps[] = {
     {{.step = "adaptive_cruise_control", .reads = {"image", "odometry"}, .writes = {"command"}},
      StepRole::kCruise,
      &adaptive_cruise_control},
@@ -147,10 +147,10 @@ constexpr StepRow kSteps[] = {
      StepRole::kActuator,
      &actuator},
 };
-static_assert(complete(kSteps));
+static_assert(complete(kDrivingSteps));
 
 }  // namespace
 
-std::span<const StepRow> driving_steps() { return kSteps; }
+std::span<const StepRow> driving_steps() { return kDrivingSteps; }
 
 }  // namespace ttf::sim::drives

@@ -37,7 +37,7 @@ std::shared_ptr<Step> feature_service(const StepSite& site) {
   return std::make_shared<nodes::service::FeatureService>(site.cluster(), site.task, site.scenario().feature);
 }
 
-constexpr StepRow kSteps[] = {
+constexpr StepRow kFusionSteps[] = {
     {{.step = "adaptive_camera", .any_reads = true, .may_read = {"regions"}, .any_writes = true},
      StepRole::kDetector,
      &adaptive_camera,
@@ -53,10 +53,10 @@ constexpr StepRow kSteps[] = {
      StepRole::kFeatureService,
      &feature_service},
 };
-static_assert(complete(kSteps));
+static_assert(complete(kFusionSteps));
 
 }  // namespace
 
-std::span<const StepRow> fusion_steps() { return kSteps; }
+std::span<const StepRow> fusion_steps() { return kFusionSteps; }
 
 }  // namespace ttf::sim::drives

@@ -50,7 +50,7 @@ std::shared_ptr<Step> recorded_preprocessing(const StepSite& site) {
 using nodes::sensing::MonoCameraEmulator;
 using nodes::sensing::MonoCameraPreprocessing;
 
-constexpr StepRow kSteps[] = {
+constexpr StepRow kSensorSteps[] = {
     {{.step = "laser_emulator", .writes = {"raw"}},
      StepRole::kEmulator,
      &emulator<nodes::sensing::LaserEmulator, &Sensors::lasers>},
@@ -92,7 +92,7 @@ constexpr StepRow kSteps[] = {
      StepRole::kPreprocessing,
      &recorded_preprocessing},
 };
-static_assert(complete(kSteps));
+static_assert(complete(kSensorSteps));
 
 }  // namespace
 
@@ -100,6 +100,6 @@ std::string_view raw_sensor_name(const schedules::model::Cluster& cluster, const
   return sensor_name(cluster, cluster.pdu(nodes::host::binding_of(task.reads, "raw").pdu).sensor);
 }
 
-std::span<const StepRow> sensor_steps() { return kSteps; }
+std::span<const StepRow> sensor_steps() { return kSensorSteps; }
 
 }  // namespace ttf::sim::drives
