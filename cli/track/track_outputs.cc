@@ -73,7 +73,8 @@ nlohmann::ordered_json accuracy_json(const TrackAccuracy& accuracy) {
                               {"compared", accuracy.compared},
                               {"missed", accuracy.missed},
                               {"spurious", accuracy.spurious}};
-  const evaluation::accuracy::DriveSummary summary{.tracking = accuracy.tracking};
+  evaluation::accuracy::DriveSummary summary;
+  summary.tracking = accuracy.tracking;
   const sim::drives::DriveOutcome outcome;
   add_to(json, evaluation::measures::measures(evaluation::measures::Subject::kTracking), {summary, outcome});
   return json;
