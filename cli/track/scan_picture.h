@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 #include "nodes/laser/recorded_scans.h"
 #include "recording/rows/scan_file.h"
 #include "report/plots/boxes_picture.h"

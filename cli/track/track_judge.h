@@ -10,7 +10,7 @@
 #include "core/time.h"
 #include "evaluation/accuracy/tracking_judge.h"
 #include "fusion/metrics/cut_off.h"
-#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 #include "recording/replay/truth.h"
 
 namespace ttf::cli::track {

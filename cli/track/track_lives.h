@@ -10,7 +10,7 @@
 
 #include "core/time.h"
 #include "fusion/tracks/footprint.h"
-#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 
 namespace ttf::cli::track {
 

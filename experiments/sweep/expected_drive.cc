@@ -18,7 +18,7 @@ constexpr double kWorldStep_s = 0.01;  // the world draws once per step (sim/wor
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
 // A prior that is nearer to the nominal size knows it [m].
 constexpr double kKnown_m = 0.02;
-// The share of a measured side's variance that repeats (fusion/tracks/extent.cc).
+// The share of a measured side's variance that repeats (fusion/tracks/body/extent.cc).
 constexpr double kRepeating = 0.8;
 // A picture of an object of a less certain heading tells no width [rad].
 constexpr double kWorstAspect = 0.3;

@@ -1,7 +1,7 @@
 // The expected errors of one drive, from its instants alone: when lists were measured, with which covariance,
 // when they were fused, and when images were used. They use no estimate.
 //
-//   face      The point that the track follows, the one that sensors see (fusion/tracks/anchor.h), by the recursion of
+//   face      The point that the track follows, the one that sensors see (fusion/tracks/body/anchor.h), by the recursion of
 //             expected_error.h. The scenario's process noise is assumed, and the world's is actual, with its memory.
 //   position  The centre, half of the hidden side behind it: half of the length, if a rear is in view. That side's error
 //             is the same in every image (expected_size.h). Sizes are as drawn, and the widths that sensors see tell of

@@ -1,6 +1,6 @@
 // The expected error of a heading, without any draws, for an object that drives straight on.
 //
-// A tracker follows heading and turn rate (fusion/tracks/heading.h): the rate forgets with T = 2 s0^2 / turn_noise, has the
+// A tracker follows heading and turn rate (fusion/tracks/body/heading.h): the rate forgets with T = 2 s0^2 / turn_noise, has the
 // standard deviation s = min(s0, 0.2/m speed), and the heading wanders with heading_noise. With l = exp(-dt / T) and
 // g = T (1 - l):
 //   A(t + dt) = F A F' + Q,   F = [1, g; 0, l],

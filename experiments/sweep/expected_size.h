@@ -7,7 +7,7 @@
 // the variance 1 and is the same in all lists of the sensor. A tracker keeps its variance above the repeating part:
 //   p = h' A h,   r = max(v + c, p c / (p - c)),   g = A h / (p + r); with p <= c, nothing is taken in
 //   A+ = (I - g h') A (I - g h')' + r g g',   e+ = (I - g h') e + g (w + sqrt(c) u_k)
-// (fusion/tracks/extent.h; Schmidt 1966). The gains do not depend on measured values. So the moments of (e, u_1, u_2, ...)
+// (fusion/tracks/body/extent.h; Schmidt 1966). The gains do not depend on measured values. So the moments of (e, u_1, u_2, ...)
 // follow a recursion, also for a wrong prior. The code is independent of fusion/tracks, so that tests can compare both.
 #pragma once
 

@@ -36,7 +36,7 @@ enum class SystematicErrorsAre : unsigned char { kIgnored, kConsidered };
 // (fusion/association/joint_association.h).
 enum class Association : unsigned char { kNearest, kJpda };
 // The confirmation of tracks: after M observations in N lists, or from the probability that the object exists
-// (fusion/tracks/existence.h).
+// (fusion/tracks/parts/existence.h).
 enum class Birth : unsigned char { kMOfN, kExistence };
 
 // The prior of objects' length and width [m]: cars. An object keeps its size, so a wrong prior is a constant error until
@@ -89,7 +89,7 @@ struct TrackerConfig {
   // The method by which ADVA and TT take late lists in (fusion/strategies/late/late_updates.h). Methods other
   // than rewind require straight motion and the extended filter.
   oosm::Kind late = oosm::Kind::kRewind;
-  // Spectral density of the heading's random walk [rad^2/s], beside its turn rate (fusion/tracks/heading.h).
+  // Spectral density of the heading's random walk [rad^2/s], beside its turn rate (fusion/tracks/body/heading.h).
   double heading_noise = 0.005;
   Sizes sizes;
   double extent_noise = 0.0;  // spectral density of a random walk of length and width [m^2/s]
@@ -106,8 +106,8 @@ struct TrackerConfig {
 
   Association association = Association::kNearest;
   Birth birth = Birth::kMOfN;
-  // For jpda and existence (fusion/tracks/existence.h): the probability that a list contains a tracked object which its
-  // sensor can see (fusion/tracks/visibility.h). The second value is the number of clutter observations per square metre of
+  // For jpda and existence (fusion/tracks/parts/existence.h): the probability that a list contains a tracked object which its
+  // sensor can see (fusion/tracks/parts/visibility.h). The second value is the number of clutter observations per square metre of
   // one list.
   double detection_probability = 0.9;
   double clutter_density = 1e-3;  // [1/m^2]
@@ -118,10 +118,10 @@ struct TrackerConfig {
   double confirm_existence = 0.99;
   double delete_existence = 0.01;
   // Two confirmed tracks within this quantile of each other, merge_scans lists in a row, are united
-  // (fusion/tracks/twins.h); 0: never.
+  // (fusion/tracks/parts/twins.h); 0: never.
   double merge_probability = 0.0;
   int merge_scans = 5;
-  // The less certain one of two confirmed tracks in one place ends (fusion/tracks/overlaps.h). Absent: both are kept,
+  // The less certain one of two confirmed tracks in one place ends (fusion/tracks/parts/overlaps.h). Absent: both are kept,
   // unless the lists are recorded scans.
   std::optional<bool> end_overlaps;
   // Where the file has these keys, for findings about the cluster or the recording; 0: nowhere.

@@ -64,7 +64,7 @@ struct Observation {
   ClassId class_id = kNoClass;  // below kMostClasses, or kNoClass
   double score = 0.0;           // not negative: the weight of the class
   ThirdAxis third;
-  // A radar's: the mean of so many returns of the visible outline, whose spread r lacks (fusion/tracks/returns.h). 0: r has all.
+  // A radar's: the mean of so many returns of the visible outline, whose spread r lacks (fusion/tracks/body/returns.h). 0: r has all.
   std::uint8_t returns = 0;
   // In (0, 1]: how surely this is an object of the tracker's kind, and not of the surroundings. A doubtful observation
   // updates tracks, but begins and confirms none.

@@ -45,7 +45,8 @@
 #include "fusion/config/tracker_config.h"
 #include "fusion/sensors/observation.h"
 #include "fusion/strategies/settling.h"
-#include "fusion/tracks/tracker.h"
+#include "fusion/tracks/innovations.h"
+#include "fusion/tracks/view.h"
 
 namespace ttf::fusion::strategies {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 
 namespace ttf::fusion::tracks {
 

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "fusion/tracks/tracker.h"
+#include "fusion/tracks/track_set.h"
 
 namespace ttf::fusion::tracks {
 

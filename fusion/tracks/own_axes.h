@@ -9,7 +9,7 @@
 #pragma once
 
 #include "fusion/ego/ego_path.h"
-#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 
 namespace ttf::fusion::tracks {
 

@@ -19,6 +19,7 @@
 
 #include "fusion/tracks/identities.h"
 #include "fusion/tracks/track_history.h"
+#include "fusion/tracks/tracker.h"
 
 namespace ttf::fusion::tracks {
 

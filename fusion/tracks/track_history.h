@@ -12,7 +12,8 @@
 #include "core/time.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/observation.h"
-#include "fusion/tracks/tracker.h"
+#include "fusion/tracks/innovations.h"
+#include "fusion/tracks/track_set.h"
 
 namespace ttf::fusion::tracks {
 

@@ -3,7 +3,7 @@
 //
 // Depth z = f b / d along the optical axis (x), x = z, y = z tan(bearing) (rectified pinhole pair). The covariance is
 // first-order in disparity and bearing, so depth noise grows with the square of the range. Where the object's centre lies
-// behind its silhouette is a matter of size and heading: the tracker's (fusion/tracks/anchor.h).
+// behind its silhouette is a matter of size and heading: the tracker's (fusion/tracks/body/anchor.h).
 #pragma once
 
 #include "core/strict_yaml.h"

@@ -1,7 +1,7 @@
 // The signals of the real-time image on the bus, written by the fusion node and read by its receivers.
 //
 // x, y, heading, speed and acceleration are those of the object's centre, whatever its track follows
-// (fusion/tracks/anchoring.h). The sigmas of length and width are rounded up to the next code, all other values to the
+// (fusion/tracks/body/distance.h). The sigmas of length and width are rounded up to the next code, all other values to the
 // nearest: a size's uncertainty is of the order of its resolution, and is never understated.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "bus/cni/list_buffer.h"
-#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 #include "nodes/host/step.h"
 #include "recording/records/records.h"
 #include "schedules/model/cluster.h"

@@ -5,7 +5,7 @@
 // differ by its velocity across the line of sight times the difference of azimuths: the gate of the range rate grows by
 // as much. An object is at the mean of its n returns, with the standard
 // deviations of the sensor over sqrt(n). Where the returns lie on the object is the tracker's matter, which knows its size and
-// heading (fusion/tracks/returns.h).
+// heading (fusion/tracks/body/returns.h).
 #pragma once
 
 #include <cstddef>

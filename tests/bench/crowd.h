@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 #include "fusion/strategies/strategy.h"
-#include "fusion/tracks/anchor.h"
+#include "fusion/tracks/body/anchor.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
@@ -26,15 +26,15 @@ struct Outlines {
   Lanes lanes;
   sensors::SeenPoint point = sensors::SeenPoint::kEnd;
 
-  static tracks::Box box_of(const estimators::State& car) { return {{4.5, 1.8}, std::atan2(car(3), car(2))}; }
+  static tracks::body::Box box_of(const estimators::State& car) { return {{4.5, 1.8}, std::atan2(car(3), car(2))}; }
   linear::Vector<2> middle_of(const estimators::State& car) const {
     const linear::Vector<2> centre = car.head<2>();
-    const tracks::Box box = box_of(car);
-    return tracks::point_of(tracks::anchor_of(point, centre, box.heading, {0.0, 0.0}), {}, centre, box)->at;
+    const tracks::body::Box box = box_of(car);
+    return tracks::body::point_of(tracks::body::anchor_of(point, centre, box.heading, {0.0, 0.0}), {}, centre, box)->at;
   }
   sensors::Observation of(const estimators::State& car, RandomStream& stream) const {
     const linear::Vector<2> centre = car.head<2>(), at = middle_of(car);
-    const tracks::Box box = box_of(car);
+    const tracks::body::Box box = box_of(car);
     const bool end = point == sensors::SeenPoint::kEnd;
     sensors::Observation z =
         position(at.x() + lanes.sigma * stream.normal(), at.y() + lanes.sigma * stream.normal(), lanes.sigma);
@@ -46,7 +46,7 @@ struct Outlines {
     z.sigma_span = 0.003;
     z.heading = box.heading + z.sigma_heading * stream.normal();
     z.width = box.size(1) + z.sigma_width * stream.normal();
-    z.span = tracks::silhouette_of(centre, box)->span + z.sigma_span * stream.normal();
+    z.span = tracks::body::silhouette_of(centre, box)->span + z.sigma_span * stream.normal();
     return z;
   }
   std::vector<sensors::Observation> see(GlobalTime at, std::uint32_t index) const {

@@ -25,6 +25,11 @@ sensors::Observation radar(double range, double bearing, double rate, double sig
   return z;
 }
 
+int confirmed(const tracks::TrackSet& set) {
+  return static_cast<int>(
+      std::count_if(set.tracks.begin(), set.tracks.end(), [](const tracks::Track& t) { return t.confirmed; }));
+}
+
 config::TrackerConfig config_of(config::MotionModel motion, double process_noise, config::FilterKind filter) {
   config::TrackerConfig config;
   config.motion = motion;
@@ -94,7 +99,7 @@ template <int R, int C> bool same(const Eigen::Matrix<double, R, C>& a, const Ei
   return std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
-bool same(const tracks::Scalar& a, const tracks::Scalar& b) {
+bool same(const tracks::body::Scalar& a, const tracks::body::Scalar& b) {
   return same(a.value, b.value) && same(a.variance, b.variance) && a.known == b.known;
 }
 

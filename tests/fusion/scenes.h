@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/random.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/strategies/strategy.h"
 #include "fusion/tracks/tracker.h"
+#include "fusion/tracks/view.h"
 
 namespace ttf::fusion {
 
@@ -32,6 +34,20 @@ inline OwnedList list_of(std::uint8_t sensor, std::uint32_t sequence, GlobalTime
                          std::vector<sensors::Observation> observations = {}) {
   return {{static_cast<SensorId>(sensor), sequence}, measured, std::move(observations)};
 }
+
+// A tracker that is fed list by list.
+struct Bench {
+  config::TrackerConfig config;
+  tracks::Tracker tracker;
+  tracks::TrackSet set;
+  std::uint32_t sequence = 0;
+
+  explicit Bench(const config::TrackerConfig& c = {}) : config(c), tracker(c, 64), set(tracker.max_tracks()) {}
+  void step(std::int64_t ms, std::vector<sensors::Observation> observations) {
+    tracker.step(set, list_of(0, sequence++, at_ms(ms), std::move(observations)).view());
+  }
+};
+int confirmed(const tracks::TrackSet& set);
 
 // The default configuration with a test's variations.
 config::TrackerConfig config_of(config::MotionModel motion, double process_noise = 3.0,

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/check.h"
+#include "fusion/tracks/parts/confirmation.h"
+#include "fusion/tracks/parts/extents.h"
 
 namespace ttf::fusion::strategies::late {
 namespace {
@@ -20,22 +22,11 @@ int note(std::uint64_t& counted, int since, bool counts) {
   return counted_since;
 }
 
-// Counts a list at its place, `since` counted lists before the newest.
-void count(tracks::Track& track, int since, bool hit) {
-  if (since < 32) {
-    const std::uint32_t later = (1u << since) - 1u;
-    track.hits = (track.hits & later) | ((track.hits & ~later) << 1) | ((hit ? 1u : 0u) << since);
-    track.doubtful = (track.doubtful & later) | ((track.doubtful & ~later) << 1);
-  }
-  ++track.lists;
-  if (since <= track.misses) track.misses = hit ? since : track.misses + 1;
-}
-
 double widened(double sigma, double variance) { return std::sqrt(sigma * sigma + variance); }
 
 // The heading that a track had, as far as its turn rate tells.
-tracks::Heading heading_before(const tracks::Heading& heading, double age) {
-  tracks::Heading then = heading;
+tracks::body::Heading heading_before(const tracks::body::Heading& heading, double age) {
+  tracks::body::Heading then = heading;
   then.value -= age * heading.rate;
   then.variance += age * age * heading.rate_variance - 2.0 * age * heading.covariance;
   then.covariance -= age * heading.rate_variance;
@@ -44,9 +35,9 @@ tracks::Heading heading_before(const tracks::Heading& heading, double age) {
 
 // The variance that noise adds to a heading within `age`, as of a rate that has just been measured.
 double heading_noise_since(const config::TrackerConfig& config, double speed, double age) {
-  tracks::Heading exact;
+  tracks::body::Heading exact;
   exact.known = true;
-  return tracks::predicted(exact, config, speed, age).variance;
+  return tracks::body::predicted(exact, config, speed, age).variance;
 }
 
 }  // namespace
@@ -63,8 +54,8 @@ bool LateUpdates::Object::keeps_anchor_since(const MeasurementId& id, GlobalTime
   return !tracks::before(id, measured, newest.id, newest.moved);
 }
 
-std::optional<tracks::Anchor> LateUpdates::Object::anchor_at(const MeasurementId& id, GlobalTime measured,
-                                                             const tracks::Anchor& present) const {
+std::optional<tracks::body::Anchor> LateUpdates::Object::anchor_at(const MeasurementId& id, GlobalTime measured,
+                                                                   const tracks::body::Anchor& present) const {
   const std::size_t known = std::min(moves, kAnchors);
   for (std::size_t i = 0; i < known; ++i)
     if (tracks::before(id, measured, anchors[i].id, anchors[i].moved)) {
@@ -130,7 +121,7 @@ void LateUpdates::step(const sensors::ObservationList& list) {
     if (z.third.has_z) object.z_at = list.measured;
     if (z.third.has_height) object.height_at = list.measured;
     if (track.birth == track.newest) continue;
-    const tracks::Tracker::Referred& taken = tracker_.taken(track.newest.index);
+    const tracks::parts::Referred& taken = tracker_.taken(track.newest.index);
     if (taken.moved) object.note({taken.from, list.id, list.measured});
     // It starts anew from the tracker's estimate if the stamp does not fit the method.
     if (!is_taken(pasts_->take(object.slot, when, taken.of(z), taken.moved ? &taken.displacement : nullptr)))
@@ -162,13 +153,13 @@ bool LateUpdates::mend(const sensors::ObservationList& list, int lists_since) {
     tracks::Track& track = set_.tracks[places_[i]];
     Object& object = objects_[places_[i]];
     const int counted_since = note(object.counted, lists_since, tracker_.list_counts(i));
-    if (tracker_.list_counts(i)) count(track, counted_since, assigned[i] >= 0);
+    if (tracker_.list_counts(i)) tracks::count_late(track, counted_since, assigned[i] >= 0);
     object.lists = track.lists;
     if (assigned[i] < 0) continue;
     const tracks::ObservationId which{list.id, static_cast<std::uint16_t>(assigned[i]), list.measured};
     mend(track, object, which, list.observations[which.index], when, then_.tracks[i]);
   }
-  tracker_.prune(set_);
+  tracks::parts::confirm_and_end(set_, tracker_.config(), tracker_.estimator());
   align();
   return true;
 }
@@ -177,12 +168,13 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
                        const sensors::Observation& z, const When& when, tracks::Track& then) {
   sensors::Observation now = z;
   const double age = (set_.time - which.measured).seconds();
-  const double speed = tracker_.estimator().cartesian(then.estimate).x.segment<2>(2).norm();
+  const estimators::Estimator& estimator = tracker_.estimator();
+  const double speed = estimator.cartesian(then.estimate).x.segment<2>(2).norm();
   now.sigma_heading = widened(z.sigma_heading, heading_noise_since(tracker_.config(), speed, age));
-  tracker_.correct_heading(track, now, age);
+  tracks::parts::correct_heading(track, estimator, now, age);
   then.heading = heading_before(track.heading, age);
   const bool at_present = object.keeps_anchor_since(which.measurement, which.measured);
-  const tracks::Tracker::Referred referred = tracker_.referred_late(then, z, at_present);
+  const tracks::parts::Referred referred = tracks::parts::referred_late(then, estimator, z, at_present);
   const oosm::Taken taken =
       pasts_->take(object.slot, when, referred.of(z), referred.moved ? &referred.displacement : nullptr);
   TTF_CHECK(is_taken(taken), "a late list is not taken although the method has a state at its instant: {}",
@@ -195,7 +187,7 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
   now.sigma_length = widened(z.sigma_length, walked);
   now.sigma_width = widened(z.sigma_width, walked);
   if (range > 0.0) now.sigma_span = widened(z.sigma_span, walked / (range * range));
-  tracker_.correct_extent(then, now);
+  tracks::parts::correct_extent(then, estimator, now);
   track.extent = then.extent;
   track.shown = then.shown;
   if (referred.moved) {

@@ -16,10 +16,10 @@
 //
 // Beside the state:
 //   counters  The list counts at its place among the others, as a hit or a miss, or not at all
-//             (fusion/tracks/visibility.h). So hits, misses and lists are those in order, without lists in which the track
+//             (fusion/tracks/parts/visibility.h). So hits, misses and lists are those in order, without lists in which the track
 //             took no part. Tracks are confirmed, and end, by these counts.
 //   newest    It moves if the late observation is the track's newest.
-//   anchor    A late observation counts for the anchor that the track had then (fusion/tracks/anchoring.h). When an anchor
+//   anchor    A late observation counts for the anchor that the track had then (fusion/tracks/body/distance.h). When an anchor
 //             moves, the states since are displaced, and those before stay (law L10). A late observation to which a
 //             silhouette gives way moves the anchor from its instant on. A track remembers its last kAnchors moves; a
 //             list from before those is one in which it takes no part.
@@ -45,6 +45,7 @@
 #include "fusion/strategies/strategy.h"
 #include "fusion/tracks/identities.h"
 #include "fusion/tracks/track_history.h"
+#include "fusion/tracks/tracker.h"
 
 namespace ttf::fusion::strategies::late {
 
@@ -67,7 +68,7 @@ class LateUpdates final : public tracks::TrackHistory {
   };
   // The anchor of a track before the list of `id`, at which it moved.
   struct Before {
-    tracks::Anchor anchor;
+    tracks::body::Anchor anchor;
     MeasurementId id;
     GlobalTime moved{};
   };
@@ -86,8 +87,8 @@ class LateUpdates final : public tracks::TrackHistory {
     // Returns whether the anchor has not moved since a list.
     bool keeps_anchor_since(const MeasurementId& id, GlobalTime measured) const;
     // Returns the anchor at a list, from before it; no value if that is forgotten. `present` is the newest one.
-    std::optional<tracks::Anchor> anchor_at(const MeasurementId& id, GlobalTime measured,
-                                            const tracks::Anchor& present) const;
+    std::optional<tracks::body::Anchor> anchor_at(const MeasurementId& id, GlobalTime measured,
+                                                  const tracks::body::Anchor& present) const;
   };
   void step(const sensors::ObservationList& list);
   bool mend(const sensors::ObservationList& list, int lists_since);

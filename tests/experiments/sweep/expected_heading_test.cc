@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "fusion/tracks/heading.h"
+#include "fusion/tracks/body/heading.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -55,17 +55,17 @@ TEST(ExpectedHeading, IsThatOfTheTrackersHeading) {
     const auto [believed, actual] = recursion.at(at_ms(kPeriod_ms * (kLists - 1) + kUse_ms), kind.speed);
 
     double square = 0.0, of_rate = 0.0;
-    fusion::tracks::Heading heading;
+    fusion::tracks::body::Heading heading;
     constexpr std::uint32_t kTracks = 20'000;
     for (std::uint32_t track = 0; track < kTracks; ++track) {
       RandomStream noise({9, track, Purpose::kTest, 1, 0});
-      heading = fusion::tracks::unknown_heading(tracker);
+      heading = fusion::tracks::body::unknown_heading(tracker);
       for (int n = 0; n < kLists; ++n) {
-        if (n > 0) heading = fusion::tracks::predicted(heading, tracker, kind.speed, kPeriod_ms * 1e-3);
+        if (n > 0) heading = fusion::tracks::body::predicted(heading, tracker, kind.speed, kPeriod_ms * 1e-3);
         const double sigma = std::sqrt(variance(n));
-        fusion::tracks::correct(heading, sigma * noise.normal(), sigma, 0.0);
+        fusion::tracks::body::correct(heading, sigma * noise.normal(), sigma, 0.0);
       }
-      heading = fusion::tracks::predicted(heading, tracker, kind.speed, kUse_ms * 1e-3);
+      heading = fusion::tracks::body::predicted(heading, tracker, kind.speed, kUse_ms * 1e-3);
       square += heading.value * heading.value / kTracks;
       of_rate += heading.rate * heading.rate / kTracks;
     }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "fusion/tracks/extent.h"
+#include "fusion/tracks/body/extent.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -136,14 +136,14 @@ TEST(ExpectedSize, IsThatOfTheTrackersExtent) {
   }
 
   Eigen::Matrix2d sampled = Eigen::Matrix2d::Zero();
-  fusion::tracks::Extent extent;
+  fusion::tracks::body::Extent extent;
   for (std::uint32_t car = 0; car < kCars; ++car) {
     const sim::world::Size drawn =
         sim::world::drawn_size(SizeConfig{.draw = SizeDraw::kNormal}, {}, {5, car, ObjectId{0}});
     const Eigen::Vector2d size(drawn.length, drawn.width);
     RandomStream noise({7, car, Purpose::kTest, 1, 0});
     const double of_laser = noise.normal(), of_camera = noise.normal();
-    extent = fusion::tracks::Extent(prior);
+    extent = fusion::tracks::body::Extent(prior);
     for (int k = 0; k < kLists; ++k) {
       const double sigma = std::sqrt(laser_variance(k)), white = noise.normal();
       if (k % 3 == 0) {
@@ -166,7 +166,7 @@ TEST(ExpectedSize, IsThatOfTheTrackersExtent) {
 // The tracker's prior is read as the tracker reads it.
 TEST(ExpectedSize, ThePriorIsTheExtents) {
   const fusion::config::Sizes prior = prior_of(cars());
-  EXPECT_TRUE(fusion::tracks::Extent(prior).covariance.isApprox(moments_of(prior).covariance, 1e-12));
+  EXPECT_TRUE(fusion::tracks::body::Extent(prior).covariance.isApprox(moments_of(prior).covariance, 1e-12));
   EXPECT_TRUE(moments_of(prior).covariance.isApprox(cars().covariance, 1e-9));
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "fusion/tracks/anchor.h"
+#include "fusion/tracks/body/anchor.h"
 #include "sim/world/mono_camera.h"
 #include "tests/nodes/laser/emulated_scan.h"
 
@@ -30,7 +30,7 @@ class Camera {
     sim::world::measure_mono_camera(config_, std::vector<sim::world::ObjectState>{car}, 1, 0, 1, frame, room_, boxes_,
                                     truth_);
     EXPECT_EQ(boxes_.size(), 1U);
-    const auto seen = ttf::fusion::tracks::silhouette_of({car.x, car.y}, {{car.length, car.width}, car.heading});
+    const auto seen = ttf::fusion::tracks::body::silhouette_of({car.x, car.y}, {{car.length, car.width}, car.heading});
     const MonoBox& box = boxes_.at(0);
     return {{box.left, box.right, box.bottom, static_cast<int>(box.seen_as)}, seen->point.at, seen->span};
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fusion/tracks/extent.h"
+#include "fusion/tracks/body/extent.h"
 
 namespace ttf::nodes::service {
 namespace {

@@ -1,0 +1,158 @@
+// The spread of a radar's returns over outlines, against drawn points.
+#include "fusion/tracks/body/returns.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/fusion/scenes.h"
+
+namespace ttf::fusion::tracks::body {
+namespace {
+
+SeenBox outline(double x, double y, double heading, double speed, double turn_rate = 0.0) {
+  SeenBox o;
+  o.centre << x, y;
+  o.box.size << 4.4, 1.8;
+  o.box.heading = heading;
+  o.velocity << speed * std::cos(heading), speed * std::sin(heading);
+  o.turn_rate = turn_rate;
+  return o;
+}
+
+// Evenly over the azimuths, on the first of the four edges that each ray meets.
+linear::Matrix<3> by_drawing(const SeenBox& o) {
+  constexpr int kPoints = 20'000;
+  const double c = std::cos(o.box.heading), s = std::sin(o.box.heading), l = 0.5 * o.box.size(0),
+               w = 0.5 * o.box.size(1);
+  std::vector<linear::Vector<2>> corners;
+  for (const auto& [u, v] : {std::pair{l, w}, {-l, w}, {-l, -w}, {l, -w}})
+    corners.emplace_back(o.centre.x() + c * u - s * v, o.centre.y() + s * u + c * v);
+  double low = kPi, high = -kPi;
+  for (const auto& corner : corners) {
+    low = std::min(low, std::atan2(corner.y(), corner.x()));
+    high = std::max(high, std::atan2(corner.y(), corner.x()));
+  }
+  linear::Vector<3> sum = linear::Vector<3>::Zero();
+  linear::Matrix<3> squares = linear::Matrix<3>::Zero();
+  RandomStream stream({1, 0, Purpose::kTest, 0, 0});
+  for (int k = 0; k < kPoints; ++k) {
+    const double azimuth = stream.uniform(low, high), dx = std::cos(azimuth), dy = std::sin(azimuth);
+    double range = 1e9;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const linear::Vector<2> a = corners[i], e = corners[(i + 1) % 4] - a;
+      const double determinant = dy * e.x() - dx * e.y();
+      if (std::abs(determinant) < 1e-12) continue;
+      const double at = (a.y() * e.x() - a.x() * e.y()) / determinant, along = (dx * a.y() - dy * a.x()) / determinant;
+      if (at > 0 && along >= 0 && along <= 1) range = std::min(range, at);
+    }
+    const double vx = o.velocity.x() - o.turn_rate * (range * dy - o.centre.y()),
+                 vy = o.velocity.y() + o.turn_rate * (range * dx - o.centre.x());
+    const linear::Vector<3> point(range, azimuth, dx * vx + dy * vy);
+    sum += point;
+    squares += point * point.transpose();
+  }
+  return squares / kPoints - sum * sum.transpose() / (double{kPoints} * kPoints);
+}
+
+TEST(Returns, SpreadAsPointsDrawnOnTheOutline) {
+  for (const SeenBox& o : {outline(45.0, 0.0, 0.0, 3.0), outline(20.0, 3.5, 0.0, 8.0), outline(60.0, 3.5, 0.0, 8.0),
+                           outline(25.0, 5.0, 1.5, 5.0), outline(30.0, -8.0, 2.4, 8.0, 0.5)}) {
+    const linear::Matrix<3> spread = spread_of(o), drawn = by_drawing(o);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(std::sqrt(spread(i, i)), std::sqrt(drawn(i, i)), 0.08 * std::sqrt(drawn(i, i)) + 1e-3)
+          << o.centre.transpose() << ": " << i;
+    EXPECT_NEAR(spread(0, 1), drawn(0, 1), 0.1 * std::sqrt(drawn(0, 0) * drawn(1, 1)) + 1e-6);
+    EXPECT_NEAR(spread(1, 2), drawn(1, 2), 0.1 * std::sqrt(drawn(1, 1) * drawn(2, 2)) + 1e-6);
+  }
+}
+
+TEST(Returns, AroundTheSensorThereIsNoOutline) { EXPECT_TRUE(spread_of(outline(0.0, 0.0, 0.0, 1.0)).isZero(0.0)); }
+
+TEST(Returns, AMeanOfManyHasLess) {
+  sensors::Observation one = radar(40.0, 0.1, 3.0, 0.1, 0.003, 0.05);
+  one.seen = sensors::SeenPoint::kSilhouette;
+  const Extent extent{config::Sizes{}};
+  EXPECT_EQ(with_spread(one, extent).r, one.r) << "it has all of its uncertainty";
+  one.returns = 1;
+  sensors::Observation four = one;
+  four.returns = 4;
+  const linear::Matrix<3> added = with_spread(one, extent).r - one.r;
+  EXPECT_GT(added(0, 0), 0.1);
+  EXPECT_TRUE((with_spread(four, extent).r - four.r).isApprox(0.25 * added, 1e-12));
+}
+
+TEST(Spreads, AreComputedOnceForABodyAndASensor) {
+  const auto estimator = estimators::make_estimator({});
+  Body body;
+  estimators::State x = estimators::State::Zero();
+  x << 20.0, 6.0, 5.0, -1.0, 0.0, 0.0;
+  body.estimate = estimate_of(config::MotionModel::kConstantVelocity, x, 0.1 * estimators::Covariance::Identity());
+  body.heading = {{0.4, 0.01, true}};
+  const sensors::Mounting front{{3.5, 0.0}}, corner{{3.5, 0.9}, 0.5};
+  Spreads spreads(2);
+  spreads.begin();
+  const linear::Matrix<3> before = spreads.of(1, body, *estimator, front);
+  EXPECT_EQ(before, spread_of(body, *estimator, front));
+  EXPECT_EQ(spreads.of(1, body, *estimator, corner), spread_of(body, *estimator, corner)) << "another sensor";
+  (void)spreads.of(1, body, *estimator, front);
+  body.extent.size(0) = 12.0;
+  EXPECT_EQ(spreads.of(1, body, *estimator, front), before) << "of the same list";
+  spreads.forget(1);
+  EXPECT_EQ(spreads.of(1, body, *estimator, front), spread_of(body, *estimator, front));
+  body.extent.size(0) = 4.0;
+  spreads.begin();
+  EXPECT_EQ(spreads.of(1, body, *estimator, front), spread_of(body, *estimator, front)) << "of the next list";
+}
+
+// A car drives off, and a radar alone tells of one to four of its points. Its tracks are as certain as they say.
+TEST(Returns, OfACarThatDrivesAheadMakeAConsistentTrack) {
+  config::TrackerConfig config = config_of(config::MotionModel::kConstantVelocity, 1.0);
+  config.sensors.resize(1);
+  const auto estimator = estimators::make_estimator(config);
+  constexpr int kCars = 60, kLists = 60;
+  constexpr double kFast = 6.0, kLong = 4.4, kWide = 1.8;
+  double squares = 0.0;
+  int judged = 0;
+  for (std::uint32_t drive = 0; drive < kCars; ++drive) {
+    RandomStream noise({2, drive, Purpose::kTest, 0, 0});
+    Tracker tracker(config, 4);
+    TrackSet set(tracker.max_tracks());
+    double x = 30.0, v = kFast;
+    for (int k = 0; k < kLists; ++k) {
+      const double q = std::sqrt(0.05) * noise.normal();
+      x += 0.05 * v + 0.025 * q;
+      v += q;
+      const auto returns = static_cast<std::uint8_t>(noise.integer(1, 4));
+      const double rear = x - 0.5 * kLong, half = std::atan2(0.5 * kWide, rear);
+      linear::Vector<3> mean = linear::Vector<3>::Zero();
+      for (int i = 0; i < returns; ++i) {
+        const double azimuth = noise.uniform(-half, half);
+        mean += linear::Vector<3>(rear / std::cos(azimuth) + 0.15 * noise.normal(), azimuth + 0.003 * noise.normal(),
+                                  v * std::cos(azimuth) + 0.05 * noise.normal()) /
+                returns;
+      }
+      const double root = std::sqrt(returns);
+      sensors::Observation z = radar(mean(0), mean(1), mean(2), 0.15 / root, 0.003 / root, 0.05 / root);
+      z.seen = sensors::SeenPoint::kSilhouette;
+      z.returns = returns;
+      const std::vector<sensors::Observation> list{z};
+      tracker.step(set, {{SensorId{0}, static_cast<std::uint32_t>(k)}, at_ms(50 * k), list});
+    }
+    if (set.tracks.size() != 1) continue;
+    const TrackView view = shown(set.tracks[0], set.time, set.time, config);
+    const linear::Vector<2> off(view.state(2) - v, view.state(3));
+    squares += off.dot(view.covariance.block<2, 2>(2, 2).inverse() * off);
+    ++judged;
+  }
+  EXPECT_GE(judged, kCars - 4);
+  // Chi-square of 2 degrees each, below 2.6 with 0.99 for 60. The velocity across is judged with care, by a silhouette.
+  EXPECT_GT(squares / judged, 0.3);
+  EXPECT_LT(squares / judged, 2.6);
+}
+
+}  // namespace
+}  // namespace ttf::fusion::tracks::body

@@ -1,0 +1,78 @@
+// Objects are never in one place, so tracks are not, either.
+#include "fusion/tracks/parts/overlaps.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/errors.h"
+#include "fusion/loading/tracker.h"
+#include "tests/fusion/scenes.h"
+
+namespace ttf::fusion::tracks::parts {
+namespace {
+
+config::TrackerConfig ending() {
+  config::TrackerConfig config;
+  config.end_overlaps = true;
+  return config;
+}
+
+sensors::Observation car(double x, double y) {
+  sensors::Observation z = position(x, y, 0.05);
+  z.has_heading = z.has_length = z.has_width = true;
+  z.heading = 0.0;
+  z.length = 4.4;
+  z.width = 1.8;
+  z.sigma_heading = 0.02;
+  z.sigma_length = z.sigma_width = 0.1;
+  return z;
+}
+
+// Takes in ten lists, 100 ms apart, that `seen` makes.
+template <class Seen> TrackSet after_ten(const config::TrackerConfig& config, const Seen& seen) {
+  Bench bench(config);
+  for (int k = 0; k < 10; ++k) bench.step(100 * k, seen(k));
+  return bench.set;
+}
+
+using Cars = std::vector<sensors::Observation>;
+
+// Two observations of one car in every list, 1.2 m apart.
+Cars split_car(int) { return {car(20.0, 0.0), car(20.0, 1.2)}; }
+
+TEST(Overlaps, OneCarInTwoPiecesHasOneTrack) {
+  config::TrackerConfig keeping;
+  EXPECT_EQ(confirmed(after_ten(keeping, split_car)), 2);
+  EXPECT_EQ(confirmed(after_ten(ending(), split_car)), 1);
+}
+
+TEST(Overlaps, CarsSideBySideAndBumperToBumperKeepTheirTracks) {
+  const auto parked = [](int) -> Cars { return {car(20, 0), car(20, 2.3), car(24.7, 0)}; };
+  EXPECT_EQ(confirmed(after_ten(ending(), parked)), 3);
+}
+
+// The second car drives into the place of the first one, which is not seen any more.
+TEST(Overlaps, TheTrackThatIsNotSeenEnds) {
+  const auto passing = [](int k) -> Cars {
+    const double x = 35.0 - 1.5 * k;
+    return k < 4 ? Cars{car(24.0, 0.0), car(x, 0.0)} : Cars{car(x, 0.0)};
+  };
+  const TrackSet kept = after_ten({}, passing), ended = after_ten(ending(), passing);
+  EXPECT_EQ(confirmed(kept), 2);
+  ASSERT_EQ(confirmed(ended), 1);
+  EXPECT_EQ(ended.tracks[0].birth.index, 1) << "the younger one is seen";
+}
+
+TEST(Overlaps, OtherMethodsForLateListsAreRefused) {
+  const StrictYaml yaml = StrictYaml::parse("{overlaps: end, late: al1}", "test.yaml");
+  Findings findings;
+  YamlMap root = yaml.root(findings);
+  loading::load_tracker(root);
+  root.finish();
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_EQ(findings.list()[0].key, "late");
+}
+
+}  // namespace
+}  // namespace ttf::fusion::tracks::parts
