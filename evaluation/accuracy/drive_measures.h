@@ -48,7 +48,7 @@ struct BoxErrors {
 // Normalised squares of the filter's own belief, each over its degrees of freedom: 1 if it judges itself rightly.
 struct OwnJudgement {
   double position = kNotMeasured, velocity = kNotMeasured;
-  // Only quantities that the motion model knows count.
+  // Only quantities that the motion model has count.
   double heading = kNotMeasured, speed = kNotMeasured, acceleration = kNotMeasured;
   double length = kNotMeasured, width = kNotMeasured;
   // Innovations of confirmed tracks, from the begin of the judged part on (NIS). The gate leaves out the largest, 0.3 % as

@@ -82,7 +82,7 @@ class ImageUses : public recording::records::Sink {
   // Judges the use that waits for its truth. Call it at the end.
   void finish_use();
   // Returns whether the log has the image; otherwise its measurements are unknown, and a use of it has no ages.
-  bool knows_image(std::uint32_t sequence) const { return image_of(sequence) != nullptr; }
+  bool has_image(std::uint32_t sequence) const { return image_of(sequence) != nullptr; }
 
  private:
   // x, y, vx, vy.

@@ -18,7 +18,7 @@ bool ServiceAccount::used(const recording::records::FeatureUsed& use, std::span<
   last_ = at;
   ++findings_.uses;
   if (use.stale) ++findings_.refused;
-  if (use.stale || !knows_image(use.image_sequence)) return false;
+  if (use.stale || !has_image(use.image_sequence)) return false;
   for (const auto& [sensor, bound] : bounds_) {
     const auto one = std::ranges::find(ages, sensor, &SensorAge::sensor);
     TrueTime& newest = newest_.try_emplace(sensor, from_).first->second;

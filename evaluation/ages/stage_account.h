@@ -1,7 +1,7 @@
 // The latency of measurements by stage, from a drive's records: what the schedule's analysis bounds, beside what was.
 //
 // Stages are those of schedules/analysis/ages.h between two instants that records show. Where no record shows the end
-// of a stage, it is told together with the next one. A measurement counts if its whole way was seen: to the first use of
+// of a stage, it is stated together with the next one. A measurement counts if its whole way was seen: to the first use of
 // the first image in which it is its sensor's newest, or to the fusion without a service. So the mean stages add up to
 // the mean age.
 //

@@ -1,5 +1,5 @@
 // The detections of a detector that several cameras share: how long its frames last, and how often it looks at the
-// camera that it looks at most. It knows the records alone.
+// camera that it looks at most. It uses the records alone.
 //
 // An interval lies between the beginnings of two successive detections of a camera, primary or secondary
 // (schedules/sequence/detections.h). A drive has one such detector.

@@ -96,11 +96,11 @@ void DrivingAccount::note_slowing() {
   if (another || (fast_ && ego_->at - fast_->ahead_at > kFollowed)) fast_.reset();
   if (!slow_at_ && fast_ && fast_->speed && *fast_->speed < config_.reaction_speed_mps) {
     slow_at_ = ego_->at;
-    if (told_slow_) note_reaction(*told_slow_);
+    if (stated_slow_) note_reaction(*stated_slow_);
   }
   if (ahead_ && ahead_->speed >= config_.reaction_speed_mps) fast_ = Leader{ahead_->object, ego_->at, std::nullopt};
   if (fast_) fast_->speed.reset();
-  told_slow_.reset();
+  stated_slow_.reset();
 }
 
 void DrivingAccount::note_reaction(TrueTime image) {
@@ -128,8 +128,8 @@ void DrivingAccount::on(const recording::records::ImageWritten& image) {
   if (!speed || *speed >= config_.reaction_speed_mps) return;
   if (slow_at_)
     note_reaction(image.stamp.true_time);
-  else if (!told_slow_ && ego_ && image.stamp.true_time >= ego_->at)
-    told_slow_ = image.stamp.true_time;  // whether it is true is known at the next moment
+  else if (!stated_slow_ && ego_ && image.stamp.true_time >= ego_->at)
+    stated_slow_ = image.stamp.true_time;  // whether it is true is known at the next moment
 }
 
 // At a standstill the acceleration ends with the motion, whatever the brakes do: no controller decides about it.
@@ -168,10 +168,12 @@ void DrivingAccount::note_beside(const recording::records::TruthState& object) {
 
 void DrivingAccount::on(const recording::records::CommandIssued& command) {
   if (command.stamp.true_time >= from_) ++findings_.issued;
-  warnings_.hear(command.stamp.node, command.stamp.true_time);
+  warnings_.note_alive(command.stamp.node, command.stamp.true_time);
 }
 
-void DrivingAccount::on(const recording::records::TaskRun& run) { warnings_.hear(run.start.node, run.start.true_time); }
+void DrivingAccount::on(const recording::records::TaskRun& run) {
+  warnings_.note_alive(run.start.node, run.start.true_time);
+}
 
 void DrivingAccount::on(const recording::records::PowerChanged& power) {
   warnings_.note_power(power.stamp.node, power.stamp.true_time);

@@ -1,5 +1,5 @@
 // The worth of a drive in which commands drive the vehicle: gap and time to collision, braking and jerk, commands, and the warnings
-// of its services against the truth. It knows the records alone, and the road.
+// of its services against the truth. It uses the records alone, and the road.
 //
 // Forward collision warning and emergency braking have a hazard when the true time to collision is below the service's
 // time. Lane departure has one when a side of the vehicle is beyond its mark. Blind spot warning has one when an
@@ -116,9 +116,9 @@ class DrivingAccount final : public recording::records::Sink {
     TrueTime ahead_at{};          // when it was last in the way
     std::optional<double> speed;  // at this moment
   };
-  std::optional<Leader> fast_;         // the last object ahead that was fast, unless another one has come between
-  std::optional<TrueTime> slow_at_;    // it fell below the reaction speed
-  std::optional<TrueTime> told_slow_;  // the first image since the moment that says so
+  std::optional<Leader> fast_;           // the last object ahead that was fast, unless another one has come between
+  std::optional<TrueTime> slow_at_;      // it fell below the reaction speed
+  std::optional<TrueTime> stated_slow_;  // the first image since the moment that says so
   std::uint64_t behind_ = 0, below_ = 0, jerks_ = 0;
   double gap_squares_ = 0.0, jerk_squares_ = 0.0;
   WarningAccount warnings_;

@@ -22,11 +22,11 @@ void WarningAccount::judge(std::size_t service, TrueTime at, bool hazard) {
   one.hazard = hazard;
 }
 
-void WarningAccount::hear(NodeId node, TrueTime at) {
+void WarningAccount::note_alive(NodeId node, TrueTime at) {
   for (Service& one : services_) {
     if (!one.warns || node != one.warner) continue;
     note_silence(one, at);
-    one.heard = at;
+    one.alive = at;
   }
 }
 
@@ -40,8 +40,8 @@ void WarningAccount::note_power(NodeId node, TrueTime at) {
 }
 
 void WarningAccount::note_silence(Service& service, TrueTime until) {
-  if (!service.warns || until - service.heard <= kSilent) return;
-  service.warned.back().to = service.heard;
+  if (!service.warns || until - service.alive <= kSilent) return;
+  service.warned.back().to = service.alive;
   service.warns = false;
 }
 
@@ -51,7 +51,7 @@ void WarningAccount::warn(const recording::records::Warning& warning) {
   Service& one = services_[warning.service];
   note_silence(one, at);
   one.warner = warning.stamp.node;
-  one.heard = at;
+  one.alive = at;
   if (warning.on && !one.warns) one.warned.push_back({at, kNever<TrueTime>});
   if (!warning.on && one.warns) one.warned.back().to = at;
   one.warns = warning.on;
@@ -68,21 +68,21 @@ WarningFindings WarningAccount::finish(std::size_t service, TrueTime end) {
     else
       hazards.push_back(one);
   WarningFindings found;
-  const auto meet = [](const Span& warning, const Span& hazard) {
+  const auto overlap = [](const Span& warning, const Span& hazard) {
     return warning.from <= hazard.to + kTolerance && warning.to >= hazard.from - kTolerance;
   };
   for (const Span& warning : of.warned) {
     if (warning.to < from_) continue;
     ++found.given;
     const bool right =
-        std::any_of(hazards.begin(), hazards.end(), [&](const Span& hazard) { return meet(warning, hazard); });
+        std::any_of(hazards.begin(), hazards.end(), [&](const Span& hazard) { return overlap(warning, hazard); });
     ++(right ? found.right : found.wrong);
   }
   for (const Span& hazard : hazards) {
     if (hazard.to - hazard.from < kNoticed) continue;
     ++found.hazards;
     const auto first =
-        std::find_if(of.warned.begin(), of.warned.end(), [&](const Span& warning) { return meet(warning, hazard); });
+        std::find_if(of.warned.begin(), of.warned.end(), [&](const Span& warning) { return overlap(warning, hazard); });
     if (first == of.warned.end()) {
       ++found.missed;
     } else if (first->from > hazard.from) {

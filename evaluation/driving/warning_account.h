@@ -31,11 +31,11 @@ class WarningAccount {
   // Ignores warnings that end before `from`.
   explicit WarningAccount(TrueTime from) : from_(from) {}
 
-  // Tells whether the truth is a hazard of the service at `at`, which is not before the last one.
+  // Notes whether the truth is a hazard of the service at `at`, which is not before the last one.
   void judge(std::size_t service, TrueTime at, bool hazard);
-  // Tells that a node lives.
-  void hear(NodeId node, TrueTime at);
-  // Tells that a node's supply was switched: it has forgotten its warnings, and takes none back.
+  // Notes that a node is alive.
+  void note_alive(NodeId node, TrueTime at);
+  // Notes that a node's supply was switched: it has lost its warnings, and takes none back.
   void note_power(NodeId node, TrueTime at);
   void warn(const recording::records::Warning& warning);
   // Returns a service's findings at the drive's end.
@@ -49,7 +49,7 @@ class WarningAccount {
     std::vector<Span> hazards, warned;  // the last one may go on
     bool hazard = false, warns = false;
     NodeId warner{};   // the node that warned last
-    TrueTime heard{};  // when it last said something
+    TrueTime alive{};  // when it was last seen to be alive
   };
   static void note_silence(Service& service, TrueTime until);
 

@@ -25,16 +25,16 @@ void add(MediumCounts& sum, const MediumCounts& more) {
 }  // namespace
 
 void MediumSums::on(const MediumCounts& record) {
-  Told& told = told_.try_emplace(record.stamp.node, Told{{}, record}).first->second;
-  if (is_of_another_process(record, told.newest)) add(told.before, told.newest);
-  told.newest = record;
+  Reported& reported = reported_.try_emplace(record.stamp.node, Reported{{}, record}).first->second;
+  if (is_of_another_process(record, reported.newest)) add(reported.before, reported.newest);
+  reported.newest = record;
 }
 
 std::map<NodeId, MediumCounts> MediumSums::nodes() const {
   std::map<NodeId, MediumCounts> nodes;
-  for (const auto& [node, told] : told_) {
-    MediumCounts& sum = nodes[node] = told.newest;
-    add(sum, told.before);
+  for (const auto& [node, reported] : reported_) {
+    MediumCounts& sum = nodes[node] = reported.newest;
+    add(sum, reported.before);
   }
   return nodes;
 }

@@ -20,11 +20,11 @@ class MediumSums final : public recording::records::Sink {
   void on(const recording::records::MediumCounts&) override;
 
  private:
-  struct Told {
+  struct Reported {
     recording::records::MediumCounts before;  // from the node's former processes
     recording::records::MediumCounts newest;  // from its present process
   };
-  std::map<NodeId, Told> told_;
+  std::map<NodeId, Reported> reported_;
 };
 
 }  // namespace ttf::evaluation::lateness

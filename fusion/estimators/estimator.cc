@@ -72,7 +72,7 @@ sensors::Observation as_first(const sensors::Observation& observation, double ve
   return without;
 }
 
-bool knows_course(const linear::Gaussian<4>& state) {
+bool has_course(const linear::Gaussian<4>& state) {
   const double speed_squared = state.x.tail<2>().squaredNorm();
   return speed_squared >= motion::kSlowest * motion::kSlowest &&
          state.p(2, 2) + state.p(3, 3) <= kKnown * kKnown * speed_squared;

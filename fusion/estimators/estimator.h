@@ -1,5 +1,5 @@
 // An estimator combines a motion model, a filter and the sensors' models for one object. The tracker's
-// configuration chooses it; its users do not know the choice. It has no state: each function depends on the
+// configuration chooses it; its users do not depend on the choice. It has no state: each function depends on the
 // estimate alone, so the tracker may copy estimates, keep them and return to them. Estimators never allocate.
 //
 // Laws, tested over every motion model and filter (tests/fusion/estimators/estimator_test.cc):

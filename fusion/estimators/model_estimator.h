@@ -34,7 +34,7 @@ linear::Gaussian<4> first_estimate(const sensors::Observation& observation, doub
 // Returns the observation as the first one of an object whose velocity has this variance.
 sensors::Observation as_first(const sensors::Observation& observation, double velocity_variance);
 // Returns whether the object is known to move, and in which direction.
-bool knows_course(const linear::Gaussian<4>& state);
+bool has_course(const linear::Gaussian<4>& state);
 
 template <class F, class Kernel> class ModelEstimator final : public Estimator {
  public:
@@ -123,7 +123,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
   void follow_course(Estimate& estimate) const {
     if constexpr (Kernel::kNeedsCourse) {
       if (const auto* young = std::get_if<linear::Gaussian<4>>(&estimate)) {
-        if (knows_course(*young)) estimate = kernel_.from(linear::Gaussian<4>(*young));
+        if (has_course(*young)) estimate = kernel_.from(linear::Gaussian<4>(*young));
       } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
         estimate = *lost;
       }

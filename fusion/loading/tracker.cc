@@ -95,7 +95,7 @@ void load_late(YamlMap& yaml, TrackerConfig& c) {
   if (!is_straight_and_extended(c))
     yaml.fail("late",
               "must be rewind unless motion is constant_velocity or constant_acceleration and filter is extended: "
-              "the other methods know only those estimates");
+              "the other methods support only those estimates");
   if (c.systematic == SystematicErrorsAre::kConsidered)
     yaml.fail("late", "must be rewind if systematic is consider: the other methods carry no biases of sensors");
   if (c.association != Association::kNearest || c.birth != Birth::kMOfN || c.merge_probability != 0.0)

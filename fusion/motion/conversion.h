@@ -27,12 +27,12 @@ inline constexpr double kTurning = 1.0;  // [m/s]
 // An estimate of (x, y, vx, vy, ax, ay), or of only the first four.
 struct Whole {
   linear::Gaussian<6> estimate;
-  bool knows_acceleration = false;
+  bool has_acceleration = false;
 };
 
 template <Model From> Whole whole(const linear::Gaussian<From::kStates>& from) {
   constexpr int kN = From::kStates;
-  Whole to{.estimate = {}, .knows_acceleration = !(From::kCartesian && kN == 4)};
+  Whole to{.estimate = {}, .has_acceleration = !(From::kCartesian && kN == 4)};
   linear::Vector<6>& x = to.estimate.x;
   if constexpr (From::kCartesian) {
     x.template head<kN>() = from.x;
@@ -74,7 +74,7 @@ linear::Gaussian<To::kStates> from_whole(const Whole& from, const linear::Gaussi
   to.x(1) = w(1);
   int known = 2;
   if constexpr (To::kCartesian) {
-    known = from.knows_acceleration ? kN : 4;
+    known = from.has_acceleration ? kN : 4;
     for (int i = 2; i < known; ++i) {
       j(i, i) = 1.0;
       to.x(i) = w(i);
@@ -90,7 +90,7 @@ linear::Gaussian<To::kStates> from_whole(const Whole& from, const linear::Gaussi
     j(2, 3) = w(2) / squared;
     j(3, 2) = c;
     j(3, 3) = s;
-    if (from.knows_acceleration && speed >= kTurning) {
+    if (from.has_acceleration && speed >= kTurning) {
       known = kN;
       const double rate = (w(2) * w(5) - w(3) * w(4)) / squared;
       to.x(4) = rate;

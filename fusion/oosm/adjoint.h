@@ -6,7 +6,7 @@
 // runs from i = k down to the first update after tau, with M(i) = I - K H:
 //   r <- H' S^-1 nu + M' r,  L <- H' S^-1 H + M' L M,  then over the step before it, F(i):  r <- F' r,  L <- F' L F,
 //   Phi <- Phi M F;     x(tau) = xb + Pb r,  P(tau) = Pb - Pb L Pb,  cov(x(k), x(tau)) = Phi Pb.
-// Exact       one late measurement, at any lag. Gains and innovations before t(k) do not know that measurement, so they
+// Exact       one late measurement, at any lag. Gains and innovations before t(k) do not contain that measurement, so they
 //             are useless for another one. After each late measurement the history restarts at t(k), and older stamps
 //             are too old. So every measurement that is taken is exact.
 // Stores      stamp, x, P, F, M, H' S^-1 nu, H' S^-1 H of every measurement in order since, within the capacity.

@@ -1,4 +1,4 @@
-// Forward fixed-point clones. The schedule knows the instants of all measurements. When time passes such an
+// Forward fixed-point clones. The schedule states the instants of all measurements. When time passes such an
 // instant without the measurement, its state is cloned. Every later update corrects the clone, too (fixed-point
 // smoothing, Meditch: "Stochastic Optimal Linear Estimation and Control", 1969). The measurement, when it
 // comes, corrects clone and newest state together; then the clone is dropped.

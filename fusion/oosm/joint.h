@@ -77,7 +77,7 @@ template <int N, int M, int Slots> class Joint {
   [[gnu::flatten]] void correct_now(const linear::LinearMeasurement<N, M>& measurement) {
     const Whitened<N, M> whitened = correct<N, M>(now_, measurement);
     for (int i = 0; i < size_; ++i) gains_[at(i)].noalias() = cross_[at(i)] * whitened.h.transpose();
-    learn(whitened.v, whitened.nu);
+    correct_slots(whitened.v, whitened.nu);
   }
 
   [[gnu::flatten]] void correct_slot(int a, const linear::LinearMeasurement<N, M>& measurement) {
@@ -91,7 +91,7 @@ template <int N, int M, int Slots> class Joint {
     const linear::Matrix<N, M> v = cross_[at(a)].transpose() * h.transpose();
     now_.x.noalias() += v * nu;
     now_.p.noalias() -= v * v.transpose();
-    learn(v, nu);
+    correct_slots(v, nu);
   }
 
   // Displaces the newest state and the slots `moves(slot)`, all by the same.
@@ -172,7 +172,7 @@ template <int N, int M, int Slots> class Joint {
   }
 
   // Corrects the slots; their V is in gains_.
-  [[gnu::flatten]] void learn(const linear::Matrix<N, M>& now, const linear::Vector<M>& nu) {
+  [[gnu::flatten]] void correct_slots(const linear::Matrix<N, M>& now, const linear::Vector<M>& nu) {
     for (int i = 0; i < size_; ++i) {
       const linear::Matrix<N, M>& v = gains_[at(i)];
       x_[at(i)].noalias() += v * nu;

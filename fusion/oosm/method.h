@@ -108,15 +108,15 @@ concept Motion = std::copyable<X> && requires(const X& motion, double dt) {
 // use that any more. Methods that need no announcement return true and do nothing.
 template <class X>
 concept Method = std::copyable<X> &&
-    requires(X x, const X& told, GlobalTime time, const Stamp& stamp, const linear::Gaussian<X::kStates>& prior,
+    requires(X x, const X& started, GlobalTime time, const Stamp& stamp, const linear::Gaussian<X::kStates>& prior,
              const linear::LinearMeasurement<X::kStates, X::kDimension>& measurement) {
   { X::kExactness } -> std::convertible_to<Exactness>;
   x.start(time, prior);
   { x.announce(stamp) } -> std::same_as<bool>;
   { x.take(stamp, measurement) } -> std::same_as<Taken>;
-  { told.at(stamp) } -> std::same_as<std::optional<linear::Gaussian<X::kStates>>>;
-  { told.state() } -> std::same_as<const linear::Gaussian<X::kStates>&>;
-  { told.time() } -> std::same_as<GlobalTime>;
+  { started.at(stamp) } -> std::same_as<std::optional<linear::Gaussian<X::kStates>>>;
+  { started.state() } -> std::same_as<const linear::Gaussian<X::kStates>&>;
+  { started.time() } -> std::same_as<GlobalTime>;
 };
 
 // Advances the state over `elapsed`, which may be zero.

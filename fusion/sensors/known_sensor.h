@@ -1,4 +1,4 @@
-// The fusion's knowledge of a sensor beside its noise: its mounting, its field (fusion/sensors/field.h) and its systematic
+// The fusion's knowledge of a sensor beside its noise: its mounting, its field and its systematic
 // errors (fusion/sensors/systematic.h). As YAML (fusion/loading/known_sensor.h), where every key defaults to "none":
 //
 //   mounting: {x: 3.5, y: 0.0, heading: 0.0}      # on the vehicle: [m], and [rad] from its x axis to the sensor's
@@ -14,13 +14,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "core/ids.h"
 #include "fusion/linear/gaussian.h"
-#include "fusion/sensors/field.h"
 #include "fusion/sensors/mounting.h"
 #include "fusion/sensors/observation.h"
 
@@ -33,6 +35,32 @@ struct SystematicErrors {
   linear::Vector<3> known =
       linear::Vector<3>::Zero();  // range [m], bearing [rad], range rate [m/s]; or x, y [m] and unused
   linear::Vector<4> sigma = linear::Vector<4>::Zero();  // for the rest of these, and for the time stamp [s]
+};
+
+// From `from` to `to` [rad], counter-clockwise.
+struct BlindSector {
+  double from = 0.0, to = 0.0;
+};
+
+// The part of the plane that a sensor sees, in its own axes. As YAML, where every omitted key sets no bound:
+//
+//   field: {half_angle: 0.45, min_range: 1.0, max_range: 90.0, shadow: 0.5, blind: [{from: 0.3, to: 0.45}]}
+//
+// The sensor's own vehicle hides the blind sectors, which lie between two azimuths in the sensor's axes.
+//
+// Objects hide each other: each hides all behind it, up to the share `shadow` of its own distance. From a mast of
+// height h, an object of height t has the shadow t / (h - t). A shadow of 0 hides nothing.
+struct Field {
+  static constexpr std::size_t kMostBlind = 4;
+  static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+  double half_angle = kUnbounded;                  // [rad], seen to either side of the sensor's axis
+  double min_range = 0.0, max_range = kUnbounded;  // [m]
+  double shadow = kUnbounded;
+  std::array<BlindSector, kMostBlind> blind{};
+  std::size_t blind_sectors = 0;
+
+  bool all_around() const { return half_angle >= std::numbers::pi; }
 };
 
 struct KnownSensor {

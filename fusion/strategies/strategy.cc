@@ -298,7 +298,7 @@ std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const Sen
   const bool scheduled =
       std::all_of(sensors.begin(), sensors.end(), [](const SensorTiming& sensor) { return sensor.scheduled; });
   if (late == oosm::Kind::kClone && !scheduled)
-    return "must not be clone if a sensor measures freely: the schedule must know the instants beforehand";
+    return "must not be clone if a sensor measures freely: the schedule must state the instants beforehand";
   return {};
 }
 

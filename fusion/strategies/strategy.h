@@ -65,7 +65,7 @@ enum class ReliesOn : std::uint8_t {
 enum class TakesLate : std::uint8_t {
   kUnsaid,         // not stated; no strategy has it
   kByRewinding,    // only rewinding, whatever the configuration says: by design no list is late
-  kByClones,       // rewinding, or clones where the schedule knows the instants
+  kByClones,       // rewinding, or clones where the schedule states the instants
   kByEveryMethod,  // all methods
 };
 

@@ -61,21 +61,21 @@ Actuator::Records Actuator::run_longitudinal(host::StepContext& context) {
   };
   const bool acts = counts->has_value() && (is_new(taken) || (emergency && is_new(*emergency)));
   Records records;
-  bool told = false;
-  const auto tell = [&](CommandTaken read) {
+  bool handed_over = false;
+  const auto note = [&](CommandTaken read) {
     if (read.verdict == recording::records::kApplied) {
       if (read.pdu == (*counts)->taken.pdu) {
         hand_over(context, read);
-        told = true;
+        handed_over = true;
       } else {
         read.verdict = recording::records::kWeakerCommand;
       }
     }
     records.add(read);
   };
-  tell(taken);
-  if (emergency && emergency->verdict != recording::records::kNoNewCommand) tell(*emergency);
-  if (!acts || told) return records;
+  note(taken);
+  if (emergency && emergency->verdict != recording::records::kNoNewCommand) note(*emergency);
+  if (!acts || handed_over) return records;
   CommandTaken earlier = (*counts)->taken;
   earlier.stamp = context.stamp;
   hand_over(context, earlier);

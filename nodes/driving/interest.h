@@ -12,7 +12,7 @@
 
 namespace ttf::nodes::driving {
 
-// A camera as the planner knows it: its place on the vehicle, and its picture.
+// A camera in the planner's model: its place on the vehicle, and its picture.
 struct Picture {
   SensorId sensor = kNoSensor;
   double x = 0.0, y = 0.0, heading = 0.0;  // the mounting [m], [rad]

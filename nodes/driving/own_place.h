@@ -1,7 +1,7 @@
 // The own place along a straight line, by odometry alone: from the first sample on, speed and yaw rate are integrated.
 //
 // The line begins at the vehicle's place then, in its own direction. So a vehicle that starts along the middle of a
-// straight lane knows its place in that lane. Nothing corrects the place later. A constant error b of the yaw rate
+// straight lane has its place in that lane. Nothing corrects the place later. A constant error b of the yaw rate
 // moves it aside by v b t^2 / 2. For 29 m/s and 0.002 rad/s this is 2.9 m after 10 s.
 #pragma once
 

@@ -1,6 +1,6 @@
 // The fusion node: decodes the lists from its controller, hands them to a strategy, and writes the real-time image.
 //
-// The node knows only bytes from its controller, the schedule and its own clock. Its tasks share one
+// The node has only bytes from its controller, the schedule and its own clock. Its tasks share one
 // FusionHost. A task `fusion` runs at every fusion instant; with BUFF and ADVA there may be one for each
 // sensor, which runs when a list of that sensor arrives. `image_output` runs before the image's slots. The
 // image is predicted to the instant at which the feature service will use it, known from the schedule. The
@@ -26,7 +26,7 @@
 
 namespace ttf::nodes::fusion {
 
-// Returns what the strategy knows about each sensor from the schedule (schedules/analysis/settled.h computes
+// Returns each sensor's timing by the schedule, for the strategy (schedules/analysis/settled.h computes
 // how long to wait for a list).
 std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedules::model::Cluster& cluster);
 

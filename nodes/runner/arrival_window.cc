@@ -12,7 +12,7 @@ namespace {
 
 using Kind = bus::ports::LiveArrival::Kind;
 constexpr Microticks kNotDue{std::numeric_limits<std::int64_t>::max()};
-constexpr std::int64_t kNotHeard = -1;
+constexpr std::int64_t kNotReceived = -1;
 
 Microticks bits(const schedules::model::GlobalParameters& g, const schedules::model::NodeParameters& p, int count) {
   return {(count * g.gdBit_ps + p.pdMicrotick_ps - 1) / p.pdMicrotick_ps};
@@ -46,7 +46,8 @@ ArrivalWindow::ArrivalWindow(const schedules::model::Cluster& cluster, NodeId no
   used_.reserve(kMost);
   for (std::size_t i = kMost; i > 0; --i) free_.push_back(static_cast<std::uint16_t>(i - 1));
   for (auto& slots : deviations_) slots.resize(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots));
-  for (auto& slots : heard_) slots.assign(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots), kNotHeard);
+  for (auto& slots : received_)
+    slots.assign(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots), kNotReceived);
 }
 
 void ArrivalWindow::arrive(const bus::ports::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
@@ -190,9 +191,9 @@ Microticks ArrivalWindow::within_reach(Microticks deviation, std::int64_t cycle,
 }
 
 void ArrivalWindow::count_gap(std::int64_t cycle, int slot, schedules::model::Channel channel) {
-  std::int64_t& last = heard_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
+  std::int64_t& last = received_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const std::int64_t before = std::exchange(last, std::max(last, cycle));
-  if (before == kNotHeard || cycle - before > kLongestGap) return;
+  if (before == kNotReceived || cycle - before > kLongestGap) return;
   const int round = cluster_.flexray.gCycleCountMax + 1;
   std::uint32_t lost = 0;
   for (std::int64_t c = before + 1; c < cycle; ++c)
@@ -202,7 +203,7 @@ void ArrivalWindow::count_gap(std::int64_t cycle, int slot, schedules::model::Ch
 
 // A new clock counts cycles anew.
 void ArrivalWindow::forget_cycles() {
-  for (auto& heard : heard_) std::fill(heard.begin(), heard.end(), kNotHeard);
+  for (auto& cycles : received_) std::fill(cycles.begin(), cycles.end(), kNotReceived);
   for (auto& deviations : deviations_) std::fill(deviations.begin(), deviations.end(), Deviation{});
 }
 

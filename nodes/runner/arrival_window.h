@@ -143,7 +143,7 @@ class ArrivalWindow {
   std::vector<std::uint16_t> free_, used_;
   std::optional<std::uint16_t> handed_over_;  // its views are in use
   std::uint64_t order_ = 0, dropped_ = 0;
-  std::array<std::vector<std::int64_t>, 2> heard_;  // by channel and slot - 1, the last cycle; kNotHeard
+  std::array<std::vector<std::int64_t>, 2> received_;  // by channel and slot - 1, the last cycle; kNotReceived
 };
 
 }  // namespace ttf::nodes::runner

@@ -33,7 +33,7 @@ enum class HeldEvent : std::uint8_t {
   kOfNextCycle,      // ahead of the node's clock
   kInWindow,
   kOutsideWindow,
-  kWithoutSlot,  // without a slot and cycle that the node knows
+  kWithoutSlot,  // without a slot and cycle that the node has
 
   // The end of a placed frame has come
   kEnded,

@@ -140,7 +140,7 @@ void Runner::take_in() {
   if (config_.vehicle != nullptr) config_.vehicle->take_in();
   while (const auto arrival = medium_.receive()) {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
-    if (arrival->at < powered_on_) continue;  // without power the node hears nothing
+    if (arrival->at < powered_on_) continue;  // without power the node receives nothing
     if (arrival->kind == bus::ports::LiveArrival::Kind::kCanReport) {
       tell_errors(*arrival);
       continue;

@@ -7,7 +7,7 @@
 // departure, counted where it exceeds the arrival window, and never corrected in the records. A stopped process
 // catches up: its node does all it missed, in order, but sends nothing that is too late. A node without clock
 // corrections for too long halts (gMaxWithoutClockCorrectionFatal); its host starts it anew, and it integrates.
-// The host also starts a node anew that may only listen for others and hears no frame.
+// The host also starts a node anew that may only listen for others and receives no frame.
 //
 // Arrivals have the instants at which they reached the machine. So they need no wake-up of their own, except
 // those that a task waits for. Steps run on the same thread. A step that computes beyond the start of the next
@@ -70,7 +70,7 @@ struct Health {
   std::optional<std::uint8_t> can_state;
   std::optional<vehicle::Counts> vehicle;  // its line's
 
-  // Counts each frame once that this process or its medium knows to be lost. timing.frames_lost counts gaps:
+  // Counts each frame once that this process or its medium has found to be lost. timing.frames_lost counts gaps:
   // some of those may be the same frames, others were withheld by their senders.
   std::uint64_t drops() const { return medium.lost + medium.not_sent + dropped; }
 };
@@ -88,8 +88,8 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
          MachineClock& machine_clock, recording::records::Sink& sink);
   ~Runner() override;
 
-  // Calls `hear` about once a second of real time, in a moment when nothing is due at once.
-  void on_health(std::function<void(const Health&)> hear) { on_health_ = std::move(hear); }
+  // Calls `receiver` about once a second of real time, in a moment when nothing is due at once.
+  void on_health(std::function<void(const Health&)> receiver) { on_health_ = std::move(receiver); }
   RunnerEnd run();
 
   Health health() const;

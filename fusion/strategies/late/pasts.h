@@ -1,5 +1,5 @@
 // The pasts of all objects under a method for late measurements (fusion/oosm/), each in its own slot. This
-// interface separates the tracks, which know neither state nor motion, from the methods, which know no objects.
+// interface separates the tracks, which have neither state nor motion, from the methods, which have no objects.
 //
 // Methods take positions of objects in straight motion: there everything is linear and Gaussian. Ranges, bearings and range
 // rates are linearised (fusion/strategies/late/pasts_of.h). Estimates have

@@ -41,7 +41,7 @@ template <int R, int K>
   return result;
 }
 
-// The first R of a centre's components are functions of the first K of its anchor's: all six, or four if the model knows no
+// The first R of a centre's components are functions of the first K of its anchor's: all six, or four if the model has no
 // acceleration. Images need all of them, and most others the position alone.
 //
 // Returns the centre by its place in the object. With u = d centre / d heading and the turn rate w, its velocity is

@@ -24,7 +24,7 @@ using CentrePosition = CentreOf<2>;
 
 // Returns the centre of an object whose anchor has this estimate. `shown` is Body::shown. To first order, its covariance
 // contains those of size, heading and turn rate, with all correlations that they bring between position, velocity and
-// acceleration. An acceleration that the model does not know stays so.
+// acceleration. An acceleration that the model does not have stays unknown.
 Centre centred(const Anchor& anchor, const Extent& extent, const Heading& axis, const Scalar& shown,
                const estimators::Cartesian& estimate);
 inline Centre centred(const Body& body, const estimators::Cartesian& estimate) {

@@ -124,8 +124,8 @@ sensors::Observation counted(const sensors::Observation& z, const Distance& dist
   return moved(z, distance, spread, mounting);
 }
 
-void learn_size(Extent& extent, const sensors::Observation& z, const Distance& distance,
-                const linear::Gaussian<2>& at) {
+void correct_size(Extent& extent, const sensors::Observation& z, const Distance& distance,
+                  const linear::Gaussian<2>& at) {
   if (z.kind != sensors::ObservationKind::kPosition) return;
   const linear::Matrix<2> axes = axes_of(distance);
   const linear::Vector<2> off = z.z.head<2>() - at.x - distance.between;

@@ -4,11 +4,11 @@
 // Its error by the size repeats in every list. So it must not be averaged away as noise.
 //
 // The track carries no correlation of position and size. Instead, along each axis of the object, the less certain of the
-// two learns, and the other one stays. With p the variance of the track's position and c that of the distance:
-//   p > c   The position learns. The observation counts with an additional variance of max(c, p c / (p - c)). The position
+// two is corrected, and the other one stays. With p the variance of the track's position and c that of the distance:
+//   p > c   The position is corrected. The observation counts with an additional variance of max(c, p c / (p - c)). The position
 //           then keeps at least the variance c (the bound of a consider state, fusion/tracks/body/extent.h).
-//   p < c   The size learns in the same way. Then p is the variance that repeats.
-// So an observation teaches one of the two, and none twice.
+//   p < c   The size is corrected in the same way. Then p is the variance that repeats.
+// So an observation corrects one of the two, and none twice.
 //
 // How the object lies and turns: fusion/tracks/body/turn.h. Where its heading is lost: fusion/tracks/body/behind.h.
 #pragma once
@@ -48,8 +48,8 @@ sensors::Observation counted(const sensors::Observation& observation, const Dist
                              const sensors::Mounting& mounting, const linear::Matrix<2>& p);
 
 // Corrects the sizes by the position of another point than the anchor; `at` is the anchor's before this observation.
-void learn_size(Extent& extent, const sensors::Observation& observation, const Distance& distance,
-                const linear::Gaussian<2>& at);
+void correct_size(Extent& extent, const sensors::Observation& observation, const Distance& distance,
+                  const linear::Gaussian<2>& at);
 
 // Returns the anchor of a new track with this first observation.
 Anchor first_anchor(const sensors::Observation& observation, const sensors::Mounting& mounting);

@@ -43,16 +43,16 @@ const Distance* Distances::computed(std::size_t index, const Body& body, const e
     return single_ ? &*single_ : nullptr;
   }
   OfTrack& known = of_track_[index];
-  if (has_sides(z.seen) && !knows_[index].axis) {
+  if (has_sides(z.seen) && !has_[index].axis) {
     known.axis << std::cos(body.heading.value), std::sin(body.heading.value);
-    knows_[index].axis = true;
+    has_[index].axis = true;
   }
   Anchor to = anchor_of(z.seen, z.z.head<2>(), known.axis, mounting.position);
   if (z.seen == SeenPoint::kSilhouette) to.sensor = z.sensor;
   if (to == body.anchor) return nullptr;
-  if (!knows_[index].distance || !(to == known.distance.to)) {
+  if (!has_[index].distance || !(to == known.distance.to)) {
     known.distance = *distance_to(body, estimator, z, mounting);
-    knows_[index].distance = true;
+    has_[index].distance = true;
   }
   return &known.distance;
 }

@@ -19,26 +19,26 @@ double reach_of(const Body& body, const linear::Vector<2>& at, const sensors::Mo
 
 class Distances {
  public:
-  explicit Distances(std::size_t max_tracks) : knows_(max_tracks), of_track_(max_tracks) {}
+  explicit Distances(std::size_t max_tracks) : has_(max_tracks), of_track_(max_tracks) {}
 
   // Forgets all distances, for a list and this many tracks.
   void begin(std::size_t tracks);
   // Forgets the distances of a track that changes.
-  void forget(std::size_t index) { knows_[index] = {}; }
+  void forget(std::size_t index) { has_[index] = {}; }
   // Returns the distance of the observation from the anchor of the track, the index-th of its set, and null if they are
   // one point. It is valid until the next call.
   const Distance* of(std::size_t index, const Body& body, const estimators::Estimator& estimator,
                      const sensors::Observation& observation, const sensors::Mounting& mounting) {
     // Most pairs of a list ask for a silhouette's distance again, so that this way is in line.
     const OfTrack& known = of_track_[index];
-    if (knows_[index].distance && observation.seen == sensors::SeenPoint::kSilhouette && !observation.has_heading &&
+    if (has_[index].distance && observation.seen == sensors::SeenPoint::kSilhouette && !observation.has_heading &&
         known.distance.to.point == sensors::SeenPoint::kSilhouette && known.distance.to.from == mounting.position)
       return &known.distance;
     return computed(index, body, estimator, observation, mounting);
   }
 
  private:
-  struct Knows {
+  struct Has {
     bool axis = false, distance = false;
   };
   struct OfTrack {
@@ -47,7 +47,7 @@ class Distances {
   };
   const Distance* computed(std::size_t index, const Body& body, const estimators::Estimator& estimator,
                            const sensors::Observation& observation, const sensors::Mounting& mounting);
-  std::vector<Knows> knows_;  // apart, so that forgetting touches little
+  std::vector<Has> has_;  // apart, so that forgetting touches little
   std::vector<OfTrack> of_track_;
   std::optional<Distance> single_;  // where the observation's heading counts
 };

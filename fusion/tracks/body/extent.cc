@@ -131,14 +131,14 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
   const double before = expected.by_size.dot(extent.covariance * expected.by_size);
   const double nu = span - expected.angle;
   if (nu * nu > kCompatible * kCompatible * (before + sigma * sigma + repeating)) return;
-  Eigen::Vector2d told = expected.by_size;
+  Eigen::Vector2d by_size = expected.by_size;
   const double foreshortening[] = {std::abs(std::sin(aspect.angle)), std::abs(std::cos(aspect.angle))};
   for (Eigen::Index k = 0; k < 2; ++k)
     if (foreshortening[k] < kFlattest * aspect.sigma_angle) {
-      repeating += told(k) * told(k) * extent.covariance(k, k);
-      told(k) = 0.0;
+      repeating += by_size(k) * by_size(k) * extent.covariance(k, k);
+      by_size(k) = 0.0;
     }
-  correct_combination(extent, told, nu, sigma * sigma, repeating);
+  correct_combination(extent, by_size, nu, sigma * sigma, repeating);
 }
 
 }  // namespace ttf::fusion::tracks::body

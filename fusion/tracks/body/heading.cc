@@ -34,7 +34,7 @@ double ahead_by(const Heading& heading, const linear::Gaussian<2>& velocity) {
   return along.dot(velocity.x) / std::max(kLeast, std::sqrt(std::max(0.0, along.dot(velocity.p * along))));
 }
 
-void learn_front(Heading& heading, const linear::Gaussian<2>& velocity) {
+void update_front(Heading& heading, const linear::Gaussian<2>& velocity) {
   if (!heading.known) return;
   const double ahead = ahead_by(heading, velocity);
   if (std::abs(ahead) > kTellsFront) heading.front = ahead > 0.0 ? 1 : -1;

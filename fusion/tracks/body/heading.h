@@ -28,7 +28,7 @@ Scalar predicted(const Scalar& scalar, double noise, double dt);
 // Value in [rad], of one end of the axis, and its rate [rad/s] with the covariance of both. An unknown heading has a rate.
 struct Heading : Scalar {
   double rate = 0.0, rate_variance = 0.0, covariance = 0.0;
-  signed char front = 0;  // 1: at the value's end, -1: at the other one, 0: no velocity has told it yet
+  signed char front = 0;  // 1: at the value's end, -1: at the other one, 0: no velocity has shown it yet
 };
 
 // Returns the heading of a new track, before its first measurement.
@@ -59,7 +59,7 @@ void correct(Heading& heading, double measured, double sigma, double likely, dou
 inline constexpr double kTellsFront = 5.0;
 
 // Remembers the front of a known heading, if this velocity tells it.
-void learn_front(Heading& heading, const linear::Gaussian<2>& velocity);
+void update_front(Heading& heading, const linear::Gaussian<2>& velocity);
 
 // Takes over the front that another heading of the same object remembers, if this one remembers none.
 void take_front(Heading& heading, const Heading& other);

@@ -35,7 +35,7 @@ void correct_heading(Track& track, const estimators::Estimator& estimator, const
 
 void correct_front(Track& track, const estimators::Estimator& estimator) {
   if (!remembers_front(track.heading, estimator.velocity(track.estimate)))
-    learn_front(track.heading, estimators::velocity_of(estimator.cartesian(track.estimate)));
+    update_front(track.heading, estimators::velocity_of(estimator.cartesian(track.estimate)));
 }
 
 void correct_extent(Track& track, const estimators::Estimator& estimator, const sensors::Observation& z) {

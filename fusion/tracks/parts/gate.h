@@ -6,7 +6,7 @@
 //
 // Outside the gate on one axis means outside the gate. This cheap bound comes first: with the track's reach, and then with the
 // distance of the observed point from its anchor. For a radar's observations it is that of fusion/tracks/parts/polar_gate.h. Most
-// pairs end there. Positions meet only the tracks that are near (fusion/association/near_places.h).
+// pairs end there. Positions are tried with near tracks only (fusion/association/near_places.h).
 //
 // The constructor allocates all storage; a search allocates nothing.
 #pragma once

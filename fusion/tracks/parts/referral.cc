@@ -34,7 +34,7 @@ void count_elsewhere(Track& track, const estimators::Estimator& estimator, const
     return;
   }
   const linear::Gaussian<2> at = estimator.position(track.estimate);
-  learn_size(track.extent, z, distance, at);
+  correct_size(track.extent, z, distance, at);
   taken.counted = counted(z, distance, z.from, at.p);
 }
 

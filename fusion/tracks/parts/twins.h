@@ -3,7 +3,7 @@
 //
 // After each list, the younger of two confirmed tracks is alike to the elder if
 //   d' (P_elder + P_younger)^-1 d <= the quantile of chi-square for merge_probability.
-// d is the difference of (x, y, vx, vy) of the centres, and of length and width if both tracks know them; each compared
+// d is the difference of (x, y, vx, vy) of the centres, and of length and width if both tracks have measured them; each compared
 // quantity is a degree of freedom. (The anchors may be different points of the object.) The same noise and the same object have driven both tracks, so their errors
 // are correlated and the sum is an upper bound.
 //

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fusion/motion/angles.h"
+#include "fusion/tracks/body/facing.h"
 
 namespace ttf::fusion::tracks::parts {
 namespace {
@@ -26,7 +27,7 @@ double between(double low, double high, double mean, double variance) {
   return below((high - mean) / sigma) - below((low - mean) / sigma);
 }
 
-// An object as a sensor at `from` meets it.
+// An object as a sensor at `from` sees it.
 struct Seen {
   linear::Vector<2> centre, axis, size;  // from the sensor; along the length; length and width [m]
   linear::Matrix<2> p;                   // the position's covariance

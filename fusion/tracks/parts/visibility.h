@@ -1,7 +1,7 @@
 // How visible objects are to a sensor: the probability that a list of it could contain the object of a track.
 //
 // It is the product of
-//   - the probability that the object lies in the sensor's field (fusion/sensors/field.h). The sensor looks for the middle
+//   - the probability that the object lies in the sensor's field (fusion/sensors/known_sensor.h). The sensor looks for the middle
 //     of the object, at the range of its near side. Edges are soft. The variance of the bearing is that of the position,
 //     across the line of sight and over the squared range, plus w^2 / 12. Here w is the angle that the object fills: which
 //     part of it the sensor needs is unknown. The variance of the range is made likewise.

@@ -1,10 +1,21 @@
 #include "nodes/driving/steering/commands.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ttf::nodes::driving::steering {
 
 using recording::records::CommandTaken;
+
+bool Demand::alone(const sim::world::vehicle::ActuatorConfig& config, LocalTime now) const {
+  return since_ && now - *since_ >= config.after;
+}
+
+double Demand::value(const sim::world::vehicle::ActuatorConfig& config, LocalTime now) const {
+  if (config.without != sim::world::vehicle::WithoutCommand::kDecay || !alone(config, now)) return value_;
+  const Duration since = now - *since_ - config.after;
+  return value_ * std::exp(-since.seconds() / config.decay.seconds());
+}
 
 LateralCommands::LateralCommands(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                                  std::size_t input, const sim::world::vehicle::ActuatorConfig& config)

@@ -213,7 +213,7 @@ TEST(Measures, InnovationsOverTheirDegrees) {
 }
 
 // Two lists are held back, one over three fusion instants and one over one; a third is fused at once.
-TEST(Measures, HowLongAListWasHeldBack) {
+TEST(Measures, HaveTheTimeThatAListWasHeldBack) {
   DriveMeasures measures(TrueTime{});
   const auto becomes = [&](std::uint32_t sequence, recording::records::Disposition what, std::int64_t ms) {
     recording::records::ListFused list;

@@ -35,7 +35,7 @@ void drive(DriveMeasures& measures, std::int64_t from_ms, std::int64_t to_ms, st
   }
 }
 
-TEST(Measures, WhatTheyKeepDoesNotGrowWithTheDrive) {
+TEST(Measures, TheirMemoryDoesNotGrowWithTheDrive) {
   for (const bool reference_stays : {true, false}) {
     DriveMeasures measures(TrueTime{});
     const std::int64_t last_fix_ms = reference_stays ? 1'000'000 : 60'000;

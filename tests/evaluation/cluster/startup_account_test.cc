@@ -37,7 +37,7 @@ TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
   EXPECT_EQ(node.why, "again; so be it");
 }
 
-TEST(StartupAccount, WhoNeverBecameActiveSaysWhatItWaitsFor) {
+TEST(StartupAccount, ANodeThatNeverBecameActiveStatesWhatItWaitsFor) {
   StartupAccount account(Duration{5 * kMs});
   account.on(recording::records::StateChanged{at(3 * kMs, 2, 3 * kMs), 0x01, 0x27, "ready", "integration listen",
                                               "the host commanded RUN",

@@ -107,7 +107,7 @@ TEST(AchievedPrecision, OfOneClockOrOfNoneThereIsNone) {
   EXPECT_TRUE(apart(stamps).empty());
 }
 
-TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
+TEST(AchievedPrecision, ASilentNodeHasNoTimeMeanwhile) {
   // Node 1 is 20 us ahead before its silence. On another count of rounds, it is 2 us ahead after it.
   const std::vector<HandClock> clocks{
       {NodeId{0}, always(0)},
@@ -124,7 +124,7 @@ TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
   EXPECT_EQ(apart(all).count() - apart(gap).count(), 1u);
 }
 
-TEST(AchievedPrecision, WhatNoRunCanHaveIsLeftOut) {
+TEST(AchievedPrecision, ImpossibleTimesAreLeftOut) {
   constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
   AchievedPrecision precision(Duration{kCycleNs});
   for (const std::int64_t at : {-kFar - 1, kFar, std::int64_t{0}, std::int64_t{1} << 60, -(std::int64_t{1} << 60)})
@@ -207,7 +207,7 @@ recording::records::MediumCounts counted(int node, std::int64_t local_ms, std::u
           of_each + 6};
 }
 
-TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
+TEST(LatenessAccount, MediaCountsAreOfTheWholeRun) {
   const schedules::model::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
   account.on(counted(0, 100, 10));
@@ -235,7 +235,7 @@ TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
 }
 
 // One of two absent frames was withheld: its sender reports it in another log.
-TEST(LatenessAccount, WhatSendersWithheldIsToldApart) {
+TEST(LatenessAccount, WithheldFramesAreCountedApart) {
   schedules::model::Cluster cluster = three_nodes();
   schedules::model::FrameSlot frame;
   frame.slot = 4;

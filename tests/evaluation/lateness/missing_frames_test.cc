@@ -206,7 +206,7 @@ TEST_F(MissingFramesTest, MoreThanARound) {
 }
 
 // A stopped node acts late: true times are then far behind the turns.
-TEST_F(MissingFramesTest, WhoWasStoppedToldOfItLater) {
+TEST_F(MissingFramesTest, AStoppedProcessReportsItLater) {
   for (std::int64_t cycle = 10; cycle < 13; ++cycle) {
     missed(cycle);
     told_.back().late += Duration{150 * kTurnNs};

@@ -141,7 +141,7 @@ TEST(JointAssociation, TheLargestAndTheSmallestWeightsStayNumbers) {
 
 // One track more than the table holds: the result is approximate, counted, and still made of probabilities.
 // It is exact for a track without rivals.
-TEST(JointAssociation, WhatIsTooManyIsApproximatedAndCounted) {
+TEST(JointAssociation, ALargeClusterIsApproximatedAndCounted) {
   RandomStream stream({.seed = 3});
   JointAssociation joint(20, 20);
   Table weights = drawn(stream, 20, 20, 1.0);

@@ -165,7 +165,7 @@ TEST(Radar, BearingIsWrappedBehindTheSensor) {
   EXPECT_NEAR(seen_as(estimate).x(0), -10.0, 0.1);
 }
 
-TEST(InitialEstimate, RadarKnowsTheVelocityAlongItsBeam) {
+TEST(InitialEstimate, RadarGivesTheVelocityAlongItsBeam) {
   config::TrackerConfig config;
   const double bearing = 0.6;
   const Cartesian estimate = seen_as(make_estimator(config)->initial(radar(20.0, bearing, -4.0, 0.3, 0.03, 0.2)));
@@ -259,7 +259,7 @@ TEST_P(EveryEstimator, AnObservationExplainsWhatItMade) {
   }
 }
 
-TEST_P(EveryEstimator, NothingIsLearntAtTheOrigin) {
+TEST_P(EveryEstimator, AnObservationAtTheOriginChangesNothing) {
   Estimate estimate = estimator->initial(position(0.0, 0.0, 0.5));
   const Estimate before = estimate;
   const sensors::Observation z = radar(0.1, 0.0, 0.0, 0.3, 0.03, 0.3);
@@ -270,7 +270,7 @@ TEST_P(EveryEstimator, NothingIsLearntAtTheOrigin) {
 
 // A minute at a red light: the heading's uncertainty never exceeds an unknown one's. The car is followed again
 // when it drives off.
-TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
+TEST_P(EveryEstimator, AnObjectThatStoodForAMinuteDrivesOff) {
   RandomStream stream({.seed = 8});
   double y = 0.0, speed = 10.0;
   Estimate estimate = estimator->initial(position(20.0, y, 0.2));

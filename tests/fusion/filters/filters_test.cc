@@ -219,7 +219,7 @@ TEST(UnscentedFilter, HeadingsAverageAsAngles) {
   EXPECT_LT(state.p(2, 2), 0.01);
 }
 // The mean of a bearing and range over a wide sector pulls inwards: E[r cos b] = r exp(-s^2 / 2).
-TEST(UnscentedFilter, KnowsTheMeanOfABend) {
+TEST(UnscentedFilter, HasTheMeanOfABend) {
   const motion::Ctrv model(0.0, 0.0);
   linear::Gaussian<5> start;
   start.x << 0.0, 0.0, 0.0, 10.0, 0.0;

@@ -164,7 +164,7 @@ TEST(TrackerConfig, SystematicErrorsAreIgnoredUnlessSaid) {
   EXPECT_EQ(c.sensors[1].mounting.position.x(), 1.5);
 }
 
-TEST(TrackerConfig, WhatCannotBeConsideredIsRefused) {
+TEST(TrackerConfig, BiasesThatNoFilterConsidersAreRefused) {
   for (const std::string rest : {"motion: ctrv\n", "motion: ctra\n", "motion: interacting\n", "filter: unscented\n"}) {
     std::vector<std::string> sentences;
     load(rest + "systematic: consider\n", &sentences);
@@ -209,7 +209,7 @@ TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
     ASSERT_EQ(sentences.size(), 1u) << other;
     EXPECT_EQ(sentences[0],
               "t.yaml:2: late = al1: must be rewind unless motion is constant_velocity or "
-              "constant_acceleration and filter is extended: the other methods know only those estimates");
+              "constant_acceleration and filter is extended: the other methods support only those estimates");
   }
 }
 

@@ -117,7 +117,7 @@ TEST(Consistency, AllocatesNothing) {
   EXPECT_EQ(support::allocations(), before);
 }
 
-TEST(Consistency, WhoDivergesIsNotConsistent) {
+TEST(Consistency, ADivergingFilterIsNotConsistent) {
   const double bad[] = {-0.1, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
   for (const double squared : bad) {
     Consistency sum;

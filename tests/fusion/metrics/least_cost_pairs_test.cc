@@ -147,7 +147,7 @@ TEST(LeastCostPairs, LargeDenseSquareWithoutAllocation) {
   for (std::size_t r = 0; r < kN; ++r) ASSERT_EQ(pairs.column_of()[r], static_cast<int>((7 * r + 5) % kN));
 }
 
-TEST(PairingDeathTest, WhatIsOfferedIsChecked) {
+TEST(PairingDeathTest, OfferedPairsAreChecked) {
   LeastCostPairs pairs(2, 2);
   pairs.begin(2, 2);
   pairs.offer(0, 0, 0.5);

@@ -177,7 +177,7 @@ TEST(SetMetric, NearestFirstWouldBeWorse) {
   EXPECT_NEAR(d.gospa.localisation, 2.44, 1e-14);
 }
 
-TEST(SetMetric, WhatIsNotFiniteIsFarAway) {
+TEST(SetMetric, APlaceThatIsNotFiniteIsFarAway) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const SetDistance d = compare(on_axis({0, 5}), {{0.0, 0.0}, {nan, 5.0}, {inf, 0.0}}, {3.0, 1.0});
   EXPECT_EQ(d.pairs, 1u);

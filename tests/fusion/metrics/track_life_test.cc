@@ -127,7 +127,7 @@ TEST(TrackLives, NothingToSumUp) {
   EXPECT_TRUE(std::isnan(none.mean_confirmed_after_s));
 }
 
-TEST(TrackLives, AllocatesNothingOnceItKnowsTheObjects) {
+TEST(TrackLives, AllocatesNothingOnceAllObjectsHaveAppeared) {
   TrackLives lives;
   const Objects early{49, 3, 17}, late{3, 18, 0, 49};
   const std::vector<Match> matches{{3, 1, 0.5, false}};

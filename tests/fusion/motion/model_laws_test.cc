@@ -210,7 +210,7 @@ TEST(Conversion, ThereAndBackIsTheSame) {
     EXPECT_LT((apart<6, 6>(back.p, from.p)), 1e-11);
   }
 }
-TEST(Conversion, WhatStandsKeepsItsHeading) {
+TEST(Conversion, AStandingObjectKeepsItsHeading) {
   linear::Gaussian<4> standing;
   standing.x << 5.0, 6.0, 0.01, 0.0;
   standing.p.setIdentity();

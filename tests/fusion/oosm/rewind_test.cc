@@ -66,7 +66,7 @@ TEST(Rewind, TiesAreOrderedBySensorThenSequence) {
 }
 
 //   start . . . oldest remembered . late . . . newest
-TEST(Rewind, WhatIsForgottenStaysFusedAndNothingComesBeforeIt) {
+TEST(Rewind, AForgottenMeasurementStaysFusedAndNothingComesBeforeIt) {
   RandomStream stream({.seed = 4});
   const linear::Gaussian<2> prior = drawn_prior<2>(stream);
   Timeline<2, 1> events = drawn_timeline<2, 1>(stream, 40);

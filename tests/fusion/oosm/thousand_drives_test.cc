@@ -153,7 +153,7 @@ std::vector<Case> every_case() {
   return all;
 }
 
-TEST(ThousandDrives, EveryCombinationKnowsHowWrongItIs) {
+TEST(ThousandDrives, EveryCombinationIsConsistent) {
   const std::vector<Case> all = every_case();
   const double tail = 0.025 / static_cast<double>(all.size());
   for (const Case& c : all) {

@@ -22,7 +22,7 @@ TEST(Adva, FusesOnArrival) {
             (std::vector{fused(30, 1, 0), fused(60, 0, 0, Disposition::kFusedLate), fused(70, 1, 1)}));
 }
 
-TEST(Adva, WhatArrivesTogetherIsFusedInOrder) {
+TEST(Adva, ListsThatArriveTogetherAreFusedInOrder) {
   const auto strategy = make_strategy(StrategyKind::kAdva, {}, std::vector{free_running(0, 60), free_running(1, 30)});
   EXPECT_EQ(run(*strategy, {{25, list_of(1, 0, at_ms(10))}, {25, list_of(0, 0, at_ms(0))}}, 50),
             (std::vector{fused(30, 0, 0), fused(30, 1, 0)}));

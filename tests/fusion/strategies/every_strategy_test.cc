@@ -144,7 +144,7 @@ TEST_P(EveryStrategy, MoreThanCanWaitIsFusedOldestFirst) {
   EXPECT_EQ(strategy->newest()[0].sequence, many - 1);
 }
 
-TEST_P(EveryStrategy, WhatTheAccountHasNoRoomForIsCounted) {
+TEST_P(EveryStrategy, ListsBeyondTheAccountsRoomAreCounted) {
   const auto strategy = make_strategy(GetParam(), {}, laser_and_camera());
   const OwnedList same = list_of(0, 0, at_ms(0));
   strategy->accept(same.view());

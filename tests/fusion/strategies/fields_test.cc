@@ -152,7 +152,7 @@ TEST_P(Fields, OneSensorIsEnough) {
   EXPECT_GE(seen.at(800), 0);
 }
 
-TEST_P(Fields, WhereNoFieldIsKnownTheOtherSensorOutvotesIt) {
+TEST_P(Fields, WithoutAKnownFieldTheOtherSensorOutvotesIt) {
   if (std::get<1>(GetParam()) != config::Birth::kMOfN) return;
   Scene scene = usual();
   scene.bodies = {{.x = 20.0, .y = 17.0}};
@@ -182,7 +182,7 @@ TEST_P(Fields, SensorsInTurnShowOneObject) {
 }
 
 // A car passes behind a lorry of 10 m, whose rear is 10 m away. Its middle is hidden for 0.8 s, some 29 lists.
-TEST_P(Fields, WhatIsHiddenIsKept) {
+TEST_P(Fields, AHiddenObjectKeepsItsTrack) {
   Scene scene = usual();
   scene.bodies = {{.x = 40.0, .y = -22.0, .vy = 12.0, .heading = 0.5 * kPi},
                   {.x = 15.0, .y = 0.0, .length = 10.0, .width = 2.5}};
@@ -196,7 +196,7 @@ TEST_P(Fields, WhatIsHiddenIsKept) {
 }
 
 // A lorry crosses before a standing car and hides it for 2 s, twice delete_after.
-TEST_P(Fields, WhatStaysHiddenEndsByItsAge) {
+TEST_P(Fields, ATrackThatStaysHiddenEndsByItsAge) {
   Scene scene = usual();
   scene.bodies = {{.x = 40.0, .y = 0.0},
                   {.x = 15.0, .y = -14.0, .vy = 5.0, .length = 10.0, .width = 2.5, .heading = 0.5 * kPi}};
@@ -211,7 +211,7 @@ TEST_P(Fields, WhatStaysHiddenEndsByItsAge) {
 }
 
 // Nothing hides this one: it is gone after eight lists, as ever.
-TEST_P(Fields, WhatIsGoneInViewEndsAtOnce) {
+TEST_P(Fields, ATrackEndsAtOnceIfItsObjectIsGoneInView) {
   Scene scene = usual();
   scene.bodies = {{.x = 40.0, .y = 0.0, .until = 1500}};
   const Seen seen = follow(scene, 0, 2500, config(scene));

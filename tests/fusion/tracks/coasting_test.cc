@@ -115,7 +115,7 @@ TEST_P(Coasting, EndsWhenItsPositionIsTooUncertain) {
 
 // Lists come again after the track has ended. Their object is new, and becomes a track only after enough of
 // them.
-TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
+TEST_P(Coasting, AnEndedTrackDoesNotComeBack) {
   const config::TrackerConfig config;
   Drive drive(GetParam(), config);
   const TrackId old = drive.at(at_ms(kLast))->id;
@@ -132,7 +132,7 @@ TEST_P(Coasting, WhatHasEndedDoesNotComeBack) {
 }
 
 // The same gap, a little shorter: the track takes the observation and is as certain as before.
-TEST_P(Coasting, WhatHasNotEndedGoesOn) {
+TEST_P(Coasting, ATrackThatHasNotEndedGoesOn) {
   const config::TrackerConfig config;
   Drive drive(GetParam(), config);
   const TrackId old = drive.at(at_ms(kLast))->id;

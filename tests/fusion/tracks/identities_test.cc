@@ -106,7 +106,7 @@ TEST(Identities, ALateListMayMoveTheBirthButNotTheId) {
 }
 
 // A track that ended lives on when a late list shows a later sighting.
-TEST(Identities, WhoComesBackToLifeHasItsOldName) {
+TEST(Identities, ATrackThatComesBackToLifeHasItsOldName) {
   config::TrackerConfig config;
   config.delete_misses = 3;
   Timeline timeline(config, 4);

@@ -138,7 +138,7 @@ TEST_P(LostLists, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
 }
 
 // A sensor's newest list is the last measured, regardless of its number.
-TEST_P(LostLists, TheNewestOfARestartedSensorIsToldByItsInstant) {
+TEST_P(LostLists, TheNewestOfARestartedSensorIsFoundByItsInstant) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60)});
   run(*strategy, {{30, list_of(0, 500, at_ms(0))}, {330, list_of(0, 2, at_ms(300))}}, 400);
   ASSERT_EQ(strategy->newest().size(), 1u);

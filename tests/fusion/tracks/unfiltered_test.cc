@@ -32,7 +32,7 @@ TEST(Unfiltered, TheLargestSumCountsAndOfEqualOnesTheFirst) {
   EXPECT_EQ(unfiltered.classes.share(), 0.75);
 }
 
-TEST(Unfiltered, TheThirdAxisIsTheNewestThatWasTold) {
+TEST(Unfiltered, TheThirdAxisIsTheNewestThatWasMeasured) {
   Unfiltered unfiltered;
   sensors::Observation observation;
   observation.third = {0.5, 1.5, true, true};

@@ -130,7 +130,7 @@ TEST(MotionPlanner, PlansBehindTheMostImportantObject) {
   EXPECT_EQ(planning.plan->state, 3) << "a stop is for ever";
 }
 
-TEST(MotionPlanner, KnowsItsLaneByOdometry) {
+TEST(MotionPlanner, FollowsItsLaneByOdometry) {
   Planning planning;
   planning.start_up();
   // A turn to the left of 0.1 rad: what is straight ahead then is beside the own lane after 40 m.
@@ -186,7 +186,7 @@ TEST(RegionOfInterest, HoldsTheBoxInsideThePicture) {
   EXPECT_FALSE(region_of({SensorId{3}, 1.0, 0.0, 0.6, 1.4, 1000.0, 360.0, 360.0}, box, car));
 }
 
-TEST(MotionPlanner, TellsARegionOfTheCameraThatSeesTheObject) {
+TEST(MotionPlanner, SendsARegionOfTheCameraThatSeesTheObject) {
   Planning planning({{SensorId{1}, 1.0, 0.0, 0.6}, {SensorId{0}, 1.0, 0.0, 0.0}});
   planning.see({{}});
   EXPECT_EQ(planning.plan->camera, SensorId{0});

@@ -47,7 +47,7 @@ TEST(ForeignStep, PassesAListOnBitByBit) {
 }
 
 // A list may come before the node has integrated: its stamp means nothing then.
-TEST(ForeignStep, KnowsNoTimeStampsWithoutGlobalTime) {
+TEST(ForeignStep, HasNoTimeStampsWithoutGlobalTime) {
   OneTask task("copy.so");
   task.context().global_time = false;
   task.arrives(1, 1, GlobalTime{40'000'000}, some_value);

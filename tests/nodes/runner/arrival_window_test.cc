@@ -104,7 +104,7 @@ TEST_F(ArrivalWindowTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
   EXPECT_TRUE(told_.missed.empty());
 }
 
-TEST_F(ArrivalWindowTest, WhatComesOutsideItsWindowIsToldAndNotUsed) {
+TEST_F(ArrivalWindowTest, AFrameOutsideItsWindowIsReportedAndNotUsed) {
   arrive(6, action_point(6) + 16'001, false);
   arrive(6, action_point(6) - 4001, false);
   EXPECT_FALSE(take(kStart + 1'000'000));
@@ -137,7 +137,7 @@ TEST_F(ArrivalWindowTest, ASyncFrameIsNeverPutBeyondWhatFlexRayAllows) {
 //
 //   deviation in the even cycle    5000   -3900    5000   100    5000   210    none
 //   in the odd one so much more      20     -20     -70    20      50    20    5000
-TEST_F(ArrivalWindowTest, WhatTheDeviationsOfADoubleCycleDifferByIsKept) {
+TEST_F(ArrivalWindowTest, TheDifferenceOfADoubleCyclesDeviationsIsKept) {
   static constexpr std::int64_t kMost = 6 * 40 - 30;
   struct Case {
     std::int64_t even, more, put_even, put_odd;
@@ -200,7 +200,7 @@ TEST_F(ArrivalWindowTest, AFrameOfTheCycleBeforeIsLate) {
   EXPECT_EQ(told_.missed[0].cycle, kCycle - 1);
 }
 
-TEST_F(ArrivalWindowTest, WhatNeverCameIsToldByTheNextOfItsSlot) {
+TEST_F(ArrivalWindowTest, AMissingFrameIsReportedByTheNextOfItsSlot) {
   arrive_and_take(6, kCycle);
   for (int i = 0; i < 3; ++i) clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 3);
@@ -227,7 +227,7 @@ TEST_F(ArrivalWindowTest, ASlotIsMissedOnlyInCyclesThatItIsSentIn) {
   EXPECT_EQ(told_.lost_counts, std::vector<std::uint32_t>{2});
 }
 
-TEST_F(ArrivalWindowTest, WhoWasAwayForLongHasLostNothing) {
+TEST_F(ArrivalWindowTest, ANodeThatWasAwayForLongHasLostNothing) {
   arrive_and_take(6, kCycle);
   for (int i = 0; i < 65; ++i) clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 65);
@@ -243,7 +243,7 @@ TEST_F(ArrivalWindowTest, WithoutAClockAFrameKeepsItsInstant) {
 }
 
 // A delayed process finds frames of cycles that its node has yet to reach.
-TEST_F(ArrivalWindowTest, WhatCameWhileTheProcessWasHeldUpIsPlacedWhenItsCycleComes) {
+TEST_F(ArrivalWindowTest, AFrameThatCameDuringADelayIsPlacedWhenItsCycleComes) {
   for (int ahead = 0; ahead < 5; ++ahead) arrive(6, action_point(6) + ahead * 200'000 + 900, false, kCycle + ahead);
   for (int ahead = 0; ahead < 5; ++ahead) {
     const auto due = take(clock_.cycle_end().value);
@@ -263,7 +263,7 @@ TEST_F(ArrivalWindowTest, AFrameOfTheNextCycleDoesNotWaitForAClockThatStandsStil
   EXPECT_EQ(due->reception.start.value, action_point(6) + 200'000);
 }
 
-TEST_F(ArrivalWindowTest, WhatIsHandedOverTooLateForItsCycleIsTold) {
+TEST_F(ArrivalWindowTest, AFrameThatIsHandedOverTooLateForItsCycleIsReported) {
   arrive(6, action_point(6) + 100, false, kCycle + 20);  // kept unchanged
   for (int i = 0; i < 2; ++i) clock_.next_cycle(0);
   EXPECT_FALSE(take(clock_.cycle_start().value + 10));
@@ -326,7 +326,7 @@ TEST_F(ArrivalWindowTest, ASymbolIsCarriedUntilItEnds) {
   EXPECT_EQ(due->reception.start.value, 500);
 }
 
-TEST_F(ArrivalWindowTest, WhatThereIsNoRoomForIsCounted) {
+TEST_F(ArrivalWindowTest, FramesWithoutRoomAreCounted) {
   for (std::size_t i = 0; i < ArrivalWindow::kMost + 5; ++i) arrive(6, action_point(6), false);
   EXPECT_EQ(window_.held(), ArrivalWindow::kMost);
   EXPECT_EQ(window_.dropped(), 5u);

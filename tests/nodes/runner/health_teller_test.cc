@@ -20,7 +20,7 @@ Health health_of(std::uint64_t number) {
   return health;
 }
 
-TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
+TEST(HealthTeller, ReportsOnAThreadOfItsOwn) {
   std::promise<std::pair<Health, bus::ports::MachineTime>> told;
   std::promise<std::thread::id> who;
   const bus::ports::MachineTime before = bus::ports::host_now();
@@ -41,7 +41,7 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
 
 // While one is being reported, for however long, new ones are left out and counted; the next one after it is
 // reported.
-TEST(HealthTeller, WhoHandsOverNeverWaits) {
+TEST(HealthTeller, HandingOverNeverWaits) {
   std::promise<void> begun, go_on;
   std::vector<std::uint64_t> told;
   HealthTeller teller([&](const Health& health, bus::ports::MachineTime) {
@@ -61,7 +61,7 @@ TEST(HealthTeller, WhoHandsOverNeverWaits) {
   EXPECT_EQ(told, (std::vector<std::uint64_t>{0, 40'000}));
 }
 
-TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
+TEST(HealthTeller, HealthsThatWereHandedOverAreReportedBeforeItIsClosed) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     std::uint64_t told = 0;
     HealthTeller teller([&](const Health& health, bus::ports::MachineTime) { told = health.timing.late_wakeups; });
@@ -72,7 +72,7 @@ TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
 }
 
 // Each report is whole at any time: never half of one and half of the next.
-TEST(HealthTeller, WhatIsToldIsWholeAndInOrder) {
+TEST(HealthTeller, ReportsAreWholeAndInOrder) {
   std::uint64_t last = 0, told = 0;
   HealthTeller teller([&](const Health& health, bus::ports::MachineTime) {
     EXPECT_EQ(health.dropped, 2 * health.timing.late_wakeups);

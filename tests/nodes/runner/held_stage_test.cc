@@ -29,7 +29,7 @@ TEST(HeldStage, StandsInTheOrderOfItsLists) {
 }
 
 // A finding about a frame leads to the same stage from every waiting stage.
-TEST(HeldStage, WhatIsFoundLeadsToOneStage) {
+TEST(HeldStage, EveryFindingLeadsToOneStage) {
   const std::map<Event, Stage> leads{{Event::kOfNextCycle, Stage::kAwaitsCycle},
                                      {Event::kInWindow, Stage::kPlaced},
                                      {Event::kOutsideWindow, Stage::kRefused},
@@ -63,7 +63,7 @@ TEST(HeldStage, NothingHappensToWhatIsGone) {
     for (const Event event : kAllHeldEvents) EXPECT_EQ(next_stage(stage, event), std::nullopt);
 }
 
-TEST(HeldStage, WhatIsPlacedIsNotPlacedAgain) {
+TEST(HeldStage, APlacedFrameIsNotPlacedAgain) {
   for (const Event event : {Event::kFollowUp, Event::kLatenessUnknown, Event::kOfNextCycle, Event::kInWindow,
                             Event::kOutsideWindow, Event::kWithoutSlot})
     EXPECT_EQ(next_stage(Stage::kPlaced, event), std::nullopt);

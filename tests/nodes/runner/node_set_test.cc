@@ -124,7 +124,7 @@ TEST_F(TurnedNodeSet, WithinTheWindowNothingIsMissedOrLost) {
 }
 
 // Beyond it, every frame that a node withholds as too late is reported lost by each of the others.
-TEST_F(TurnedNodeSet, WhatOneWithholdsTheOthersHaveLost) {
+TEST_F(TurnedNodeSet, WithheldFramesAreLostToAllOthers) {
   drive({}, [](NodeId node) { return drawn_late(us(700), static_cast<std::uint16_t>(index_of(node))); });
   expect_all_active();
   for (const char* node : kOnFlexRay) {
@@ -168,7 +168,7 @@ TEST_F(TurnedNodeSet, ClocksThatDriftStayTogether) {
 }
 
 // True time is the clock's instant, not the later instant at which the process runs.
-TEST_F(TurnedNodeSet, WhatClocksShowIsOfOneInstant) {
+TEST_F(TurnedNodeSet, ClocksShowOneInstant) {
   drive({.lasts = ms(400)},
         [](NodeId node) { return drawn_late(us(400), static_cast<std::uint16_t>(index_of(node))); });
   int compared = 0;

@@ -23,7 +23,7 @@
 namespace ttf::nodes::runner {
 namespace {
 
-TEST_F(RunnerTest, WhoIsWokenUpInTimeIsNeverLate) {
+TEST_F(RunnerTest, AWakeUpInTimeIsNeverLate) {
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
   EXPECT_EQ(gateway.run(), RunnerEnd::kDone);
   EXPECT_EQ(gateway.host.now(), gateway.at(ms(20)));
@@ -36,7 +36,7 @@ TEST_F(RunnerTest, WhoIsWokenUpInTimeIsNeverLate) {
 }
 
 // The window's last instant is in time, for a frame and for all other acts.
-TEST_F(RunnerTest, WhoIsAsLateAsTheWindowAllowsIsInTime) {
+TEST_F(RunnerTest, AWakeUpAsLateAsTheWindowAllowsIsInTime) {
   const Duration late = cluster_.arrival_window->late;
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
   gateway.wakes = late_by(late);
@@ -47,7 +47,7 @@ TEST_F(RunnerTest, WhoIsAsLateAsTheWindowAllowsIsInTime) {
   EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfDepartures].longest, late);
 }
 
-TEST_F(RunnerTest, WhatIsANanosecondTooLateIsNotSentAndToldSo) {
+TEST_F(RunnerTest, AFrameThatIsANanosecondTooLateIsNotSentAndReported) {
   const Duration too_late = cluster_.arrival_window->late + Duration{1};
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
   gateway.wakes = late_by(too_late);
@@ -63,7 +63,7 @@ TEST_F(RunnerTest, WhatIsANanosecondTooLateIsNotSentAndToldSo) {
 }
 
 // Stopped in cycle 1, going on in cycle 3: it catches up in order, except for frames that are too late.
-TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
+TEST_F(RunnerTest, AStoppedProcessCatchesUp) {
   Alone gateway(*this, "gateway", {.lasts = ms(20)});
   const bus::ports::MachineTime from = gateway.at(ms(7)), until = gateway.at(ms(16));
   gateway.wakes = stopped(from, until);
@@ -81,7 +81,7 @@ TEST_F(RunnerTest, WhoWasStoppedCatchesUp) {
 }
 
 // The medium's threads were stopped, too: a node more than a cycle behind gives them time to take frames in.
-TEST_F(RunnerTest, WhoIsMoreThanACycleBehindWaitsForTheMedium) {
+TEST_F(RunnerTest, AProcessMoreThanACycleBehindWaitsForTheMedium) {
   for (const Duration more : {Duration{0}, Duration{1}}) {
     Alone gateway(*this, "gateway", {.lasts = ms(20)});
     std::optional<bus::ports::MachineTime> stops;
@@ -98,7 +98,7 @@ TEST_F(RunnerTest, WhoIsMoreThanACycleBehindWaitsForTheMedium) {
 }
 
 // Its fusion, due every 10 ms, takes 12.
-TEST_F(RunnerTest, WhoStaysBehindDoesNotWaitForTheMediumAgain) {
+TEST_F(RunnerTest, AProcessThatStaysBehindDoesNotWaitForTheMediumAgain) {
   Alone fusion(*this, "fusion", {.lasts = ms(100)});
   fusion.computes = ms(12);
   fusion.run();
@@ -243,7 +243,7 @@ TEST_F(RunnerTest, ALineIsKnownByItsForm) {
 }
 
 // Nodes take turns: the camera's, the second of seven, comes a quarter of a second after each whole one.
-TEST_F(RunnerTest, HealthIsToldOnceASecondAtItsTurn) {
+TEST_F(RunnerTest, HealthIsReportedOnceASecondAtItsTurn) {
   for (const auto& [scale, lasts] : {std::pair(1'000'000, ms(3'500)), {4'000'000, ms(875)}}) {
     Alone camera(*this, "camera", {.lasts = lasts, .scale_ppm = scale});
     camera.run();
@@ -255,7 +255,7 @@ TEST_F(RunnerTest, HealthIsToldOnceASecondAtItsTurn) {
 
 // At twice the drive's time its turn comes 1.5 ms into a cycle, among its slots; the last of them is at 1.687
 // ms.
-TEST_F(RunnerTest, HealthIsToldWhereThereIsRoomForIt) {
+TEST_F(RunnerTest, HealthIsReportedWhereThereIsRoomForIt) {
   Alone gateway(*this, "gateway", {.lasts = ms(400), .scale_ppm = 2'000'000});
   gateway.run();
   ASSERT_EQ(gateway.told_health.size(), 1u);
@@ -291,7 +291,7 @@ TEST_F(RunnerTest, AHaltedControllerIsStartedAnew) {
 }
 
 // Noise delays a coldstart, unless the node had no power to hear it.
-TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
+TEST_F(RunnerTest, ANodeWithoutPowerReceivesNothing) {
   const auto begins_cluster = [&](std::optional<Duration> noise) {
     Alone gateway(*this, "gateway", {.lasts = ms(60), .power_on = [](NodeId) {
                                        return std::optional(sim::engine::kFirstCycle + ms(10));
@@ -307,7 +307,7 @@ TEST_F(RunnerTest, WhoHasNoPowerYetHearsNothing) {
 }
 
 // A startup frame lasts 65 us. A node in start-up takes it at its end, long before its own next event.
-TEST_F(RunnerTest, WhoListensIsWokenUpByWhatItHears) {
+TEST_F(RunnerTest, AListeningNodeIsWokenUpByAFrame) {
   Alone gateway(*this, "gateway",
                 {.lasts = ms(20), .power_on = [](NodeId) { return std::optional(sim::engine::kFirstCycle); }});
   gateway.host.at(gateway.at(ms(3)), [&] { gateway.others_send(1, 8, true); });
@@ -334,7 +334,7 @@ TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
 }
 
 // It has used up its coldstart attempts, and listens. After 64 cycles its host restores them.
-TEST_F(RunnerTest, WhoMayOnlyListenIsStartedAnewAfter64Cycles) {
+TEST_F(RunnerTest, AListeningNodeIsStartedAnewAfter64Cycles) {
   cluster_.flexray.gColdStartAttempts = 2;
   Alone gateway(*this, "gateway",
                 {.lasts = ms(1'000), .power_on = [](NodeId) { return std::optional(sim::engine::kFirstCycle); }});
@@ -363,7 +363,7 @@ TEST_F(RunnerTest, AStepThatComputesForTooLongMakesTheNextSlotLate) {
 }
 
 // The lateness of a plain thread beside it is reported along with its own.
-TEST_F(RunnerTest, TheMachinesOwnLatenessIsTold) {
+TEST_F(RunnerTest, TheMachinesOwnLatenessIsReported) {
   Alone gateway(*this, "gateway", {.lasts = ms(10)});
   gateway.floor.add(us(70));
   gateway.floor.add(us(90));

@@ -80,7 +80,7 @@ TEST_F(PacedCanTest, FramesLeaveWhenABusWouldHaveBroughtThem) {
   EXPECT_EQ(can_.next(), now_ + times(258).accepted);
 }
 
-TEST_F(PacedCanTest, WhatThereIsNoRoomForIsCounted) {
+TEST_F(PacedCanTest, FramesWithoutRoomAreCounted) {
   for (int i = 0; i < 6; ++i) can_.send({256, true, data_});
   EXPECT_EQ(can_.dropped(), 2u);
   for (int i = 0; i < 4; ++i) can_.leave();

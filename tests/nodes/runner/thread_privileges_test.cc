@@ -126,7 +126,7 @@ TEST(ThreadPrivileges, UnderALimitThatWillDoOnlyWhatIsThereIsLocked) {
   });
 }
 
-TEST(ThreadPrivileges, WhoIsPrivilegedLocksAllWhateverTheLimit) {
+TEST(ThreadPrivileges, APrivilegedProcessLocksAllWhateverTheLimit) {
   TRY_ALONE([] {
     if (!set_limit(0) || mlock("", 1) != 0) return 77;
     munlock("", 1);

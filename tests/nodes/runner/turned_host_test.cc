@@ -63,7 +63,7 @@ TEST(TurnedHost, WakesUpWhoWatches) {
   close(event);
 }
 
-TEST(TurnedHost, WhoIsStoppedWakesUpWhenItGoesOn) {
+TEST(TurnedHost, AStoppedHostWakesUpWhenItGoesOn) {
   TurnedHost host({0});
   TurnedHost::Process& process = host.process(stopped({100'000}, {200'000}));
   std::vector<std::int64_t> woken;

@@ -64,7 +64,7 @@ TEST(FeatureService, OdometryMakesVelocitiesRelative) {
   EXPECT_NEAR(moving(kPi, 10.0, 0.0).time_to_collision_s, 2.0, 1e-12) << "and a standing car of one's own";
 }
 
-TEST(FeatureService, WhatOpensOrStandsIsNoCollision) {
+TEST(FeatureService, AnOpeningOrConstantGapIsNoCollision) {
   EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 5.0), driving(0.0)).time_to_collision_s));
   EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, kPi, 0.4), driving(0.0)).time_to_collision_s)) << "noise about zero";
   EXPECT_NEAR(judge(car(22.0, 0.0, kPi, 0.6), driving(0.0)).time_to_collision_s, 20.0 / 0.6, 1e-9);
@@ -93,7 +93,7 @@ TEST(FeatureService, ClearanceEndsAtTheOutline) {
   EXPECT_EQ(10.0 * judge(car(1.0, 0.0, 0.0, 0.0), driving(10.0)).time_gap_s, 0.0) << "within the outline";
 }
 
-TEST(FeatureService, WhatWasNotMeasuredIsAsTypicalAsTheImageSays) {
+TEST(FeatureService, UnmeasuredSizesAreThoseOfTheImage) {
   recording::records::ImageObject object = car(22.0, 0.0, 0.0, 0.0);
   object.status = recording::records::kImageConfirmed;
   object.length = 4.4;

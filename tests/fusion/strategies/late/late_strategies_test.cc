@@ -29,7 +29,7 @@ TEST(LateRefusal, NamesWhatCannotBe) {
     EXPECT_EQ(refusal(StrategyKind::kAdva, true), "");
     EXPECT_EQ(
         refusal(StrategyKind::kAdva, false),
-        clone ? "must not be clone if a sensor measures freely: the schedule must know the instants beforehand" : "");
+        clone ? "must not be clone if a sensor measures freely: the schedule must state the instants beforehand" : "");
     EXPECT_EQ(refusal(StrategyKind::kTt, true), rewind || clone ? "" : "must be rewind or clone with strategy tt");
   }
 }
@@ -113,7 +113,7 @@ TEST(LateUnderBuff, IsAlwaysRewinding) {
   }
 }
 
-TEST(LateUnderTt, WhereAllListsComeBeforeTheyAreDueClonesChangeNothing) {
+TEST(LateUnderTt, ClonesChangeNothingIfAllListsComeBeforeTheyAreDue) {
   const std::vector<Arrival> arrivals = drawn_drive(6, 40);
   const Ending rewinding = end_of(StrategyKind::kTt, Kind::kRewind, arrivals),
                clones = end_of(StrategyKind::kTt, Kind::kClone, arrivals);

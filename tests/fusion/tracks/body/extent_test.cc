@@ -113,7 +113,7 @@ TEST(Extent, NorAreThoseOfLengthsAndWidths) {
   EXPECT_LT(extent.covariance(1, 1), 0.81 * 0.1 * 0.1);
 }
 
-TEST(Extent, WhatCannotBeJudgedChangesNothing) {
+TEST(Extent, AnUnusableSpanChangesNothing) {
   const auto unchanged = [](const Aspect& aspect, double span) {
     Extent extent = wide();
     correct_span(extent, aspect, span, 0.002);

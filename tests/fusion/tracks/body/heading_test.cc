@@ -105,19 +105,19 @@ TEST(Heading, AVelocityBeyondItsErrorTellsTheFront) {
     return linear::Gaussian<2>{{9.0, speed}, linear::Vector<2>(100.0, sigma * sigma).asDiagonal()};
   };
   Heading heading = known(0.5 * std::numbers::pi, 0.05);
-  learn_front(heading, along_y(4.9, 1.0));
+  update_front(heading, along_y(4.9, 1.0));
   EXPECT_EQ(heading.front, 0);
-  learn_front(heading, along_y(-5.1, 1.0));
+  update_front(heading, along_y(-5.1, 1.0));
   EXPECT_EQ(heading.front, -1);
-  learn_front(heading, along_y(4.9, 1.0));
+  update_front(heading, along_y(4.9, 1.0));
   EXPECT_EQ(heading.front, -1) << "it is remembered";
   Heading turned = known(-0.4 * std::numbers::pi, 0.05);
   take_front(turned, heading);
   EXPECT_EQ(turned.front, 1) << "the same end, in the other sense";
-  learn_front(heading, along_y(5.1, 1.0));
+  update_front(heading, along_y(5.1, 1.0));
   EXPECT_EQ(heading.front, 1);
   Heading unknown = unknown_heading({});
-  learn_front(unknown, along_y(50.0, 1.0));
+  update_front(unknown, along_y(50.0, 1.0));
   EXPECT_EQ(unknown.front, 0);
 }
 

@@ -152,7 +152,7 @@ TEST(Association, JpdaOfACertainObservationIsTheNearests) {
 }
 
 // Between two equally likely observations, the mean stays between them and the covariance grows.
-TEST(Association, JpdaDoesNotDecideWhatNobodyKnows) {
+TEST(Association, JpdaLeavesAnAmbiguityOpen) {
   config::TrackerConfig config;
   config.association = config::Association::kJpda;
   config.clutter_density = 0.01;

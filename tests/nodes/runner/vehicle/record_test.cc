@@ -159,7 +159,7 @@ TEST(VehicleRecord, AnOldAnswerDoesNotMakeItWhole) {
 }
 
 // 600 commands are three pages. Two processes answer each question, and the pages are asked for once.
-TEST(VehicleRecord, AProcessThatBeginsLaterIsToldAll) {
+TEST(VehicleRecord, AProcessThatBeginsLaterReceivesAll) {
   Process actuator, other, late;
   for (std::int64_t k = 1; k <= 600; ++k) (void)other.record->take(actuator.record->tell(command(k)));
   late.record->begins_later();
@@ -184,7 +184,7 @@ TEST(VehicleRecord, AnActuatorThatBeginsAnewGoesOn) {
   expect_same_way(sensor, second, 3'000);
 }
 
-TEST(VehicleRecord, WhatIsNoMessageIsCountedAndNotUsed) {
+TEST(VehicleRecord, AMalformedMessageIsCountedAndNotUsed) {
   Process actuator, sensor;
   (void)actuator.record->tell(command(1));
   const Bytes sound = copy(actuator.record->tell(command(2)));
