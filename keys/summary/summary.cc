@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "evaluation/measures/measure.h"
+#include "keys/json/definitions.h"
 
 namespace ttf::keys::summary {
 namespace {
@@ -406,7 +408,7 @@ Page schema() {
     if (member.optional) optional.insert(member.path);
   }
   close(whole, "", optional);
-  return {fmt::format("{}.schema.json", kKind), whole.dump(1) + "\n"};
+  return {fmt::format("{}.schema.json", kKind), json::text_of(json::with_definitions(std::move(whole))) + "\n"};
 }
 
 }  // namespace ttf::keys::summary
