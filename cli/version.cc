@@ -13,10 +13,9 @@ std::string version_text() {
   return fmt::format(
       "ttfusion {}, commit {}\n"
       "compiled by {} as {} for {}\n"
-      "with {}, SocketCAN, {}, {}, pictures (librsvg {})",
+      "with {}, SocketCAN, {}, pictures (librsvg {})",
       TTF_VERSION, TTF_COMMIT, TTF_COMPILER, kBuildType.empty() ? "no fixed type" : kBuildType,
-      kArchitecture.empty() ? "the compiler's default processor" : kArchitecture, TTF_DDS, TTF_MPI, TTF_Z3,
-      TTF_LIBRSVG);
+      kArchitecture.empty() ? "the compiler's default processor" : kArchitecture, TTF_DDS, TTF_MPI, TTF_LIBRSVG);
 }
 
 }  // namespace ttf::cli

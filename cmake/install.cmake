@@ -31,7 +31,6 @@ if(TTF_BUILD_PROGRAM)
   # Headers of generated code and of yaml-cpp are the modules' own.
   install(DIRECTORY core timebase schedules recording DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
     PATTERN "core/yaml_[cdn]*.h" EXCLUDE PATTERN recording/log/codec.h EXCLUDE PATTERN exports/viewer/scene.h EXCLUDE
-    PATTERN schedules/synthesis/smt EXCLUDE
     PATTERN schedules/plans EXCLUDE PATTERN schedules/task_sets EXCLUDE)
   install(DIRECTORY bus/wire DESTINATION ${headers}/bus FILES_MATCHING PATTERN "*.h")
 endif()

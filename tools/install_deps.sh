@@ -9,7 +9,7 @@ packages=(
   libeigen3-dev libfmt-dev libyaml-cpp-dev libpugixml-dev libcli11-dev nlohmann-json3-dev
   libzstd-dev zlib1g-dev protobuf-compiler libprotobuf-dev
   librsvg2-dev libcairo2-dev fonts-dejavu-core
-  libsqlite3-dev libboost-dev libopenmpi-dev openmpi-bin libz3-dev
+  libsqlite3-dev libboost-dev libopenmpi-dev openmpi-bin
   cyclonedds-dev cyclonedds-tools
   # tests
   libgtest-dev libgmock-dev libbenchmark-dev clang-format python3-yaml python3-jsonschema python3-protobuf

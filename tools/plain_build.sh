@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds without presets: cmake -B FOLDER -DCMAKE_BUILD_TYPE=Release, with g++ or clang++.
 #   tools/plain_build.sh [--lean] [COMPILER] [TARGET...]      default: g++, everything
-# --lean leaves out what can be: tests, benchmarks, DDS, MPI, Z3, and the optimiser, which takes most of the time. The
+# --lean leaves out what can be: tests, benchmarks, DDS, MPI, and the optimiser, which takes most of the time. The
 # program then says what it lacks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,7 +16,7 @@ export CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros
 options=(-DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler")
 command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 [[ -z $lean ]] ||
-  options+=(-DTTF_BUILD_TESTS=OFF -DTTF_BUILD_BENCHMARKS=OFF -DTTF_WITH_DDS=OFF -DTTF_WITH_MPI=OFF -DTTF_WITH_Z3=OFF
+  options+=(-DTTF_BUILD_TESTS=OFF -DTTF_BUILD_BENCHMARKS=OFF -DTTF_WITH_DDS=OFF -DTTF_WITH_MPI=OFF
            -DCMAKE_CXX_FLAGS_RELEASE=-O0)
 cmake -B "$folder" "${options[@]}" >/dev/null
 cmake --build "$folder" -j"$(nproc)" "${targets[@]}"

@@ -17,7 +17,6 @@
 #include "schedules/synthesis/explanation/explain.h"
 #include "schedules/synthesis/instants/synthesize.h"
 #include "schedules/synthesis/plan/loader.h"
-#include "schedules/synthesis/smt/z3_prover.h"
 #include "schedules/synthesis/trade/binding.h"
 #include "sim/drives/step_catalog.h"
 
@@ -143,8 +142,7 @@ int synthesize_plan(const std::string& typed, const PlanOutputs& outputs) {
   }
   const Plan plan = plans::load_plan(file);
   const PlanJudges judges(plan);
-  schedules::synthesis::smt::Z3Prover z3;
-  const Synthesis made = instants::synthesize(plan, z3.there() ? &z3 : nullptr, judges.by_goal());
+  const Synthesis made = instants::synthesize(plan, judges.by_goal());
   if (!made.found) return explain(file, plan, made, outputs.json);
   try {
     sim::drives::check_steps(made.cluster);

@@ -12,6 +12,7 @@
 #include "schedules/synthesis/instants/graph.h"
 #include "schedules/synthesis/instants/grid.h"
 #include "schedules/synthesis/instants/order.h"
+#include "schedules/synthesis/instants/reach.h"
 
 namespace ttf::schedules::synthesis::instants {
 
@@ -354,16 +355,16 @@ class Engine {
     for (const Chain& chain : problem_.chains)
       for (const std::size_t a : chain.activities)
         if (problem_.activities[a].period != period) return false;
-    for (std::size_t r = 0; r < problem_.resources.size(); ++r) {
-      Ticks longest = 0;
-      for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
-        const Activity& one = problem_.activities[a];
-        if (one.fixed || one.resource != r || !main_[a] || !contended(a)) continue;
-        const auto head = longest_head(a, false);
-        if (!head) return false;  // no age says how early it may be
-        longest = std::max(longest, most - *head + one.duration);
-      }
-      if (longest > period) return false;
+    std::vector<std::optional<Ticks>> by_age(problem_.activities.size());
+    for (std::size_t a = 0; a < by_age.size(); ++a)
+      if (const auto head = longest_head(a, false)) by_age[a] = most - *head;
+    Reach reach(reading_, graph_, grids_, main_, anchor_);
+    for (std::size_t a = 0; a < problem_.activities.size(); ++a) {
+      const Activity& one = problem_.activities[a];
+      if (one.fixed || !main_[a] || !contended(a)) continue;
+      if (!by_age[a]) return false;  // no age says how early it may be
+      if (*by_age[a] + one.duration <= period) continue;
+      if (reach.earliest(a, by_age).value_or(period) + one.duration > period) return false;
     }
     return true;
   }

@@ -67,9 +67,9 @@ class Reader {
       const model::Sensor& sensor = cluster_.sensors[s];
       made_.sensors.emplace_back();
       if (!sensor.scheduled) continue;
-      Activity activity{fmt::format("sensors.{}", sensor.name), sensor.line, std::nullopt, {}, 0, {}, {}, std::nullopt};
+      Activity activity;
+      activity.name = fmt::format("sensors.{}", sensor.name);
       activity.period = sensor.at.repetition * cycle();
-      activity.window = {0, activity.period - 1};
       if (!plan_.sensors[s].at.instant) activity.fixed = at(sensor.at.base_cycle, sensor.at.offset.value);
       made_.sensors.back() = add(std::move(activity));
     }
@@ -83,10 +83,10 @@ class Reader {
         const model::Task& task = node.tasks[t];
         if (!by_time(task)) continue;
         const PlannedTask& planned = plan_.tasks[n][t];
-        Activity activity{
-            fmt::format("nodes.{}.tasks.{}", node.name, task.name), planned.line, n + 1, {}, 0, {}, {}, std::nullopt};
+        Activity activity;
+        activity.name = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
+        activity.resource = n + 1;
         activity.period = task.activation.at.repetition * cycle();
-        activity.window = {0, activity.period - 1};
         activity.duration = ticks(g_, analysis::least_apart(cluster_, node, task.worst_case).ns);
         if (!planned.at.instant) activity.fixed = at(task.activation.at.base_cycle, task.activation.at.offset.value);
         made_.tasks.back()[t] = add(std::move(activity));
@@ -103,9 +103,10 @@ class Reader {
     for (const PlannedList& list : timed_.lists) {
       const model::PduLayout& layout = cluster_.pdu(list.pdu);
       const Ticks fragments = layout.max_fragments();
-      Activity activity{fmt::format("frames of {}", layout.name), list.line, 0, {}, 0, {}, {}, std::nullopt};
+      Activity activity;
+      activity.name = fmt::format("frames of {}", layout.name);
+      activity.resource = kStaticSegment;
       activity.period = list.repetition * cycle();
-      activity.window = {0, activity.period - 1};
       activity.duration = fragments * g_.gdStaticSlot;
       activity.grid = {cycle(), 0, (left_out::last_slot(cluster_) - fragments) * g_.gdStaticSlot, g_.gdStaticSlot};
       activity.lanes = static_cast<std::uint8_t>(list.channels);
@@ -129,9 +130,10 @@ class Reader {
           slots = std::max<Ticks>(slots, other.slot - frame.slot + 1);
           lanes |= static_cast<std::uint8_t>(other.channels);
         }
-      Activity activity{fmt::format("slot {}", frame.slot), frame.line, 0, {}, 0, {}, {}, std::nullopt};
+      Activity activity;
+      activity.name = fmt::format("slot {}", frame.slot);
+      activity.resource = kStaticSegment;
       activity.period = frame.repetition * cycle();
-      activity.window = {0, activity.period - 1};
       activity.duration = slots * g_.gdStaticSlot;
       activity.fixed = at(frame.base_cycle, (frame.slot - 1) * Ticks{g_.gdStaticSlot});
       activity.lanes = lanes;
@@ -155,26 +157,26 @@ class Reader {
   }
 
   // `after` takes the data of all sources.
-  void follow(const std::vector<left_out::Source>& sources, std::size_t after, int line) {
+  void follow(const std::vector<left_out::Source>& sources, std::size_t after) {
     for (const left_out::Source& source : sources) {
       const auto before = activity_of(source.place);
       if (!before) continue;
       std::int64_t ns = source.ns;
       if (source.place.kind == left_out::Place::Kind::kSlots)
         ns += (problem().activities[*before].duration * g_.gdMacrotick_ps + 999) / 1'000;
-      follow(*before, after, ns, line);
+      follow(*before, after, ns);
     }
   }
 
   // `after` takes data that is there `ns` behind the beginning of `before`, by another clock.
-  void follow(std::size_t before, std::size_t after, std::int64_t ns, int line) {
+  void follow(std::size_t before, std::size_t after, std::int64_t ns) {
     const Ticks gap = ticks(g_, ns + clocks_.apart_ns) - problem().activities[before].duration;
-    follow_ticks(before, after, gap, line);
+    follow_ticks(before, after, gap);
   }
-  void follow_ticks(std::size_t before, std::size_t after, Ticks gap, int line) {
+  void follow_ticks(std::size_t before, std::size_t after, Ticks gap) {
     const auto [known, fresh] = precedence_.try_emplace({before, after}, problem().precedences.size());
     if (fresh)
-      problem().precedences.push_back({before, after, gap, std::nullopt, line});
+      problem().precedences.push_back({before, after, gap});
     else
       problem().precedences[known->second].gap = std::max(problem().precedences[known->second].gap, gap);
   }
@@ -182,14 +184,14 @@ class Reader {
   void add_precedences() {
     for (const auto& [pdu, slots] : slots_of_)
       if (const auto writer = left_out::writer_of(cluster_, pdu, model::kFlexRay))
-        follow(sources_.ready(*writer), slots, problem().activities[slots].line);
+        follow(sources_.ready(*writer), slots);
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto node = static_cast<NodeId>(n);
       for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) {
         const auto activity = made_.tasks[n][t];
         if (!activity) continue;
         for (const model::PortBinding& in : cluster_.nodes[n].tasks[t].reads)
-          follow(sources_.arrival(in.pdu, in.medium), *activity, in.line);
+          follow(sources_.arrival(in.pdu, in.medium), *activity);
         if (fuses(cluster_, {node, t})) before_image(n, *activity);
       }
     }
@@ -200,7 +202,7 @@ class Reader {
     for (std::size_t t = 0; t < cluster_.nodes[n].tasks.size(); ++t) {
       const bool writes_image = left_out::writes_image(cluster_, {static_cast<NodeId>(n), t});
       if (const auto publisher = made_.tasks[n][t]; publisher && writes_image && *publisher != fusing)
-        follow_ticks(fusing, *publisher, 0, plan_.tasks[n][t].line);
+        follow_ticks(fusing, *publisher, 0);
     }
   }
 
@@ -208,7 +210,6 @@ class Reader {
     for (const PlannedChain& planned : plan_.chains) {
       Chain chain;
       chain.name = planned.name;
-      chain.line = planned.line;
       if (planned.largest_age) chain.largest_age = nominal(*planned.largest_age);
       chain.activities.push_back(*made_.sensors[index_of(planned.from)]);
       for (const Hop& hop : way_to(cluster_, planned.from, {planned.node, planned.task})) {

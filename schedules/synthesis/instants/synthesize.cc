@@ -12,7 +12,6 @@
 #include "schedules/synthesis/instants/measured.h"
 #include "schedules/synthesis/instants/objectives/optimiser.h"
 #include "schedules/synthesis/instants/placement.h"
-#include "schedules/synthesis/instants/proof.h"
 #include "schedules/synthesis/instants/reading.h"
 #include "schedules/synthesis/plan/loader.h"
 
@@ -79,7 +78,7 @@ const char* name_of(Goal goal) {
   return "";
 }
 
-Synthesis synthesize(const Plan& plan, solver::Prover* prover, const judging::Judges& judges) {
+Synthesis synthesize(const Plan& plan, const judging::Judges& judges) {
   constexpr std::size_t kMostRefusals = 16;
   const std::vector<Candidate> all = checked_candidates(plan);
   Synthesis made;
@@ -87,7 +86,7 @@ Synthesis synthesize(const Plan& plan, solver::Prover* prover, const judging::Ju
   std::set<std::size_t> refused;
   std::vector<Reached> of_all;  // with every candidate
   while (refused.size() < kMostRefusals) {
-    objectives::Optimiser optimiser(plan, all, refused, prover, judges);
+    objectives::Optimiser optimiser(plan, all, refused, judges);
     const auto chosen = optimiser.run();
     made.exact = optimiser.exact();
     if (refused.empty()) of_all = optimiser.reached();

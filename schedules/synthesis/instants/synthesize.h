@@ -16,7 +16,6 @@
 #include "schedules/synthesis/instants/judging/judge.h"
 #include "schedules/synthesis/instants/written.h"
 #include "schedules/synthesis/plan/plan.h"
-#include "schedules/synthesis/solver/prover.h"
 
 namespace ttf::schedules::synthesis::instants {
 
@@ -26,8 +25,8 @@ struct Reached {
   plan::Goal goal{};
   double value = 0, bound = 0;
   bool proven = false;  // the bound is the value
-  // The way to the proof: "bound" (no instants are needed to see it), "all orders tried" by the search, "exhausted" and "integers" by
-  // the solver (proof.h), "all choices tried" of cycle and rates.
+  // The way to the proof: "bound" (no instants are needed to see it), "all orders tried" by the search, "all choices tried" of
+  // cycle and rates.
   std::string way;
   std::vector<double> weights{};  // by part of a judge (judging/judge.h)
   std::string supposes{};         // a condition of the bound without a proof (judging/judge.h); else empty
@@ -47,9 +46,8 @@ struct Synthesis {
 // Throws InputError for a plan whose parts contradict each other at any instants: messages that fit no CAN, lists without a
 // sender, parameters of FlexRay.
 //
-// Where the search does not end with a proof, the solver is asked, with `prover` if there is one (schedules/synthesis/smt).
 // Objectives above schedules need their judges, by goal.
-Synthesis synthesize(const plan::Plan& plan, solver::Prover* prover = nullptr, const judging::Judges& judges = {});
+Synthesis synthesize(const plan::Plan& plan, const judging::Judges& judges = {});
 
 // Returns whether the plan has any solution: found, or not found and exact.
 struct Feasible {

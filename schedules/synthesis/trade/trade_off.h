@@ -5,7 +5,7 @@
 //                 make an age no smaller, so the front falls in steps
 //
 // "Slots in use" is the number of the last static slot in use, the objective `slots`. Ages are those that `schedule check` bounds, at
-// first use. The search (placement.h) is asked, not the solver: where it was cut, the bound is below the value. Everything ends by a
+// first use. Where the search (placement.h) was cut, the bound is below the value. Everything ends by a
 // count of steps.
 #pragma once
 

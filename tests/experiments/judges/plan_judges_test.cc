@@ -48,7 +48,7 @@ Synthesis made_of(const Plan& plan) {
   judging::Judges judges{{Goal::kGapError, &gap_error}};
   std::optional<ErrorJudge> error;
   if (plan.error) judges[Goal::kError] = &error.emplace(plan);
-  Synthesis made = instants::synthesize(plan, nullptr, judges);
+  Synthesis made = instants::synthesize(plan, judges);
   EXPECT_TRUE(made.found);
   EXPECT_TRUE(schedules::check::check(made.cluster).empty());
   return made;

@@ -34,14 +34,13 @@ void hold(Limits& limits, Ticks best, std::size_t chains) {
 }  // namespace
 
 Optimiser::Optimiser(const plan::Plan& plan, const std::vector<Candidate>& all, const std::set<std::size_t>& refused,
-                     solver::Prover* prover, const Judges& judges)
-    : plan_(plan), prover_(prover), judges_(judges) {
+                     const Judges& judges)
+    : plan_(plan), judges_(judges) {
   for (std::size_t i = 0; i < all.size(); ++i) trials_.push_back({all[i], {}, std::nullopt, refused.contains(i), {}});
 }
 
 std::optional<std::size_t> Optimiser::run() {
   for (const Goal goal : plan_.objective) {
-    asks_left_ = kMostAsks;
     way_ = "bound";
     if (goal == Goal::kWorstAge || goal == Goal::kDataAge) worst_age(goal);
     if (goal == Goal::kSlots) slots();
@@ -75,9 +74,9 @@ void Optimiser::worst_age(Goal goal) {
     trial.out = !trial.placed;
     if (trial.placed) best = std::min(best, trial.placed->worst_age(trial.limits.beyond));
   }
-  if (best > least_of_all) way_ = "all orders tried";
   const Ticks settled = settle_open(open, best);
   const Ticks bound = std::min(best, settled);
+  if (best > least_of_all) way_ = "all orders tried";
   for (Trial& trial : trials_) {
     if (trial.out) continue;
     trial.out = trial.placed->worst_age(trial.limits.beyond) > best;
@@ -91,31 +90,28 @@ void Optimiser::worst_age(Goal goal) {
 Ticks Optimiser::settle_open(std::vector<Open>& open, Ticks& best) {
   std::stable_sort(open.begin(), open.end(), [](const Open& a, const Open& b) { return a.least < b.least; });
   Ticks bound = kNoAge;
+  bool stays_open = false;
   for (Open& one : open) {
     const Ticks most = one.nothing || best == kNoAge ? best : best - 1;
     if (one.least > most) continue;
     Trial& trial = trials_[one.trial];
-    Limits limits = trial.limits;
-    if (most != kNoAge) limits.worst_age = most;
-    const Settled settled = ask(read_of(plan_, trial)->reading, limits, false);
-    if (settled.best) {
-      trial.placed = settled.best;
-      trial.out = false;
-      best = std::min(best, settled.best->worst_age(trial.limits.beyond));
+    Search found;
+    if (!stays_open) {
+      Limits limits = trial.limits;
+      if (most != kNoAge) limits.worst_age = most;
+      found = place(read_of(plan_, trial)->reading, limits);
     }
-    exact_ = exact_ && (!one.nothing || settled.none || settled.best);
-    one.least = std::max(one.least, !settled.none ? settled.bound : most == kNoAge ? kNoAge : most + 1);
-    if (!settled.none) bound = std::min(bound, one.least);
+    if (found.best) {
+      trial.placed = found.best;
+      trial.out = false;
+      best = std::min(best, found.best->worst_age(trial.limits.beyond));
+    }
+    stays_open = stays_open || !found.exact;
+    exact_ = exact_ && (!one.nothing || found.exact || found.best);
+    if (found.exact) one.least = found.best ? best : most == kNoAge ? kNoAge : most + 1;
+    if (!found.exact || found.best) bound = std::min(bound, one.least);
   }
   return bound;
-}
-
-Settled Optimiser::ask(const Reading& reading, const Limits& limits, bool any) {
-  if (asks_left_ <= 0) return {};
-  Settled settled = settle(reading, limits, prover_, any);
-  asks_left_ = settled.open ? 0 : asks_left_ - 1;
-  if (settled.way == "integers" || (settled.way == "exhausted" && way_ != "integers")) way_ = settled.way;
-  return settled;
 }
 
 void Optimiser::place_all() {

@@ -11,10 +11,8 @@
 #include "schedules/synthesis/instants/judging/judge.h"
 #include "schedules/synthesis/instants/judging/trial.h"
 #include "schedules/synthesis/instants/placement.h"
-#include "schedules/synthesis/instants/proof.h"
 #include "schedules/synthesis/instants/synthesize.h"
 #include "schedules/synthesis/plan/plan.h"
-#include "schedules/synthesis/solver/prover.h"
 
 namespace ttf::schedules::synthesis::instants::objectives {
 
@@ -25,7 +23,7 @@ class Optimiser {
  public:
   // Candidates in `refused` are left out. Every objective that is not this module's own must have its judge.
   Optimiser(const plan::Plan& plan, const std::vector<Candidate>& all, const std::set<std::size_t>& refused,
-            solver::Prover* prover, const Judges& judges);
+            const Judges& judges);
 
   // Returns the index of the best candidate; none if no candidate has a placement.
   std::optional<std::size_t> run();
@@ -44,17 +42,14 @@ class Optimiser {
   };
 
   void worst_age(plan::Goal goal);
-  // Asks the solver about candidates whose search was cut, those with the least bounds first, until one stays open.
+  // Searches candidates again whose search was cut, those with the least bounds first. Only placements better than
+  // the best of all are looked for: this limit ends more ways early. The first candidate that stays open is the last, as others would prove nothing.
   // Returns a bound for all of them, and raises that of each one.
   Ticks settle_open(std::vector<Open>& open, Ticks& best);
-  // Asks nothing more behind a question that stayed open: the answers would prove nothing.
-  Settled ask(const Reading& reading, const Limits& limits, bool any);
   void slots();
   // Returns the least last slot within the trial's limits, and whether it is proven to be the least. Keeps its
   // placement.
   std::pair<std::optional<Ticks>, bool> fewest(const Read& read, Trial& trial);
-  // Returns a placement within the limits, by the search or the solver; or whether there is none.
-  Search any_within(const Reading& reading, const Limits& limits);
   // Sees to it that every trial has a placement, and drops those without one.
   void place_all();
   void jitter();
@@ -65,12 +60,8 @@ class Optimiser {
   // Returns an objective's bound over the doubtful trials, whatever their instants.
   double bound_of_doubtful(plan::Goal goal) const;
 
-  static constexpr int kMostAsks = 16;  // by objective
-
   const plan::Plan& plan_;
-  solver::Prover* prover_;
   const Judges& judges_;
-  int asks_left_ = 0;
   std::string way_;  // to the proof of this objective
   std::vector<Trial> trials_;
   // Trials that might be as good as those that are left, with other instants: they were dropped without a proof of the

@@ -46,7 +46,7 @@ void Optimiser::slots() {
 std::pair<std::optional<Ticks>, bool> Optimiser::fewest(const Read& read, Trial& trial) {
   bool proven = true;
   if (!trial.placed) {
-    const Search found = any_within(read.reading, trial.limits);
+    const Search found = place(read.reading, trial.limits, true);
     exact_ = exact_ && (found.exact || found.best);
     if (!found.best) return {std::nullopt, found.exact};
     trial.placed = found.best;
@@ -57,7 +57,7 @@ std::pair<std::optional<Ticks>, bool> Optimiser::fewest(const Read& read, Trial&
     Limits limits = trial.limits;
     const Ticks middle = low + (high - low) / 2;
     limits.last_slot = middle * slot;
-    const Search found = any_within(read.reading, limits);
+    const Search found = place(read.reading, limits, true);
     if (!found.best) {
       proven = proven && found.exact;
       low = middle + 1;
@@ -68,15 +68,6 @@ std::pair<std::optional<Ticks>, bool> Optimiser::fewest(const Read& read, Trial&
   }
   trial.limits.last_slot = high * slot;
   return {high, proven};
-}
-
-Search Optimiser::any_within(const Reading& reading, const Limits& limits) {
-  Search found = place(reading, limits, true);
-  if (found.best || found.exact) return found;
-  Settled settled = ask(reading, limits, true);
-  found.best = std::move(settled.best);
-  found.exact = settled.none;
-  return found;
 }
 
 }  // namespace ttf::schedules::synthesis::instants::objectives

@@ -35,6 +35,7 @@ enum Beside : unsigned {
   kStandingFusion = 1024,
   kStandingUse = 2048,
   kStandingImage = 4096,
+  kOldChain = 8192,  // the first sensor's data is a period old before it is sent; there is room for all lists
 };
 
 class DrawnReading {
@@ -42,23 +43,27 @@ class DrawnReading {
   DrawnReading(int seed, unsigned beside)
       : random_(StreamKey{.seed = static_cast<std::uint64_t>(seed), .index = 77}), beside_(beside) {
     problem().resources = {{"segment"}, {"fusion"}, {"feature"}};
-    period_ = kTwelve * within(1, 2);
-    slots_ = within(4, 5);
-    const int sensors = static_cast<int>(within(1, 2));
+    const bool old = has(kOldChain, 1.0);
+    period_ = kTwelve * (old ? 2 : within(1, 2));
+    slots_ = old ? kTwelve / kSlotTicks : within(4, 5);
+    const int sensors = old ? 2 : static_cast<int>(within(1, 2));
+    const Ticks longest_list = old ? 1 : 2, longest_fusion = old ? 2 : 4;
     (void)random_.uniform();
     const bool local = has(kLocalTask, 0.5);
-    const std::size_t image = add("image", kStaticSegment, period_, kSlotTicks * within(1, 2));
+    const std::size_t image = add("image", kStaticSegment, period_, kSlotTicks * within(1, longest_list));
     const std::size_t use = add("use", kFeature, period_, within(1, 3));
     const Ticks to_use = follow(image, use, within(0, 2));
     for (int s = 0; s < sensors; ++s) {
       const std::size_t measured = add(fmt::format("measures {}", s), std::nullopt, period_, 0);
-      const std::size_t list = add(fmt::format("list {}", s), kStaticSegment, period_, kSlotTicks * within(1, 2));
+      const std::size_t list =
+          add(fmt::format("list {}", s), kStaticSegment, period_, kSlotTicks * within(1, longest_list));
       const bool is_local = local && s == 0;
       const std::size_t task = is_local ? add("local", kFeature, period_, within(1, 3))
-                                        : add(fmt::format("fuses {}", s), kFusion, period_, within(1, 4));
+                                        : add(fmt::format("fuses {}", s), kFusion, period_, within(1, longest_fusion));
       Chain chain;
       chain.activities = {measured, list, task};
-      chain.gaps = {follow(measured, list, within(0, 6)), follow(list, task, within(0, 2))};
+      chain.gaps = {follow(measured, list, within(0, 6) + (old && s == 0 ? period_ : 0)),
+                    follow(list, task, within(0, 2))};
       if (is_local) {
         chain.gaps.push_back(follow(task, use, within(0, 1)));
       } else {
@@ -84,14 +89,14 @@ class DrawnReading {
   Ticks often() { return random_.uniform() < 0.5 ? period_ : kTwelve; }
 
   std::size_t add(std::string name, std::optional<std::size_t> resource, Ticks period, Ticks duration) {
-    Activity one{std::move(name), 0, resource, period, duration, {0, period - 1}, {}, std::nullopt};
+    Activity one{std::move(name), resource, period, duration, {}, std::nullopt};
     if (resource == kStaticSegment)
       one.grid = {kTwelve, 0, std::max<Ticks>(0, slots_ * kSlotTicks - duration), kSlotTicks};
     problem().activities.push_back(std::move(one));
     return problem().activities.size() - 1;
   }
   Ticks follow(std::size_t before, std::size_t after, Ticks gap) {
-    problem().precedences.push_back({before, after, gap, std::nullopt, 0});
+    problem().precedences.push_back({before, after, gap});
     return gap;
   }
   Ticks any_slot(Ticks last) { return kSlotTicks * within(0, last) + kTwelve * within(0, period_ / kTwelve - 1); }
@@ -127,8 +132,8 @@ class DrawnReading {
     else
       reading_.fused.clear();
     if (has(kLastSlot, 0.4)) limits_.last_slot = kSlotTicks * within(2, slots_);
-    const bool list = has(kStandingList, 0.3), fusion = has(kStandingFusion, 0.4), taken = has(kStandingUse, 0.4),
-               image = has(kStandingImage, 0.4);
+    const bool list = has(kStandingList, 0.3), fusion = has(kStandingFusion, 0.4),
+               taken = has(kStandingUse, has(kOldChain, 1.0) ? 1.0 : 0.4), image = has(kStandingImage, 0.4);
     for (Activity& one : problem().activities) {
       if (list && one.name == "list 0") one.fixed = any_slot(slots_ - 2);
       if (image && one.name == "image") one.fixed = any_slot(slots_ - 2);
@@ -280,7 +285,10 @@ TEST(DrawnPlacement, IsExactWhereItSaysSo) {
                                             {kOrder + 0u, 1, 6},
                                             {kLocalTask + 0u, 18, 23},
                                             {kStandingTask + 0u, 68, 73},
-                                            {kRestList + 0u, 150, 155}}) {
+                                            {kRestList + 0u, 150, 155},
+                                            {kOldChain + kStandingUse + 0u, 1000, 1008},
+                                            {kOldChain + kStandingUse + kOrder + 0u, 1000, 1008},
+                                            {kOldChain + kStandingUse + kOrder + kLocalTask + 0u, 1000, 1008}}) {
     const Count count = hold_against_exhaustion(beside, first, last);
     EXPECT_GT(3 * count.exact, count.drawn) << "with " << beside;
   }
@@ -295,12 +303,12 @@ TEST(DrawnPlacement, AFusionThatBeginsEarlierThanItMustIsNoProof) {
   const auto add = [&](std::optional<std::size_t> resource, Ticks duration) {
     const Grid grid{kTwelve, 0, 8 - duration, kSlotTicks};
     problem.activities.push_back(
-        {"", 0, resource, 24, duration, {0, 23}, resource == kStaticSegment ? grid : Grid{}, std::nullopt});
+        {"", resource, 24, duration, resource == kStaticSegment ? grid : Grid{}, std::nullopt});
     return problem.activities.size() - 1;
   };
   const std::size_t image = add(kStaticSegment, 2), use = add(kFeature, 1);
   const auto follow = [&](std::size_t before, std::size_t after, Ticks gap) {
-    problem.precedences.push_back({before, after, gap, std::nullopt, 0});
+    problem.precedences.push_back({before, after, gap});
     return gap;
   };
   follow(image, use, 0);

@@ -79,7 +79,7 @@ TEST(Judged, MeasurementsMoveToWhereTheJudgeWantsThem) {
   for (const double apart : {1'000.0, 3'777.0, -9'123.0}) {
     const WantsApart judge({apart});
     const Plan plan = paper("error");
-    const Synthesis made = synthesize(plan, nullptr, {{Goal::kError, &judge}});
+    const Synthesis made = synthesize(plan, {{Goal::kError, &judge}});
     ASSERT_TRUE(made.found);
     EXPECT_TRUE(check::check(made.cluster).empty());
     const auto met = meetings(plan, made.cluster);
@@ -92,7 +92,7 @@ TEST(Judged, MeasurementsMoveToWhereTheJudgeWantsThem) {
 // The steps are counted: a judge is asked a bounded number of times.
 TEST(Judged, AsksABoundedNumberOfTimes) {
   const WantsApart judge({3'777.0});
-  (void)synthesize(paper("error"), nullptr, {{Goal::kError, &judge}});
+  (void)synthesize(paper("error"), {{Goal::kError, &judge}});
   EXPECT_GT(judge.asked(), 20);
   EXPECT_LT(judge.asked(), kMostMoves + 40);
 }
@@ -101,13 +101,13 @@ TEST(Judged, AsksABoundedNumberOfTimes) {
 TEST(Judged, RegretLiesBetweenTheWishes) {
   const WantsApart both({1'000.0, 5'000.0});
   const Plan plan = paper("error");
-  const Synthesis made = synthesize(plan, nullptr, {{Goal::kError, &both}});
+  const Synthesis made = synthesize(plan, {{Goal::kError, &both}});
   ASSERT_TRUE(made.found);
   const auto& weights = made.reached[0].weights;
   ASSERT_EQ(weights.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const WantsApart alone({i == 0 ? 1'000.0 : 5'000.0});
-    EXPECT_NEAR(1.0 / weights[i], synthesize(plan, nullptr, {{Goal::kError, &alone}}).reached[0].value, 0.01);
+    EXPECT_NEAR(1.0 / weights[i], synthesize(plan, {{Goal::kError, &alone}}).reached[0].value, 0.01);
   }
   const auto met = meetings(plan, made.cluster);
   EXPECT_NEAR(1e-3 * static_cast<double>((age_of(met, 1) - age_of(met, 0)).ns), 3'000.0, 25.0);
@@ -116,17 +116,16 @@ TEST(Judged, RegretLiesBetweenTheWishes) {
 TEST(Judged, LaterObjectivesKeepTheValue) {
   const WantsApart judge({3'777.0});
   const Plan plan = paper("error, slots, worst_age, jitter, room", "8560 us");
-  const Synthesis made = synthesize(plan, nullptr, {{Goal::kError, &judge}});
+  const Synthesis made = synthesize(plan, {{Goal::kError, &judge}});
   ASSERT_TRUE(made.found);
   EXPECT_EQ(made.reached[0].value, judged(judge, {1.0}, plan, made.cluster));
-  EXPECT_EQ(made.reached[0].value,
-            synthesize(paper("error", "8560 us"), nullptr, {{Goal::kError, &judge}}).reached[0].value);
+  EXPECT_EQ(made.reached[0].value, synthesize(paper("error", "8560 us"), {{Goal::kError, &judge}}).reached[0].value);
 }
 
 TEST(Judged, EarlierObjectivesAreKept) {
   const WantsApart judge({3'777.0});
   const Synthesis ages = synthesize(paper("worst_age"));
-  const Synthesis made = synthesize(paper("worst_age, error"), nullptr, {{Goal::kError, &judge}});
+  const Synthesis made = synthesize(paper("worst_age, error"), {{Goal::kError, &judge}});
   ASSERT_TRUE(made.found);
   EXPECT_EQ(made.reached[0].value, ages.reached[0].value);
   EXPECT_TRUE(made.reached[0].proven);
@@ -139,7 +138,7 @@ TEST(Judged, WithoutInstantsThereIsNoValue) {
   text = changed(text, "from: laser, to: feature.use, largest_age: 60 ms",
                  "from: laser, to: feature.use, largest_age: 50 ms");
   const WantsApart judge({0.0});
-  const Synthesis made = synthesize(plan::parse_plan(text, "plan.yaml"), nullptr, {{Goal::kError, &judge}});
+  const Synthesis made = synthesize(plan::parse_plan(text, "plan.yaml"), {{Goal::kError, &judge}});
   EXPECT_FALSE(made.found);
   EXPECT_TRUE(made.exact);
 }

@@ -26,13 +26,13 @@ Reading drawn(int seed) {
   Problem& problem = reading.problem;
   problem.resources = {{"segment"}, {"processor"}};
   const auto add = [&](std::optional<std::size_t> resource, Ticks duration, Grid grid) {
-    problem.activities.push_back({"", 0, resource, kCycle, duration, {0, kCycle - 1}, grid, std::nullopt});
+    problem.activities.push_back({"", resource, kCycle, duration, grid, std::nullopt});
     if (resource == std::size_t{0} && seed % 3 == 0)  // channels: lists that are on both, or on one
       problem.activities.back().lanes = static_cast<std::uint8_t>(1 + (seed / 3 + problem.activities.size()) % 3);
     return problem.activities.size() - 1;
   };
   const auto follow = [&](std::size_t before, std::size_t after, Ticks gap) {
-    problem.precedences.push_back({before, after, gap, std::nullopt, 0});
+    problem.precedences.push_back({before, after, gap});
     return gap;
   };
   const int sensors = 2;
@@ -161,7 +161,7 @@ TEST(Grid, PositionsAndConflictsByHand) {
   EXPECT_EQ(next_on_grid(slots, 51), 110);
   EXPECT_EQ(next_on_grid(slots, -5), 10);
   EXPECT_EQ(next_on_grid(slots, 11), 20);
-  const Activity often{"", 0, 0, 50, 10, {}, {}, std::nullopt}, seldom{"", 0, 0, 200, 20, {}, {}, std::nullopt};
+  const Activity often{"", 0, 50, 10, {}, std::nullopt}, seldom{"", 0, 200, 20, {}, std::nullopt};
   EXPECT_EQ(in_the_way(seldom, 60, often, 0, true), 0);
   EXPECT_EQ(in_the_way(seldom, 105, often, 0, true), 25);  // ends at 100, where the other begins
   EXPECT_EQ(in_the_way(seldom, 105, often, 0, false), 5);  // begins at 110, where the other ends
