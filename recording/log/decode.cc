@@ -13,7 +13,7 @@
 #include "recording/records/fields.h"
 
 namespace ttf::recording::log {
-namespace {
+namespace detail {
 
 struct Nothing {};
 // A field's member only views its list, which stands in this storage.
@@ -41,6 +41,13 @@ using Storage = decltype(storage(std::declval<decltype(records::kDescription<Des
 
 template <std::size_t... i>
 std::tuple<Storage<records::RecordAt<i + 1>>...> storage_of_kinds(std::index_sequence<i...>);  // only its type counts
+
+}  // namespace detail
+
+namespace {
+
+using detail::Nothing;
+using detail::Storage;
 
 // The number of a struct's members: the most values that can initialise it. Fewer may fail, as some types have no
 // default.
@@ -253,7 +260,7 @@ template <class Described> class Decoding {
 }  // namespace
 
 struct Decoder::Lists {
-  decltype(storage_of_kinds(std::make_index_sequence<records::kKindCount>{})) of_kind;
+  decltype(detail::storage_of_kinds(std::make_index_sequence<records::kKindCount>{})) of_kind;
 };
 
 Decoder::Decoder() : lists_(std::make_unique<Lists>()) {}
