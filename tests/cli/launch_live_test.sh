@@ -43,13 +43,15 @@ for strategy in tt buff adva; do
   facts "$folder"
   "$log_facts" "$folder/$strategy.mcap" >"$folder.merged.json" || fail "$strategy.mcap cannot be read"
   check "$strategy: what a launch leaves is another" '
-folder, strategy = sys.argv[1:]
+folder, strategy, schema = sys.argv[1:]
 facts, merged, summary = read(folder + ".json"), read(folder + ".merged.json"), read(folder + "/summary.json")
 assert facts["clock"] == merged["clock"] == "wall", facts["clock"]
 assert all(log["whole"] for log in facts["logs"] + merged["logs"]), facts["logs"]
 assert len(facts["last_s"]) == 7 and min(facts["last_s"].values()) > 1.4, facts["last_s"]
 assert facts["corrections"] and sorted(map(str, facts["corrections"])) == sorted(map(str, merged["corrections"]))
 assert facts["truths"] == 0 and merged["truths"] > 0, merged["truths"]
+import jsonschema
+jsonschema.validate(summary, read(schema), cls=jsonschema.Draft7Validator)
 real_time = summary["strategies"][0]["real_time"]
 assert real_time["time_scale"] == 8 and len(real_time["nodes"]) == 7, real_time
 for node in real_time["nodes"]:
@@ -70,7 +72,7 @@ assert real_time["precision_us"][0]["p50"] < 200, real_time["precision_us"]
 manifest = read(folder + "/manifest.json")
 assert summary["verdict"]["sentence"] and isinstance(summary["verdict"]["matters"], bool), summary["verdict"]
 assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and manifest["time_scale"] == 8, manifest' \
-    "$folder" "$strategy"
+    "$folder" "$strategy" "$source/keys/schemas/summary.schema.json"
 done
 # The example of --help: all logs in the folder, the merged one among its parts.
 expect 0 'warning: .*/tt.mcap: is ignored: it holds the records of the other 8 logs' \
