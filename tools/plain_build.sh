@@ -1,10 +1,21 @@
 #!/usr/bin/env bash
 # Builds without presets: cmake -B FOLDER -DCMAKE_BUILD_TYPE=Release, with g++ or clang++.
-#   tools/plain_build.sh [--lean] [COMPILER] [TARGET...]      default: g++, everything
+#   tools/plain_build.sh [--changed] [--lean] [COMPILER] [TARGET...]      default: g++, everything
+# --changed builds only if files that decide whether such a build succeeds differ from the commit on which it last passed in
+# tools/long_checks.sh: CMake's own files, the program's list of sources, and sources that ask what is left out.
 # --lean leaves out what can be: tests, benchmarks, DDS, MPI, and the optimiser, which takes most of the time. The
 # program then says what it lacks.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+if [[ ${1:-} == --changed ]]; then
+  shift
+  since=$(sed -n 's/^plain_g++ \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
+  git cat-file -e "${since:-none}^{commit}" 2>/dev/null || since=HEAD~1
+  mapfile -t asking < <(git grep -l TTF_WITH_ -- '*.cc' '*.h')
+  changed=$(git diff --name-only "$since" -- CMakeLists.txt CMakePresets.json cmake cli/CMakeLists.txt experiments/mpi cli/node_set \
+    tools/plain_build.sh "${asking[@]}")
+  [[ -n $changed ]] || { echo "plain build: nothing that decides about it has changed since $since"; exit 0; }
+fi
 lean=
 [[ ${1:-} == --lean ]] && lean=lean- && shift
 compiler=${1:-g++}

@@ -2,7 +2,7 @@
 # Runs clang-tidy (.clang-tidy) on sources, and compiles each header alone.
 #   tools/tidy.sh             all modules
 #   tools/tidy.sh --changed   the files changed since the long checks last passed (tools/long_checks.passed; if they never did,
-#                             those of the last commit). The newest come first, until 100 seconds are over; long_checks.sh
+#                             those of the last commit). The newest come first, until 70 seconds are over; long_checks.sh
 #                             has the rest
 #   tools/tidy.sh FILE...
 # Exit code 1 if something is found. The preset asan-ubsan supplies the compiler's flags.
@@ -13,7 +13,7 @@ build=build/asan-ubsan
 until=$((SECONDS + 100000))
 case ${1:-} in
   --changed)
-    until=$((SECONDS + 100))
+    until=$((SECONDS + 70))
     since=$(sed -n 's/^tidy \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
     range=HEAD~1..HEAD
     git cat-file -e "${since:-none}^{commit}" 2>/dev/null && range=$since..HEAD
