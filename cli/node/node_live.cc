@@ -47,9 +47,9 @@ nlohmann::ordered_json health_json(const Health& health) {
       {"lateness_us",
        {{"p50", in_us(health.wakeup_p50)}, {"p99", in_us(health.wakeup_p99)}, {"max", in_us(health.wakeup_longest)}}},
       {"drops", health.drops()}};
-  if (!health.state.empty()) {
+  if (health.state) {
     json["sync_precision_us"] = in_us(health.largest_offset);
-    json["state"] = health.state;
+    json["state"] = bus::poc::to_text(*health.state);
   }
   if (health.can_state) {
     json["can_errors"] = health.can_errors;

@@ -100,11 +100,11 @@ void DdsTopics::health(const nodes::runner::Health& health, TrueTime at) {
                                                         {"wake-up lateness p99 [us]", values[5]},
                                                         {"wake-up lateness max [us]", values[6]},
                                                         {"largest offset correction [us]", values[7]}}};
-  const bool off_flexray = health.state.empty();
   const auto can = static_cast<bus::can::ErrorState>(health.can_state.value_or(recording::records::kCanErrorActive));
-  std::string words(off_flexray ? "running" : health.state);
+  std::string words(health.state ? bus::poc::to_text(*health.state) : "running");
   if (can != bus::can::ErrorState::kActive) words += fmt::format(", CAN {}", bus::can::text(can));
-  const bool good = (off_flexray || health.state == "normal active") && can == bus::can::ErrorState::kActive;
+  const bool good =
+      (!health.state || *health.state == bus::poc::PocKind::kNormalActive) && can == bus::can::ErrorState::kActive;
   publisher_.health(
       {at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_, words, told});
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bus/can/confinement.h"
+#include "bus/poc/poc.h"
 #include "cli/supervision/lines.h"
 #include "core/counted.h"
 #include "report/drawing/tables.h"
@@ -63,14 +65,15 @@ std::string us_cell(const std::optional<double>& value, int decimals) {
   return value ? report::drawing::cell(*value, decimals) : "-";
 }
 
-constexpr std::string_view kRunning = "running", kActive = "normal active";
+constexpr std::string_view kRunning = "running";
 constexpr std::size_t kNamed = 3;  // nodes that are not up, in the summary
 
 // "normal active, CAN bus off"; "exit 0, normal active": a process that runs goes without saying.
 std::string state_words(const std::string& process, const NodeHealth& health) {
   std::string words = process;
   if (!health.state.empty()) words = (process == kRunning ? "" : process + ", ") + printable(health.state);
-  if (!health.can_state.empty() && health.can_state != "error active") words += ", CAN " + printable(health.can_state);
+  if (!health.can_state.empty() && health.can_state != bus::can::text(bus::can::ErrorState::kActive))
+    words += ", CAN " + printable(health.can_state);
   return words;
 }
 
@@ -129,7 +132,9 @@ void HealthTable::set_external(std::size_t node, const ExternalHealth& health) {
 }
 
 bool HealthTable::Row::up() const {
-  return sending ? *sending : process == kRunning && (health.state.empty() || health.state == kActive);
+  return sending ? *sending
+                 : process == kRunning &&
+                       (health.state.empty() || health.state == bus::poc::to_text(bus::poc::PocKind::kNormalActive));
 }
 
 std::uint64_t HealthTable::Row::restarts() const { return processes > 1 ? processes - 1 : 0; }

@@ -302,7 +302,7 @@ Health Runner::health() const {
   health.wakeup_p99 = account_.wake_ups.quantile(990);
   health.wakeup_longest = account_.wake_ups.longest();
   health.largest_offset = in_real(Microticks{watch_->largest});
-  if (const auto* controller = executive_->controller()) health.state = bus::poc::to_text(controller->state().kind);
+  if (const auto* controller = executive_->controller()) health.state = controller->state().kind;
   health.can_errors = can_errors_;
   if (can_reported_) health.can_state = *std::max_element(can_states_.begin(), can_states_.end());
   if (config_.vehicle != nullptr) health.vehicle = config_.vehicle->counts();

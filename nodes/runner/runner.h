@@ -25,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/poc/poc.h"
 #include "bus/ports/live_medium.h"
 #include "core/time.h"
 #include "nodes/host/executive.h"
@@ -62,8 +63,8 @@ struct Health {
   bus::ports::LiveCounts medium;
   std::uint64_t dropped = 0;  // frames without room in this process, inbound or outbound
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
-  Duration largest_offset{};  // the largest correction by clock synchronisation, either sign
-  std::string_view state;     // the controller's; empty off FlexRay
+  Duration largest_offset{};               // the largest correction by clock synchronisation, either sign
+  std::optional<bus::poc::PocKind> state;  // the controller's; none off FlexRay
   // Its interfaces to private CANs report error frames, and their controllers' states (recording::records::kCanBusOff and so
   // on). The worst present state is unknown before the first report.
   std::uint64_t can_errors = 0;

@@ -16,7 +16,7 @@ Health health_of(std::uint64_t number) {
   health.timing.late_wakeups = number;
   health.dropped = 2 * number;
   health.wakeup_longest = Duration::microseconds(static_cast<std::int64_t>(number));
-  health.state = "normal active";
+  health.state = bus::poc::PocKind::kNormalActive;
   return health;
 }
 
@@ -33,7 +33,7 @@ TEST(HealthTeller, ReportsOnAThreadOfItsOwn) {
   EXPECT_EQ(health.timing.late_wakeups, 7u);
   EXPECT_EQ(health.dropped, 14u);
   EXPECT_EQ(health.wakeup_longest, Duration::microseconds(7));
-  EXPECT_EQ(health.state, "normal active");
+  EXPECT_EQ(health.state, bus::poc::PocKind::kNormalActive);
   EXPECT_GE(at, before);
   EXPECT_LE(at, bus::ports::host_now());
   EXPECT_NE(who.get_future().get(), std::this_thread::get_id());

@@ -54,7 +54,7 @@ class TurnedNodeSet : public LiveNodeSet {
     return [id = id_of(node), wakes](NodeId other) { return other == id ? wakes : late_by({}); };
   }
   void expect_all_active() {
-    for (const char* node : kOnFlexRay) EXPECT_EQ(health_of(node).state, "normal active") << node;
+    for (const char* node : kOnFlexRay) EXPECT_EQ(health_of(node).state, bus::poc::PocKind::kNormalActive) << node;
   }
   std::set<SlotOfCycle> missed(const char* node) {
     std::set<SlotOfCycle> missed;

@@ -53,7 +53,7 @@ class WallClockNodeSet : public LiveNodeSet {
       fmt::print("{:<12}{:>12.0f}{:>12.0f}{:>12.0f}{:>12.0f}{:>10}{:>8}  {}\n", cluster_.nodes[n].name,
                  in_us(health.wakeup_p50), in_us(health.wakeup_p99), in_us(health.wakeup_longest),
                  in_us(recorded_[n].lateness[recording::records::kLatenessOfFloor].longest), health.timing.slots_missed,
-                 health.timing.frames_lost, health.state);
+                 health.timing.frames_lost, health.state ? bus::poc::to_text(*health.state) : "off FlexRay");
     }
     std::fflush(stdout);
   }
