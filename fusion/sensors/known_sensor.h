@@ -1,5 +1,5 @@
 // The fusion's knowledge of a sensor beside its noise: its mounting, its field and its systematic
-// errors (fusion/sensors/systematic.h). As YAML (fusion/loading/known_sensor.h), where every key defaults to "none":
+// errors (tests/fusion/sensors/systematic.h). As YAML (fusion/loading/known_sensor.h), where every key defaults to "none":
 //
 //   mounting: {x: 3.5, y: 0.0, heading: 0.0}      # on the vehicle: [m], and [rad] from its x axis to the sensor's
 //   field: {half_angle: 1.05, max_range: 120.0}   # what it sees; absent: nothing is known of that

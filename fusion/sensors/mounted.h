@@ -2,7 +2,7 @@
 // them in its own:
 //   p' = R' (p - t),  v' = R' (v - w),  heading' = heading - yaw
 // (t, yaw) is the mounting pose and w the sensor's own velocity over ground, in the vehicle's axes. A mounted
-// sensor with systematic errors (systematic.h) has the same errors, at the kinematics in its own axes.
+// sensor with systematic errors (tests/fusion/sensors/systematic.h) has the same errors, at the kinematics in its own axes.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // A sensor model is a small header over the kinematics (fusion/motion/kinematics.h) in the sensor's own axes.
-// Systematic errors (systematic.h) wrap the model, and the mounting (mounted.h) wraps both. The only order is
+// Systematic errors (tests/fusion/sensors/systematic.h) wrap the model, and the mounting (mounted.h) wraps both. The only order is
 // Mounted<Systematic<S>>. A model has:
 //   kDimension     numbers of one measurement;
 //   kParts         the kinematics that it depends on: kPositionOnly, kWithVelocity, kWithHeading;

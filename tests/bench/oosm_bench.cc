@@ -10,8 +10,8 @@
 #include <chrono>
 #include <vector>
 
-#include "fusion/oosm/any_method.h"
 #include "tests/bench/yardstick.h"
+#include "tests/fusion/oosm/any_method.h"
 #include "tests/fusion/oosm/timelines.h"
 #include "tests/support/allocation_counter.h"
 

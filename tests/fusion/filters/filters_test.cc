@@ -7,10 +7,10 @@
 #include "fusion/sensors/mounted.h"
 #include "fusion/sensors/position.h"
 #include "fusion/sensors/range_bearing_rate.h"
-#include "fusion/sensors/systematic.h"
 #include "tests/fusion/dense.h"
 #include "tests/fusion/motion/drawn.h"
 #include "tests/fusion/sensors/position_heading.h"
+#include "tests/fusion/sensors/systematic.h"
 #include "tests/fusion/textbook.h"
 #include "tests/support/allocation_counter.h"
 

@@ -9,8 +9,8 @@
 #include "fusion/sensors/mounted.h"
 #include "fusion/sensors/position.h"
 #include "fusion/sensors/range_bearing_rate.h"
-#include "fusion/sensors/systematic.h"
 #include "tests/fusion/motion/drawn.h"
+#include "tests/fusion/sensors/systematic.h"
 
 namespace ttf::fusion::filters {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "fusion/oosm/any_method.h"
+#include "tests/fusion/oosm/any_method.h"
 #include "tests/fusion/oosm/timelines.h"
 
 namespace ttf::fusion::oosm {

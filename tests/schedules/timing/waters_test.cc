@@ -1,5 +1,5 @@
 // Drawn tasks, messages and chains have the shares, ranges and means of the tables.
-#include "schedules/timing/waters.h"
+#include "tests/schedules/timing/waters.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "schedules/timing/response/can.h"
 #include "schedules/timing/response/fixed_priority.h"
 #include "schedules/timing/response/priorities.h"
-#include "schedules/timing/waters.h"
 #include "tests/schedules/timing/simulated_resource.h"
+#include "tests/schedules/timing/waters.h"
 
 namespace ttf::schedules::timing::response {
 namespace {

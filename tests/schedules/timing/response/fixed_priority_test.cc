@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/random.h"
-#include "schedules/timing/response/load_tests.h"
 #include "schedules/timing/response/simulation.h"
+#include "tests/schedules/timing/response/load_tests.h"
 #include "tests/schedules/timing/simulated_resource.h"
 
 namespace ttf::schedules::timing::response {

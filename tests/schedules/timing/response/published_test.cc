@@ -5,9 +5,9 @@
 
 #include "schedules/timing/response/can.h"
 #include "schedules/timing/response/fixed_priority.h"
-#include "schedules/timing/response/load_tests.h"
 #include "schedules/timing/response/priorities.h"
 #include "schedules/timing/response/tdma.h"
+#include "tests/schedules/timing/response/load_tests.h"
 #include "tests/schedules/timing/simulated_resource.h"
 
 namespace ttf::schedules::timing::response {

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 #include "schedules/timing/task_set/verdict.h"
-#include "schedules/timing/waters.h"
+#include "tests/schedules/timing/waters.h"
 
 namespace ttf::schedules::timing::task_set {
 namespace {

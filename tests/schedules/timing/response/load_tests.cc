@@ -1,4 +1,4 @@
-#include "schedules/timing/response/load_tests.h"
+#include "tests/schedules/timing/response/load_tests.h"
 
 #include <algorithm>
 #include <cmath>

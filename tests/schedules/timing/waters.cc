@@ -1,4 +1,4 @@
-#include "schedules/timing/waters.h"
+#include "tests/schedules/timing/waters.h"
 
 #include <algorithm>
 #include <array>
