@@ -18,7 +18,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -48,17 +47,6 @@ enum class Harm : std::uint8_t { kLeftActive, kNotStarted, kPrecision, kFrameLos
 inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, Harm::kPrecision, Harm::kFrameLost,
                                          Harm::kFrameForged};
 std::string_view name_of(Harm harm);
-
-// Returns the names of those of `all` whose bit is set, joined by "+".
-template <class All> std::string names_of(unsigned bits, const All& all) {
-  std::string out;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if ((bits >> i & 1u) == 0) continue;
-    if (!out.empty()) out += '+';
-    out += name_of(all[i]);
-  }
-  return out;
-}
 
 // Calls `seen` with every check in the status of a slot (bus::controller::SlotStatus).
 template <class Seen> void for_each_check(std::uint8_t status, Seen seen) {

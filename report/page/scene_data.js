@@ -1,9 +1,7 @@
-// A drive seen from above, unpacked from the page's data. report/scene/packed.h has the columns, report/scene/view.h
-// the rules of an instant.
+// A drive seen from above, unpacked from the page's data. report/scene/packed.h has the columns and the rules' numbers,
+// report/scene/view.h the rules of an instant.
 "use strict";
 const SceneData = (() => {
-  const OBJECT_LIFE = 1, LIST_LIFE = 0.3, TRAIL = 2;   // s
-
   const column = (Type, text) => {
     const binary = atob(text), bytes = new Uint8Array(binary.length);
     for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
@@ -45,7 +43,7 @@ const SceneData = (() => {
   return class {
     constructor(json) {
       Object.assign(this, { label: json.label, colour: json.colour, from: json.from, to: json.to, unit: json.unit,
-        note: json.note, sensors: json.sensors });
+        note: json.note, sensors: json.sensors, rules: json.rules });
       const place = { x: Int16Array, y: Int16Array };
       this.truth = moments(json.truth, { id: Uint16Array, ...place, heading: Int16Array });
       this.images = moments(json.images, {
@@ -79,9 +77,9 @@ const SceneData = (() => {
 
     objects(t) {
       const { truth, unit, sizes } = this, m = newest(truth.at, t), out = [];
-      if (m < 0 || t - truth.at[m] > OBJECT_LIFE) return out;
+      if (m < 0 || t - truth.at[m] > this.rules.object_life) return out;
       const wait = m + 1 < truth.at.length ? truth.at[m + 1] - truth.at[m] : Infinity;
-      const part = wait <= OBJECT_LIFE ? (t - truth.at[m]) / wait : 0;
+      const part = wait <= this.rules.object_life ? (t - truth.at[m]) / wait : 0;
       for (let p = truth.begin[m]; p < truth.begin[m + 1]; ++p) {
         const q = truth.next[p] < 0 ? p : truth.next[p], id = truth.id[p], [length, width] = sizes.get(id) ?? [0, 0];
         out.push({
@@ -110,7 +108,7 @@ const SceneData = (() => {
 
     tracks(t) {
       const { images, unit } = this, m = newest(images.at, t), out = [];
-      if (m < 0 || t - images.at[m] > OBJECT_LIFE) return out;
+      if (m < 0 || t - images.at[m] > this.rules.object_life) return out;
       const own = this.own_motion(m);
       for (let p = images.begin[m]; p < images.begin[m + 1]; ++p) {
         const then = { x: images.x[p] * unit, y: images.y[p] * unit, heading: images.heading[p] / 32767 * Math.PI,
@@ -128,21 +126,21 @@ const SceneData = (() => {
     // Calls `draw(x, y)` for the places of a track in its newest images, from the newest on.
     trail(track, t, draw) {
       const { images, unit } = this;
-      for (let { p, m } = track; p >= 0 && t - images.at[m] <= TRAIL; p = images.before[p], --m)
+      for (let { p, m } = track; p >= 0 && t - images.at[m] <= this.rules.trail; p = images.before[p], --m)
         draw(images.x[p] * unit, images.y[p] * unit);
     }
 
     // Calls `draw(x, y)` for each observation of a sensor's newest list.
     observations(sensor, t, draw) {
       const list = this.lists[sensor], m = newest(list.at, t);
-      if (m < 0 || t - list.at[m] > LIST_LIFE) return;
+      if (m < 0 || t - list.at[m] > this.rules.list_life) return;
       for (let p = list.begin[m]; p < list.begin[m + 1]; ++p) draw(list.x[p] * this.unit, list.y[p] * this.unit);
     }
 
     // Returns the words of each warning, by the track's id.
     warnings(t) {
       const { warned } = this, m = newest(warned.at, t), out = new Map();
-      if (m < 0 || t - warned.at[m] > OBJECT_LIFE) return out;
+      if (m < 0 || t - warned.at[m] > this.rules.object_life) return out;
       for (let p = warned.begin[m]; p < warned.begin[m + 1]; ++p)
         out.set(warned.id[p],
           Number.isFinite(warned.collision[p]) ? `collision in ${warned.collision[p].toFixed(1)} s` :

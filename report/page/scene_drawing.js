@@ -1,7 +1,7 @@
 // Draws a scene's instant on a canvas. All objects of a kind are one path, so that a thousand take a few milliseconds.
 "use strict";
 const SceneDrawing = (() => {
-  const SIGMAS = 2, MOST_NAMED = 120, NAMED_SCALE = 14;   // px per metre at which all are named
+  const MOST_NAMED = 120, NAMED_SCALE = 14;   // px per metre at which all are named
   const SMALLEST = 4;   // px: smaller things are dots
   const ROUND = [...Array(16).keys()].map((k) => [Math.cos(k * Math.PI / 8), Math.sin(k * Math.PI / 8)]);
   const variable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -79,11 +79,12 @@ const SceneDrawing = (() => {
       c.closePath();
     }
     ellipse(one) {
-      if (!this.large(SIGMAS * Math.max(one.sigma_x, one.sigma_y))) return;
-      const { c } = this, rest = Math.sqrt(Math.max(0, 1 - one.correlation ** 2));
+      const { c } = this, { sigmas } = this.data.rules;
+      if (!this.large(sigmas * Math.max(one.sigma_x, one.sigma_y))) return;
+      const rest = Math.sqrt(Math.max(0, 1 - one.correlation ** 2));
       ROUND.forEach(([a, b], i) => {
-        const x = this.px(one.x + SIGMAS * one.sigma_x * a);
-        const y = this.py(one.y + SIGMAS * one.sigma_y * (one.correlation * a + rest * b));
+        const x = this.px(one.x + sigmas * one.sigma_x * a);
+        const y = this.py(one.y + sigmas * one.sigma_y * (one.correlation * a + rest * b));
         if (i) c.lineTo(x, y); else c.moveTo(x, y);
       });
       c.closePath();

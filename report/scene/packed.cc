@@ -9,6 +9,7 @@
 
 #include "recording/scene/geometry.h"
 #include "report/drawing/base64.h"
+#include "report/scene/view.h"
 
 namespace ttf::report::scene {
 namespace {
@@ -200,6 +201,11 @@ Json packed(const Scene& scene, const drawing::Names& names, const std::string& 
             {"to", static_cast<double>(scene.last.ns) * 1e-9},
             {"unit", unit},
             {"note", scene.thinned_words()},
+            {"rules",
+             {{"object_life", kObjectLife.seconds()},
+              {"list_life", kListLife.seconds()},
+              {"trail", kTrail.seconds()},
+              {"sigmas", recording::scene::kEllipseSigmas}}},
             {"sensors", Json::array()},
             {"truth", truth_json(scene, unit)},
             {"images", images_json(scene, unit)},

@@ -6,7 +6,8 @@
 //   speed    int16 [cm/s], yaw_rate float32 [rad/s], length and width uint16 [cm], sigma_x and sigma_y uint16 [cm],
 //   correlation int8 [1/127]
 //
-// Values beyond their type are shown at its end.
+// Values beyond their type are shown at its end. "rules" has the numbers of an instant's rules (view.h), in seconds and standard
+// deviations.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A scene at one instant. The page's script has the same rules (report/page/scene_data.js).
+// A scene at one instant. The page's script has the same rules (report/page/scene_data.js), and their numbers from here.
 #pragma once
 
 #include <string>

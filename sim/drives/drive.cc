@@ -114,15 +114,21 @@ void check_described(const schedules::model::Cluster& cluster) {
                                    "must have tasks for a drive: no node has any"));
 }
 
-void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                fusion::strategies::StrategyKind strategy, bool recording_given) {
-  check_described(cluster);
-  check_recording(scenario, cluster, recording_given);
+// Checks the cluster that drives: it may have the instants of a recording.
+static void check_cluster(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                          fusion::strategies::StrategyKind strategy) {
   check_late(scenario, cluster, strategy);
   check_fusion(cluster, strategy);
   check_sensors(scenario, cluster);
   check_loop(scenario, cluster);
   check_tasks(scenario, cluster);
+}
+
+void check_fits(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                fusion::strategies::StrategyKind strategy, bool recording_given) {
+  check_described(cluster);
+  check_recording(scenario, cluster, recording_given);
+  check_cluster(scenario, cluster, strategy);
   const ttf::faults::FaultPlan faults = ttf::faults::resolve(scenario.faults, cluster);
   const ttf::faults::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -137,11 +143,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   std::optional<schedules::model::Cluster> played;
   if (config.recorded) played = cluster_that_plays(scenario, *config.cluster, *config.recorded);
   const schedules::model::Cluster& cluster = played ? *played : *config.cluster;
-  check_late(scenario, cluster, config.strategy);
-  check_fusion(cluster, config.strategy);
-  check_sensors(scenario, cluster);
-  check_loop(scenario, cluster);
-  check_tasks(scenario, cluster);
+  check_cluster(scenario, cluster, config.strategy);
   std::optional<sim::processes::Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;

@@ -216,13 +216,6 @@ TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {
   EXPECT_TRUE(judge.finish(in_cycle(8)).seen_by_others[static_cast<std::size_t>(Check::kNoFrame)]);
 }
 
-TEST(FaultNames, AreThoseWhoseBitsAreSetJoinedByPlus) {
-  EXPECT_EQ(names_of(0, kAllHarms), "");
-  EXPECT_EQ(names_of(1u << 3, kAllHarms), "frame_lost");
-  EXPECT_EQ(names_of(1u | 1u << 2 | 1u << 4, kAllHarms), "left_active+precision+frame_forged");
-  EXPECT_EQ(names_of(1u << 10, kAllChecks), "guardian");
-}
-
 TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {
   const schedules::model::Cluster cluster = sim::engine::bus_cluster(4, 2, 3);
   ttf::faults::Fault fault;

@@ -6,6 +6,8 @@
 
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "tests/experiments/campaign/small_campaign.h"
 
@@ -18,6 +20,13 @@ const ClassCoverage& row(const Coverage& coverage, faults::FaultKind kind) {
   static const ClassCoverage none;
   ADD_FAILURE() << faults::name_of(kind) << " is not in the table";
   return none;
+}
+
+TEST(FaultNames, AreThoseWhoseBitsAreSetJoinedByPlus) {
+  const std::vector<std::string_view> all{"left_active", "not_started", "precision"};
+  EXPECT_EQ(names_of(0, all), "");
+  EXPECT_EQ(names_of(1u << 1, all), "not_started");
+  EXPECT_EQ(names_of(1u | 1u << 2, all), "left_active+precision");
 }
 
 TEST(Coverage, OfTwoThousandSingleFaults) {

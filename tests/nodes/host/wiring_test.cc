@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
+#include <string_view>
+#include <vector>
 
 #include "tests/nodes/host/one_node.h"
 
@@ -44,6 +47,13 @@ struct Hops final : recording::records::Sink {
   void on(const recording::records::ListHop& hop) override { hops.push_back({hop.hop, hop.sequence, hop.can_bus}); }
 };
 
+struct IdleStep final : Step {
+  bool newest = false;
+  explicit IdleStep(bool reads_state) : newest(reads_state) {}
+  void run(StepContext&) override {}
+  bool reads_newest(std::string_view) const override { return newest; }
+};
+
 // Task 0 is activated by kList from the first medium. Task 1 reads it, too, and kOther from the second.
 struct Wired {
   schedules::model::Cluster cluster = bus::small_cluster(1);
@@ -53,7 +63,7 @@ struct Wired {
   Box::Content first, second;
   std::optional<Wiring> wiring;
 
-  explicit Wired(bool on_first = true, bool on_second = true) {
+  explicit Wired(bool on_first = true, bool on_second = true, bool newest = false) {
     schedules::model::Task reader = task("reader", 10), both = task("both", 10);
     reader.reads = {{"in", bus::kList, kFirst, 0}};
     reader.writes = {{"out", kOther, kSecond, 0}};
@@ -63,7 +73,8 @@ struct Wired {
     std::vector<Connection> media;
     if (on_first) media.push_back({kFirst, std::make_unique<Box>(cluster, first)});
     if (on_second) media.push_back({kSecond, std::make_unique<Box>(cluster, second)});
-    wiring.emplace(cluster, cluster.nodes[0], std::move(media), time, records);
+    const std::vector<std::shared_ptr<Step>> steps(2, std::make_shared<IdleStep>(newest));
+    wiring.emplace(cluster, cluster.nodes[0], steps, std::move(media), time, records);
   }
   // A whole list arrives, over the given medium.
   std::vector<std::size_t> comes(schedules::model::MediumId medium, PduId pdu, std::uint32_t sequence) {
@@ -95,6 +106,13 @@ TEST(Wiring, WhatNobodyHasReadIsOverwrittenForEachOfItsReaders) {
   wired.comes(kFirst, bus::kList, 3);
   EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 3, 0}, {H::kOverwritten, 2, 0}, {H::kOverwritten, 2, 0}}));
   EXPECT_EQ(wired.records.counts().overwritten_lists, 3u);
+}
+
+TEST(Wiring, WhereOnlyTheNewestListCountsAnOverwrittenOneIsNoLoss) {
+  Wired wired(true, true, true);
+  wired.comes(kFirst, bus::kList, 1);
+  wired.comes(kFirst, bus::kList, 2);
+  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 1, 0}, {H::kReceived, 2, 0}}));
 }
 
 TEST(Wiring, ATaskIsGivenWhatItReadsAndItsUnusableInputsAreTold) {
