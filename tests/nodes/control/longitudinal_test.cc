@@ -11,6 +11,7 @@
 #include "nodes/control/r157.h"
 #include "nodes/control/time_gap.h"
 #include "nodes/control/time_to_collision.h"
+#include "tests/nodes/control/r157_drivers.h"
 
 namespace ttf::nodes::control {
 namespace {
