@@ -51,7 +51,7 @@ const Task* writer_of(const Cluster& cluster, PduId list) {
   return nullptr;
 }
 
-// Returns the name of the camera that measures these marks, empty if only a library's step knows it.
+// Returns the name of the camera that measures these marks, empty if a library's step hides it.
 std::string_view camera_of(const Cluster& cluster, PduId marks) {
   for (std::size_t hops = 0; hops < cluster.pdus.size(); ++hops) {
     const Task* const writer = writer_of(cluster, marks);

@@ -34,7 +34,7 @@ struct NodeSetConfig {
   const nodes::foreign::StepFolder* steps = nullptr;               // for clusters that name libraries
 };
 
-// What a step does in a cluster. Who must tell steps apart asks for the role, and not for the name.
+// The part of a step in a cluster. Code that distinguishes steps asks for the role, and not for the name.
 enum class StepRole : std::uint8_t {
   kEmulator,
   kRecordedSource,
