@@ -1,16 +1,18 @@
 #include "keys/documents.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string_view>
 
 #include "experiments/campaign/file.h"
 #include "experiments/sweep/file.h"
 #include "faults/plan.h"
-#include "nodes/laser/recorded_scans.h"
 #include "recording/replay/config.h"
 #include "schedules/file/loader.h"
+#include "schedules/model/cluster.h"
 #include "schedules/synthesis/plan/loader.h"
+#include "sensors/laser/recorded_scans.h"
 #include "sim/drives/scenario.h"
 
 namespace ttf::keys {
@@ -31,18 +33,13 @@ void load_experiment(const StrictYaml& yaml) {
 // Recorded scans are the command's, not the replay's.
 void read_scans(YamlMap& root) {
   if (std::optional<YamlMap> scans = root.map_if("scans")) {
-    nodes::laser::load_recorded_scans(*scans);
+    sensors::laser::load_recorded_scans(*scans);
     scans->finish();
   }
 }
 
 std::vector<Chapter> scenario_chapters() {
   std::vector<Chapter> chapters{{"", scenario_descriptions()},
-                                {"preprocessing.laser", laser_preprocessing_descriptions()},
-                                {"preprocessing.camera", camera_preprocessing_descriptions()},
-                                {"preprocessing.radar", radar_preprocessing_descriptions()},
-                                {"preprocessing.mono_camera", mono_camera_preprocessing_descriptions()},
-                                {"preprocessing.odometry", odometry_preprocessing_descriptions()},
                                 {"world.ego", ego_descriptions()},
                                 {"world.road", road_descriptions()},
                                 {"world.traffic_lights[]", traffic_light_descriptions()},
@@ -56,12 +53,13 @@ std::vector<Chapter> scenario_chapters() {
     const char* when;
     Descriptions sensor, preprocessing;
   };
-  const Kind kinds[] = {
-      {"camera", "kind=camera", camera_descriptions(), camera_preprocessing_descriptions()},
-      {"laser", "kind=laser", laser_descriptions(), laser_preprocessing_descriptions()},
-      {"radar", "kind=radar", radar_descriptions(), radar_preprocessing_descriptions()},
-      {"mono_camera", "kind=mono_camera", mono_camera_descriptions(), mono_camera_preprocessing_descriptions()},
-      {"odometry", "kind=odometry", odometry_descriptions(), odometry_preprocessing_descriptions()}};
+  const std::array<Kind, schedules::model::kSensorKinds.size()> kinds{
+      {{"camera", "kind=camera", camera_descriptions(), camera_preprocessing_descriptions()},
+       {"laser", "kind=laser", laser_descriptions(), laser_preprocessing_descriptions()},
+       {"radar", "kind=radar", radar_descriptions(), radar_preprocessing_descriptions()},
+       {"mono_camera", "kind=mono_camera", mono_camera_descriptions(), mono_camera_preprocessing_descriptions()},
+       {"odometry", "kind=odometry", odometry_descriptions(), odometry_preprocessing_descriptions()}}};
+  for (const Kind& kind : kinds) chapters.push_back({std::string("preprocessing.") + kind.name, kind.preprocessing});
   // A kind's own entry, or that of any name.
   const auto add_sensor = [&](const std::string& name) {
     const std::string place = "sensors." + name;

@@ -97,7 +97,7 @@ recording::log::LogManifest manifest_of(const sim::drives::Scenario& scenario, c
     manifest.pdu_sensors.push_back(pdu.sensor);
   }
   for (const schedules::model::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
-  manifest.sensor_styles = sim::drives::sensor_styles(scenario.sensors, cluster);
+  manifest.sensor_styles = sensors::kinds::sensor_styles(scenario.sensors, cluster);
   for (const schedules::model::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
   return manifest;
 }

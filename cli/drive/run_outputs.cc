@@ -259,7 +259,7 @@ void write_pictures(const sim::drives::Scenario& scenario, const std::vector<Str
   std::vector<std::string> titles;
   for (const StrategyResult& result : results) {
     report::drawing::Names names = report::drawing::names_of(result.cluster);
-    names.sensor_styles = sim::drives::sensor_styles(scenario.sensors, result.cluster);
+    names.sensor_styles = sensors::kinds::sensor_styles(scenario.sensors, result.cluster);
     names.drive = fmt::format("{}, {}", scenario.name, name_of(result.strategy));
     const std::string strategy(name_of(result.strategy));
     // The timing diagram shows 160 ms, four images, from the begin of the judged part.

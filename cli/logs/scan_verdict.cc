@@ -8,8 +8,8 @@
 
 namespace ttf::cli::logs {
 
-std::vector<std::string> reasons_for_no_box(const nodes::laser::LaserPreprocessingConfig& config,
-                                            const nodes::laser::SegmentFates& fates) {
+std::vector<std::string> reasons_for_no_box(const sensors::laser::LaserPreprocessingConfig& config,
+                                            const sensors::laser::SegmentFates& fates) {
   if (fates.objects > 0) return {};
   std::vector<std::string> reasons;
   const auto dropped = [&](std::size_t count, const std::string& why) {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "nodes/laser/laser_preprocessor.h"
+#include "sensors/laser/preprocessor.h"
 
 namespace ttf::cli::logs {
 
 // Returns one sentence for each cause that applies; empty if there is a box. `fates` may be those of several scans.
-std::vector<std::string> reasons_for_no_box(const nodes::laser::LaserPreprocessingConfig& config,
-                                            const nodes::laser::SegmentFates& fates);
+std::vector<std::string> reasons_for_no_box(const sensors::laser::LaserPreprocessingConfig& config,
+                                            const sensors::laser::SegmentFates& fates);
 
 }  // namespace ttf::cli::logs

@@ -5,7 +5,8 @@
 
 #include "cli/logs/attached.h"
 #include "report/drawing/names.h"
-#include "sim/drives/step_catalog.h"
+#include "sensors/kinds/sensors.h"
+#include "sensors/recorded/recorded.h"
 
 namespace ttf::cli::logs {
 namespace {
@@ -17,7 +18,8 @@ using recording::scene::ViewedSensor;
 // A sensor that the world emulates, as it is. The knowledge of the fusion may differ.
 template <class Model> void place_emulated(const Model& model, ViewedSensor& sensor) {
   sensor.mounting = Place{model.device.placement.x, model.device.placement.y, model.device.placement.heading};
-  sensor.field = ViewedField{model.half_field_rad, 0.0, model.max_range_m};
+  if constexpr (requires { model.half_field_rad; })
+    sensor.field = ViewedField{model.half_field_rad, 0.0, model.max_range_m};
 }
 
 // A recorded sensor, as the fusion knows it.
@@ -30,20 +32,10 @@ void place_known(const fusion::sensors::KnownSensor& known, ViewedSensor& sensor
 void place_in(const Attached& attached, std::size_t index, ViewedSensor& sensor) {
   if (!attached.scenario || !attached.cluster || index >= attached.cluster->sensors.size()) return;
   const schedules::model::Sensor& of = attached.cluster->sensors[index];
-  sensor.odometry = of.kind == schedules::model::SensorKind::kOdometry;
-  if (!sim::drives::is_recorded(*attached.cluster)) {
-    switch (of.kind) {
-      case schedules::model::SensorKind::kLaser:
-        return place_emulated(attached.scenario->sensors.lasers.of(of.name).model, sensor);
-      case schedules::model::SensorKind::kCamera:
-        return place_emulated(attached.scenario->sensors.cameras.of(of.name).model, sensor);
-      case schedules::model::SensorKind::kRadar:
-        return place_emulated(attached.scenario->sensors.radars.of(of.name).model, sensor);
-      case schedules::model::SensorKind::kMonoCamera:
-        return place_emulated(attached.scenario->sensors.mono_cameras.of(of.name).model, sensor);
-      case schedules::model::SensorKind::kOdometry: break;
-    }
-  }
+  sensor.odometry = !schedules::model::row_of(of.kind).observes;
+  if (!sensor.odometry && !sensors::recorded::is_recorded(*attached.cluster))
+    return sensors::kinds::Sensors::of_kind(attached.scenario->sensors, of.kind,
+                                            [&](const auto& kind) { place_emulated(kind.of(of.name).model, sensor); });
   for (const fusion::sensors::KnownSensor& known : attached.scenario->tracker.sensors)
     if (known.name == of.name) place_known(known, sensor);
 }

@@ -201,7 +201,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
     set.scenario = sim::drives::load_scenario(set.file);
     set.cluster = drive::checked_cluster(set.scenario, set.strategy);
   }
-  if (sim::drives::is_recorded(set.cluster))
+  if (sensors::recorded::is_recorded(set.cluster))
     throw InputError({set.file, 0, "clusters", set.cluster.file,
                       "must be a cluster with sensors; recordings are for `ttfusion run --input`"});
   set.seed = arguments.seed ? drive::seed_of(*arguments.seed) : set.scenario.seed;

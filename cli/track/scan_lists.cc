@@ -12,7 +12,7 @@
 namespace ttf::cli::track {
 namespace {
 
-using nodes::laser::LaserObject;
+using sensors::laser::LaserObject;
 
 // Keeps the nearest objects, in their order.
 std::size_t keep_nearest(std::vector<LaserObject>& objects, std::size_t most) {
@@ -42,15 +42,15 @@ void check_frames(const std::vector<recording::rows::RecordedScan>& scans, Durat
 }  // namespace
 
 ScanLists lists_of(const std::vector<recording::rows::RecordedScan>& scans,
-                   const nodes::laser::RecordedScansConfig& how, const recording::replay::ReplayConfig& config,
+                   const sensors::laser::RecordedScansConfig& how, const recording::replay::ReplayConfig& config,
                    const std::string& name) {
   check_frames(scans, how.period, name);
   ScanLists lists;
   lists.recorded.sensors.push_back(config.sensors.front().first);
   std::size_t most_returns = 0;
   for (const recording::rows::RecordedScan& scan : scans) most_returns = std::max(most_returns, scan.returns.size());
-  nodes::laser::LaserPreprocessor preprocessor(how.preprocessing, most_returns);
-  std::vector<nodes::laser::ScanPoint> points;
+  sensors::laser::LaserPreprocessor preprocessor(how.preprocessing, most_returns);
+  std::vector<sensors::laser::ScanPoint> points;
   std::vector<LaserObject> objects;
   std::uint32_t number = 0;
   for (const recording::rows::RecordedScan& scan : scans) {
@@ -64,9 +64,9 @@ ScanLists lists_of(const std::vector<recording::rows::RecordedScan>& scans,
     account.left_out += keep_nearest(objects, config.tracker.max_observations);
     recording::replay::RecordedList& list = lists.recorded.lists.emplace_back();
     list.id = {SensorId{0}, number++};
-    list.measured = list.arrival = nodes::laser::instant_of(scan, how);
+    list.measured = list.arrival = sensors::laser::instant_of(scan, how);
     for (const LaserObject& object : objects) {
-      list.observations.push_back(nodes::laser::observation_of(object, how));
+      list.observations.push_back(sensors::laser::observation_of(object, how));
       fusion::sensors::place(list.observations.back(), SensorId{0}, config.sensors.front().second.known);
     }
   }

@@ -14,8 +14,8 @@ constexpr double kKnownHeading_rad = 0.35;
 
 }  // namespace
 
-ScanPicture::ScanPicture(const recording::rows::RecordedScan& scan, const nodes::laser::RecordedScansConfig& how)
-    : scan_(scan), at_(nodes::laser::instant_of(scan, how)) {}
+ScanPicture::ScanPicture(const recording::rows::RecordedScan& scan, const sensors::laser::RecordedScansConfig& how)
+    : scan_(scan), at_(sensors::laser::instant_of(scan, how)) {}
 
 // A mounted scanner's returns are in its own axes, tracks in the vehicle's: the picture is of a scanner at the origin.
 void ScanPicture::take(std::span<const fusion::tracks::TrackView> tracks) {

@@ -26,8 +26,6 @@
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "fusion/tracks/own_axes.h"
-#include "nodes/laser/recorded_scans.h"
-#include "nodes/sensing/recorded.h"
 #include "recording/replay/config.h"
 #include "recording/replay/recorded_ego.h"
 #include "recording/replay/recorded_lists.h"
@@ -40,6 +38,8 @@
 #include "recording/rows/scan_file.h"
 #include "recording/rows/track_rows.h"
 #include "report/drawing/render.h"
+#include "sensors/laser/recorded_scans.h"
+#include "sensors/recorded/recorded.h"
 #include "sim/drives/scenario.h"
 
 namespace ttf::cli::track {
@@ -54,7 +54,7 @@ void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {
 recording::replay::SensorSetup usual_sensor(bool laser_radar) {
   recording::replay::SensorSetup setup;
   if (!laser_radar) return setup;
-  const nodes::sensing::RecordedNoise documented;
+  const sensors::recorded::RecordedNoise documented;
   setup.noise.position = documented.position_m;
   setup.noise.range = documented.range_m;
   setup.noise.bearing = documented.bearing_rad;
@@ -129,7 +129,7 @@ recording::replay::RowCounts row_counts(const recording::replay::RecordedLists& 
 }
 
 // Without any box, preprocessing has the reasons. The reason why most was dropped comes first.
-void judge_scans(const nodes::laser::LaserPreprocessingConfig& how, TrackResult& result) {
+void judge_scans(const sensors::laser::LaserPreprocessingConfig& how, TrackResult& result) {
   if (result.scans->fates.objects > 0) return;
   result.verdict.made_nothing = true;
   result.verdict.headline = fmt::format("no box came of {}", counted(result.scans->scans, "scan"));
@@ -157,13 +157,13 @@ int run_track(const TrackOptions& options) {
   const recording::replay::SensorSetup usual = usual_sensor(options.format == "laser_radar");
   const bool of_scans = options.format == "scans";
   recording::replay::ReplayConfig config;
-  nodes::laser::RecordedScansConfig scanner;
+  sensors::laser::RecordedScansConfig scanner;
   if (!options.config.empty())
     config = recording::replay::load_replay_config(options.config, usual, [&](YamlMap& root) {
       std::optional<YamlMap> scans = root.map_if("scans");
       if (!scans) return;
       if (!of_scans) root.fail("scans", "goes with --format scans only");
-      scanner = nodes::laser::load_recorded_scans(*scans);
+      scanner = sensors::laser::load_recorded_scans(*scans);
       scans->finish();
     });
   if (!options.strategy.empty()) config.strategy = drive::strategy_of(options.strategy);

@@ -84,7 +84,7 @@ std::string scans_text(const ScanAccount& scans, const LivesSummary& lives) {
   report::drawing::Table table({"scans", std::to_string(scans.scans)});
   table.add({"returns", std::to_string(scans.returns)});
   table.add({"boxes", std::to_string(scans.fates.objects)});
-  for (const nodes::laser::NamedFate& fate : nodes::laser::kOtherFates)
+  for (const sensors::laser::NamedFate& fate : sensors::laser::kOtherFates)
     table.add({fmt::format("segments: {}", fate.words), std::to_string(scans.fates.*fate.count)});
   if (scans.left_out > 0) table.add({"boxes beyond max_observations", std::to_string(scans.left_out)});
   table.add({"overlapping pairs of tracks", std::to_string(lives.overlapping_pairs)});
@@ -96,7 +96,7 @@ std::string scans_text(const ScanAccount& scans, const LivesSummary& lives) {
 
 nlohmann::ordered_json scans_json(const ScanAccount& scans, const LivesSummary& lives) {
   nlohmann::ordered_json json{{"scans", scans.scans}, {"returns", scans.returns}, {"boxes", scans.fates.objects}};
-  for (const nodes::laser::NamedFate& fate : nodes::laser::kOtherFates)
+  for (const sensors::laser::NamedFate& fate : sensors::laser::kOtherFates)
     json["segments"][std::string(fate.name)] = scans.fates.*fate.count;
   json["boxes_beyond_max_observations"] = scans.left_out;
   json["overlapping_pairs"] = lives.overlapping_pairs;

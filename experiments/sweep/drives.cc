@@ -50,7 +50,7 @@ std::string_view kind_words(std::string_view key) {
 bool measures_positions_alone(const PreparedDrive& drive) {
   const auto& sensors = drive.cluster.sensors;
   return std::none_of(sensors.begin(), sensors.end(), [&](const schedules::model::Sensor& sensor) {
-    return sensor.kind == schedules::model::SensorKind::kRadar && drive.scenario.sensors.enabled(sensor);
+    return schedules::model::row_of(sensor.kind).rates && drive.scenario.sensors.enabled(sensor);
   });
 }
 

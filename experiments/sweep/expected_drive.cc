@@ -63,7 +63,7 @@ sim::world::Size least_of(const sim::world::ObjectConfig& object) {
 }
 
 // Whether the object shows one face alone to a sensor there.
-bool shows_one_face(const sim::world::ObjectConfig& object, const sim::world::Placement& from) {
+bool shows_one_face(const sim::world::ObjectConfig& object, const sensors::Placement& from) {
   const sim::world::Size least = least_of(object);
   const double c = std::cos(object.heading), s = std::sin(object.heading), x = from.x - object.x, y = from.y - object.y;
   return (std::abs(c * x + s * y) < 0.5 * least.length) != (std::abs(c * y - s * x) < 0.5 * least.width);
@@ -160,8 +160,8 @@ std::optional<SizeLook> ExpectedError::size_seen(const Seen& seen) const {
     // The width in the picture depends on the estimated range and heading, whose errors repeat. At the edge of the face the
     // next one appears, so that the larger difference counts.
     case schedules::model::SensorKind::kCamera: {
-      const sim::world::Placement& place = sensors_.cameras.of(sensor.name).model.device.placement;
-      const nodes::camera::CameraCalibration& camera = sensors_.cameras.preprocessing_of(sensor.name);
+      const sensors::Placement& place = sensors_.cameras.of(sensor.name).model.device.placement;
+      const sensors::stereo_camera::CameraCalibration& camera = sensors_.cameras.preprocessing_of(sensor.name);
       const Eigen::Vector2d way = seen.at - Eigen::Vector2d(place.x, place.y);
       const double range = way.norm(), bearing = std::atan2(way.y(), way.x()) - place.heading;
       const double sigma = camera.width_sigma_px * std::cos(bearing) / camera.focal_px * range;

@@ -85,7 +85,7 @@ class ExpectedError final : public recording::records::Sink {
   Eigen::Index shown() const { return 1 - hidden(); }
   double half_hidden() const { return 0.5 * prior_.mean(hidden()); }
 
-  sim::drives::Sensors sensors_;
+  sensors::kinds::Sensors sensors_;
   fusion::config::TrackerConfig tracker_;
   std::vector<schedules::model::Sensor> of_cluster_;  // by SensorId
   SizeMoments drawn_, prior_;

@@ -85,7 +85,7 @@ std::int64_t rounds_between(const schedules::model::PduLayout& layout, const bus
 SensorId odometry_of(const schedules::model::Cluster& cluster, const schedules::model::Task& task) {
   for (const schedules::model::PortBinding& binding : task.reads)
     if (const SensorId sensor = cluster.pdu(binding.pdu).sensor;
-        sensor != kNoSensor && cluster.sensor(sensor).kind == schedules::model::SensorKind::kOdometry)
+        sensor != kNoSensor && !schedules::model::row_of(cluster.sensor(sensor).kind).observes)
       return sensor;
   return kNoSensor;
 }
@@ -107,7 +107,7 @@ std::vector<ttf::fusion::strategies::SensorTiming> sensor_timings(const schedule
     const GlobalTime first =
         scheduled ? schedules::model::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time : GlobalTime{};
     timings.push_back({path.sensor, settling(cluster, path), scheduled, first, period_of(cluster, sensor),
-                       sensor.kind == schedules::model::SensorKind::kRadar});
+                       schedules::model::row_of(sensor.kind).rates});
   }
   return timings;
 }
@@ -165,8 +165,8 @@ FusionStep::FusionStep(const schedules::model::Cluster& cluster, const schedules
                                        std::to_string(layout.max_elements),
                                        "must be at most " + std::to_string(host_->most_observations) +
                                            " for a list that is fused (max_observations of the scenario's tracker)"));
-    std::optional<sensing::ObservationCodec>& codec = codecs_.emplace_back();
-    if (layout.sensor != kNoSensor && cluster.sensor(layout.sensor).kind == schedules::model::SensorKind::kOdometry)
+    std::optional<sensors::ObservationCodec>& codec = codecs_.emplace_back();
+    if (layout.sensor != kNoSensor && !schedules::model::row_of(cluster.sensor(layout.sensor).kind).observes)
       odometry_ = host::bind_element<4>(cluster, layout, {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"});
     else
       codec.emplace(cluster, binding.pdu);
@@ -238,21 +238,21 @@ void FusionStep::record_stop(const host::StepContext& context) const {
 
 bool FusionStep::take_objects(const host::StepContext& context, std::size_t port, const host::Input& input,
                               GlobalTime measured) {
-  using namespace ttf::fusion;
-  const std::optional<ego::EgoState> then = host_->ego ? host_->ego->at(measured) : std::nullopt;
+  const std::optional<ttf::fusion::ego::EgoState> then = host_->ego ? host_->ego->at(measured) : std::nullopt;
   if (host_->ego && !then) return false;
   codecs_[port]->decode(*input.list, observations_);
   const SensorId id = input.layout->sensor;
-  if (const sensors::KnownSensor* sensor = sensors::known(host_->sensors, id))
-    for (sensors::Observation& observation : observations_) sensors::place(observation, id, *sensor);
+  if (const ttf::fusion::sensors::KnownSensor* sensor = ttf::fusion::sensors::known(host_->sensors, id))
+    for (ttf::fusion::sensors::Observation& observation : observations_)
+      ttf::fusion::sensors::place(observation, id, *sensor);
   record(context, input, measured);
   if (!then) {
     host_->strategy->accept({{id, input.list->sequence}, measured, observations_});
     return true;
   }
-  for (sensors::Observation& observation : observations_) {
+  for (ttf::fusion::sensors::Observation& observation : observations_) {
     observation.sensor = id;
-    ego::carry(observation, *then);
+    ttf::fusion::ego::carry(observation, *then);
   }
   host_->strategy->accept({{id, input.list->sequence}, measured, observations_, then->vehicle});
   return true;

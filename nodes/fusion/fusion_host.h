@@ -21,8 +21,8 @@
 #include "fusion/strategies/strategy.h"
 #include "nodes/fusion/image_codec.h"
 #include "nodes/host/step.h"
-#include "nodes/sensing/observation_codec.h"
 #include "schedules/model/cluster.h"
+#include "sensors/observation_codec.h"
 
 namespace ttf::nodes::fusion {
 
@@ -100,7 +100,7 @@ class FusionStep final : public host::Step {
 
   std::shared_ptr<FusionHost> host_;
   Duration round_;                                                // the schedule's round
-  std::vector<std::optional<sensing::ObservationCodec>> codecs_;  // per port; none for odometry
+  std::vector<std::optional<sensors::ObservationCodec>> codecs_;  // per port; none for odometry
   std::vector<RoundsBelieved> rounds_;                            // per port
   std::array<std::size_t, 4> odometry_{};                         // the signals of its element
   std::vector<ttf::fusion::sensors::Observation> observations_;

@@ -7,9 +7,9 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
-#include "nodes/camera/ground_plane.h"
 #include "nodes/vision/frame_plan.h"
 #include "nodes/vision/regions.h"
+#include "sensors/mono_camera/ground_plane.h"
 
 namespace ttf::nodes::vision {
 
@@ -44,7 +44,7 @@ Duration whole_picture(const AdaptiveCameraConfig& config);
 // A camera of the detector: its picture reaches this far from its middle.
 struct SharedCamera {
   double half_width_px = 0.0, half_height_px = 0.0;
-  camera::MonoCalibration calibration;
+  sensors::mono_camera::MonoCalibration calibration;
 };
 
 // The key from which the times of detections are drawn.

@@ -6,8 +6,8 @@
 #include "core/check.h"
 #include "core/random.h"
 #include "nodes/host/signals.h"
-#include "nodes/sensing/nearest_first.h"
 #include "schedules/model/ports.h"
+#include "sensors/nearest_first.h"
 
 namespace ttf::nodes::vision {
 namespace {
@@ -38,11 +38,12 @@ Looking::Looking(const schedules::model::Cluster& cluster, const schedules::mode
     }
     const std::size_t out = place_of(task.writes, schedules::model::written_port(read.port));
     const SharedCamera& shared = cameras.at(cameras_.size());
-    cameras_.push_back(
-        {layout.sensor, in, out, host::bind_element<5>(cluster, layout, {"left", "right", "bottom", "top", "class"}),
-         host::bind_element<7>(cluster, cluster.pdu(task.writes[out].pdu),
-                               {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"}),
-         shared, camera::GroundPlane(shared.calibration), GlobalTime{INT64_MIN}, std::nullopt, std::nullopt});
+    cameras_.push_back({layout.sensor, in, out,
+                        host::bind_element<5>(cluster, layout, {"left", "right", "bottom", "top", "class"}),
+                        host::bind_element<7>(cluster, cluster.pdu(task.writes[out].pdu),
+                                              {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"}),
+                        shared, sensors::mono_camera::GroundPlane(shared.calibration), GlobalTime{INT64_MIN},
+                        std::nullopt, std::nullopt});
     for (const FixedRegion& fixed : config.regions)
       if (fixed.camera == read.port && !cameras_.back().fixed)
         cameras_.back().fixed = grown(cameras_.back(), fixed.region);
@@ -125,10 +126,10 @@ std::optional<Look> Looking::look(host::StepContext& context, std::size_t number
 void Looking::write(host::StepContext& context, const Look& look) {
   const Camera& camera = cameras_[look.camera];
   host::Output& out = context.outputs[camera.out];
-  sensing::keep_nearest(objects_, out.layout().max_elements);
+  sensors::keep_nearest(objects_, out.layout().max_elements);
   out.begin(look.picture.sequence, static_cast<int>(objects_.size()), look.picture.at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
-    const camera::CameraObject& object = objects_[static_cast<std::size_t>(i)];
+    const sensors::stereo_camera::CameraObject& object = objects_[static_cast<std::size_t>(i)];
     const double values[] = {object.x,    object.y,         object.sigma_x(), object.sigma_y(), object.correlation(),
                              object.span, object.sigma_span};
     for (std::size_t s = 0; s < camera.signals.size(); ++s) out.set(i, camera.signals[s], values[s]);

@@ -6,7 +6,7 @@
 // Here `area` is the share of the picture that it looks at. The time is drawn by the seed, the camera and the picture.
 // A picture is looked at once. It may be kOldestPicture steps old.
 //
-// The camera's model finds the boxes (sim/world/mono_camera.h). A primary detection lists them all. A secondary one
+// The camera's model finds the boxes (sensors/mono_camera/model.h). A primary detection lists them all. A secondary one
 // lists those whose middle lies in the region. So clutter falls with the region's area.
 #pragma once
 
@@ -15,10 +15,10 @@
 #include <optional>
 #include <vector>
 
-#include "nodes/camera/ground_plane.h"
 #include "nodes/host/step.h"
 #include "nodes/vision/config.h"
 #include "nodes/vision/regions.h"
+#include "sensors/mono_camera/ground_plane.h"
 
 namespace ttf::nodes::vision {
 
@@ -57,7 +57,7 @@ class Looking {
     std::array<std::size_t, 5> raw{};
     std::array<std::size_t, 7> signals{};
     SharedCamera picture;
-    camera::GroundPlane plane;
+    sensors::mono_camera::GroundPlane plane;
     GlobalTime looked_at{INT64_MIN};  // its last picture
     std::optional<Region> fixed, region;
 
@@ -77,7 +77,7 @@ class Looking {
   Duration step_, round_;
   std::vector<Camera> cameras_;
   std::optional<RegionPort> regions_;
-  std::vector<camera::CameraObject> objects_;  // found by the last look
+  std::vector<sensors::stereo_camera::CameraObject> objects_;  // found by the last look
 };
 
 }  // namespace ttf::nodes::vision

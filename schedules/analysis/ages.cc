@@ -55,7 +55,7 @@ class Ages {
   }
 
   // Whether the sensor observes objects. Odometry measures its own vehicle: no image shows its samples.
-  bool observes(SensorId id) const { return cluster_.sensor(id).kind != model::SensorKind::kOdometry; }
+  bool observes(SensorId id) const { return model::row_of(cluster_.sensor(id).kind).observes; }
 
   // BUFF releases the oldest held measurement of a sensor at `at`, `age` after the measurement.
   struct Release {

@@ -16,17 +16,6 @@
 namespace ttf::schedules::exchange {
 namespace {
 
-std::string_view word_of(model::SensorKind kind) {
-  switch (kind) {
-    case model::SensorKind::kLaser: return "laser";
-    case model::SensorKind::kCamera: return "camera";
-    case model::SensorKind::kRadar: return "radar";
-    case model::SensorKind::kMonoCamera: return "mono_camera";
-    case model::SensorKind::kOdometry: return "odometry";
-  }
-  return "";
-}
-
 std::string instant(const model::CycleInstant& at) {
   return fmt::format("base_cycle: {}, repetition: {}, offset: {}", at.base_cycle, at.repetition, at.offset.value);
 }
@@ -148,7 +137,7 @@ class Writer {
         when = fmt::format("free, period: {}", duration_text(sensor.period));
       if (sensor.phase) when += fmt::format(", phase: {}", duration_text(*sensor.phase));
       say("  {}:\n    {{kind: {}, device: {}, host: {}, measurement: {}}}", yaml_scalar(sensor.name),
-          word_of(sensor.kind), yaml_scalar(cluster_.node(sensor.device).name),
+          model::row_of(sensor.kind).word, yaml_scalar(cluster_.node(sensor.device).name),
           yaml_scalar(cluster_.node(sensor.host).name), when);
     }
   }

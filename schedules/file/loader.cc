@@ -139,11 +139,7 @@ class Loader {
   void load_sensor(YamlMap& map, model::Sensor& item) {
     left_out::Instant& absent = left_out_.sensors.emplace_back();
     item.line = map.line();
-    item.kind = map.choice<model::SensorKind>("kind", {{"laser", model::SensorKind::kLaser},
-                                                       {"camera", model::SensorKind::kCamera},
-                                                       {"radar", model::SensorKind::kRadar},
-                                                       {"mono_camera", model::SensorKind::kMonoCamera},
-                                                       {"odometry", model::SensorKind::kOdometry}});
+    item.kind = map.choice("kind", model::kind_choices());
     item.device = names_.node(map, "device");
     item.host = names_.node(map, "host");
     enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };

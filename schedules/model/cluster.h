@@ -20,6 +20,7 @@
 #include "schedules/model/medium_id.h"
 #include "schedules/model/pdu.h"
 #include "schedules/model/round.h"
+#include "schedules/model/sensor_kind.h"
 #include "schedules/model/task_modes.h"
 
 namespace ttf::schedules::model {
@@ -172,8 +173,6 @@ struct Node {
   std::vector<Task> tasks;
   int line = 0;
 };
-
-enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar, kMonoCamera, kOdometry };
 
 // A sensor measures in one of three ways. Free: with a period on the device's own clock, first at `phase` (drawn
 // if absent). Scheduled: at an instant of the host's global time, by a trigger line. Following: by the same

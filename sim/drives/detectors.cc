@@ -34,7 +34,7 @@ void check_ports(const Cluster& cluster, const Task& task, const std::string& pa
       findings.add(
           cluster.finding(read.line, path + ".reads." + read.port, cluster.pdu(read.pdu).name, std::move(expected)));
     };
-    if (cluster.sensor(cluster.pdu(read.pdu).sensor).kind != schedules::model::SensorKind::kMonoCamera)
+    if (!schedules::model::row_of(cluster.sensor(cluster.pdu(read.pdu).sensor).kind).pictures)
       fail("must be a list of a mono_camera: the detector looks at pictures");
     const std::string written = schedules::model::written_port(read.port);
     if (!has_port(task.writes, written))
@@ -218,7 +218,7 @@ std::vector<nodes::vision::SharedCamera> pictures_of(const Scenario& scenario, c
   std::vector<nodes::vision::SharedCamera> pictures;
   for (const SensorId camera : cameras_of(cluster, task)) {
     const std::string& name = cluster.sensor(camera).name;
-    const sim::world::MonoCameraConfig& model = scenario.sensors.mono_cameras.of(name).model;
+    const sensors::mono_camera::MonoCameraConfig& model = scenario.sensors.mono_cameras.of(name).model;
     pictures.push_back({model.focal_px * std::tan(model.half_field_rad), model.half_height_px,
                         scenario.sensors.mono_cameras.preprocessing_of(name)});
   }

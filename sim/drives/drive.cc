@@ -12,6 +12,7 @@
 #include "faults/believed_schedule.h"
 #include "nodes/fusion/fusion_host.h"
 #include "recording/records/tee.h"
+#include "sensors/kinds/loader.h"
 #include "sim/drives/known_fields.h"
 #include "sim/drives/played_recording.h"
 #include "sim/drives/step_catalog.h"
@@ -58,16 +59,16 @@ void check_recorded_sensors(const Scenario& scenario, const schedules::model::Cl
 }  // namespace
 
 TrueTime drive_start(const schedules::model::Cluster& cluster) {
-  if (!is_recorded(cluster)) return sim::engine::kFirstCycle;
+  if (!sensors::recorded::is_recorded(cluster)) return sim::engine::kFirstCycle;
   // Row 0 of the recording is the first measurement of the first sensor.
-  return sim::engine::kFirstCycle + nodes::sensing::first_measurement(cluster, cluster.sensors.front());
+  return sim::engine::kFirstCycle + sensors::recorded::first_measurement(cluster, cluster.sensors.front());
 }
 
 TrueTime evaluation_start(const Scenario& scenario) { return sim::engine::kFirstCycle + scenario.evaluate_from; }
 TrueTime drive_end(const Scenario& scenario) { return sim::engine::kFirstCycle + scenario.duration; }
 
 void check_recording(const Scenario& scenario, const schedules::model::Cluster& cluster, bool given) {
-  const bool needed = is_recorded(cluster);
+  const bool needed = sensors::recorded::is_recorded(cluster);
   if (needed && scenario.truth)
     throw InputError({scenario.file, 0, "clusters", cluster.file,
                       "plays a recording, so --truth would be ignored: it has a task with step recorded_source"});
@@ -119,7 +120,7 @@ static void check_cluster(const Scenario& scenario, const schedules::model::Clus
                           fusion::strategies::StrategyKind strategy) {
   check_late(scenario, cluster, strategy);
   check_fusion(cluster, strategy);
-  check_sensors(scenario, cluster);
+  sensors::kinds::check_sensors(scenario.sensors, scenario.text, scenario.file, cluster);
   check_loop(scenario, cluster);
   check_tasks(scenario, cluster);
 }

@@ -33,10 +33,11 @@ const sim::world::vehicle::EgoConfig& ego_of(const StepSite& site) {
 std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const Cluster& cluster) {
   std::vector<nodes::driving::Picture> pictures;
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
-    if (cluster.sensors[s].kind != schedules::model::SensorKind::kMonoCamera) continue;
-    const sim::world::MonoCameraConfig& camera = scenario.sensors.mono_cameras.of(cluster.sensors[s].name).model;
+    if (!schedules::model::row_of(cluster.sensors[s].kind).pictures) continue;
+    const sensors::mono_camera::MonoCameraConfig& camera =
+        scenario.sensors.mono_cameras.of(cluster.sensors[s].name).model;
     if (!camera.device.enabled || !looks_at_regions(cluster, static_cast<SensorId>(s))) continue;
-    const sim::world::Placement& at = camera.device.placement;
+    const sensors::Placement& at = camera.device.placement;
     pictures.push_back({static_cast<SensorId>(s), at.x, at.y, at.heading, camera.height_m, camera.focal_px,
                         camera.focal_px * std::tan(camera.half_field_rad), camera.half_height_px});
   }

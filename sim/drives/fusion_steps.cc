@@ -1,7 +1,7 @@
 // The steps from lists of objects to the image and its first user, and the detector's before them.
 #include "nodes/fusion/fusion_host.h"
-#include "nodes/sensing/gateway.h"
 #include "nodes/service/feature_service.h"
+#include "nodes/service/gateway.h"
 #include "nodes/vision/adaptive_camera.h"
 #include "nodes/vision/mode_camera.h"
 #include "sim/drives/detectors.h"
@@ -24,7 +24,7 @@ std::shared_ptr<Step> adaptive_camera(const StepSite& site) {
                                  : make.template operator()<nodes::vision::ModeCamera>();
 }
 
-std::shared_ptr<Step> gateway(const StepSite&) { return std::make_shared<nodes::sensing::Gateway>(); }
+std::shared_ptr<Step> gateway(const StepSite&) { return std::make_shared<nodes::service::Gateway>(); }
 
 template <class Made> std::shared_ptr<Step> at_fusion_host(const StepSite& site) {
   if (!site.fusion_host)

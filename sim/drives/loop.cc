@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/check.h"
 #include "faults/plan.h"
 #include "sim/drives/drive.h"
 #include "sim/drives/step_catalog.h"
@@ -22,17 +21,6 @@ constexpr Duration kLeastBetween = Duration::milliseconds(2);
 bool is_by_time(const Task& task) { return task.activation.kind == schedules::model::ActivationKind::kTime; }
 Duration period_by_time(const Cluster& cluster, const Task& task) {
   return task.activation.at.repetition * cluster.cycle();
-}
-
-const sim::world::Device& device_of(const Sensors& sensors, const schedules::model::Sensor& sensor) {
-  switch (sensor.kind) {
-    case schedules::model::SensorKind::kLaser: return sensors.lasers.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kCamera: return sensors.cameras.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kRadar: return sensors.radars.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kMonoCamera: return sensors.mono_cameras.of(sensor.name).model.device;
-    case schedules::model::SensorKind::kOdometry: return sensors.odometries.of(sensor.name).model.device;
-  }
-  TTF_CHECK(false, "sensor kind {}", static_cast<int>(sensor.kind));
 }
 
 // An oscillator counts a task's time: one that is slow by a share d counts 1 / (1 - d) of it. A sixteenth more is enough up to
@@ -85,7 +73,7 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                       fmt::format("must be from 1 ms to below {:g} ms: stamps are told apart within a round of {}",
                                   in_ms(oldest_told(cluster)), cluster.file)});
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
-    const sim::world::DriveError time = device_of(scenario.sensors, sensor).time;
+    const sensors::DriveError time = scenario.sensors.device_of(sensor).time;
     if (time.fixed != 0.0 || time.sigma != 0.0)
       throw InputError(
           {scenario.file, line, key, "",

@@ -12,7 +12,7 @@ bool stands_at_origin(const sim::world::EgoState& ego) {
 
 }  // namespace
 
-Observer::Observer(const nodes::sensing::Scene& scene, std::size_t nodes, recording::records::Sink& out)
+Observer::Observer(const sensors::Scene& scene, std::size_t nodes, recording::records::Sink& out)
     : scene_(scene), out_(out), last_truth_(nodes) {
   states_.reserve(scene.objects());
 }

@@ -12,8 +12,8 @@
 
 #include "core/ids.h"
 #include "core/time.h"
-#include "nodes/sensing/scene.h"
 #include "recording/records/records.h"
+#include "sensors/scene.h"
 #include "sim/world/reference.h"
 #include "sim/world/world.h"
 
@@ -22,7 +22,7 @@ namespace ttf::sim::drives {
 class Observer final : public recording::records::Sink {
  public:
   // Listens to the records of a drive, and adds its own to `out` between them. Both must outlive the observer.
-  Observer(const nodes::sensing::Scene& scene, std::size_t nodes, recording::records::Sink& out);
+  Observer(const sensors::Scene& scene, std::size_t nodes, recording::records::Sink& out);
 
   // `start` is that of the world, which contains the reference. `integrated`: cycle 0 starts at kFirstCycle.
   void follow(const sim::world::Reference& reference, const sim::world::World& world, TrueTime start, bool integrated);
@@ -38,7 +38,7 @@ class Observer final : public recording::records::Sink {
   GlobalTime global_of(TrueTime at, const recording::records::Stamp& fused) const;
   void truth(const recording::records::Stamp& stamp);
 
-  const nodes::sensing::Scene& scene_;
+  const sensors::Scene& scene_;
   recording::records::Sink& out_;
   const sim::world::Reference* reference_ = nullptr;
   const sim::world::World* world_ = nullptr;

@@ -14,10 +14,10 @@ namespace {
 std::string seconds(Duration duration) { return scaled_text(duration.ns, 1'000'000'000) + " s"; }
 
 std::string sentence_of(const RecordingUse::OfSensor& of, const RecordingUse& use) {
-  const nodes::sensing::PlayedRows& rows = of.rows;
+  const sensors::recorded::PlayedRows& rows = of.rows;
   std::string text =
       fmt::format("{}: {}, {} played{}", of.sensor, counted(rows.rows, "row"), counted(rows.lists, "list"),
-                  use.played == nodes::sensing::RowsArePlayed::kResampled ? " (resampled)" : "");
+                  use.played == sensors::recorded::RowsArePlayed::kResampled ? " (resampled)" : "");
   if (rows.beyond > 0)
     text += fmt::format("; {} beyond the drive's end at {}", counted(rows.beyond, "unused row"), seconds(use.duration));
   if (rows.between > 0) text += fmt::format("; {} between the instants", counted(rows.between, "unused row"));
@@ -35,10 +35,10 @@ std::vector<SensorId> played_sensors(const schedules::model::Cluster& cluster) {
   return sensors;
 }
 
-nodes::sensing::PlayedRows rows_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                                   const recording::rows::RecordedInput& recorded, SensorId sensor) {
-  return nodes::sensing::played_rows(recorded, cluster, sensor, scenario.recorded_playing,
-                                     drive_end(scenario) - drive_start(cluster));
+sensors::recorded::PlayedRows rows_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                                      const recording::rows::RecordedInput& recorded, SensorId sensor) {
+  return sensors::recorded::played_rows(recorded, cluster, sensor, scenario.recorded_playing,
+                                        drive_end(scenario) - drive_start(cluster));
 }
 
 schedules::model::Cluster cluster_that_plays(const Scenario& scenario, const schedules::model::Cluster& cluster,

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/time.h"
-#include "nodes/sensing/played_rows.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
+#include "sensors/recorded/played_rows.h"
 #include "sim/drives/scenario.h"
 
 namespace ttf::sim::drives {
@@ -15,9 +15,9 @@ namespace ttf::sim::drives {
 // Returns the sensors whose devices play a recording.
 std::vector<SensorId> played_sensors(const schedules::model::Cluster& cluster);
 
-// Returns the rows of a sensor by measurement. Throws InputError if a row does not fit (nodes/sensing/played_rows.h).
-nodes::sensing::PlayedRows rows_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
-                                   const recording::rows::RecordedInput& recorded, SensorId sensor);
+// Returns the rows of a sensor by measurement. Throws InputError if a row does not fit (sensors/recorded/played_rows.h).
+sensors::recorded::PlayedRows rows_of(const Scenario& scenario, const schedules::model::Cluster& cluster,
+                                      const recording::rows::RecordedInput& recorded, SensorId sensor);
 
 // Returns the cluster with the instants of the devices that measure at the stamps of their rows.
 schedules::model::Cluster cluster_that_plays(const Scenario& scenario, const schedules::model::Cluster& cluster,
@@ -27,9 +27,9 @@ schedules::model::Cluster cluster_that_plays(const Scenario& scenario, const sch
 struct RecordingUse {
   struct OfSensor {
     std::string sensor;
-    nodes::sensing::PlayedRows rows;
+    sensors::recorded::PlayedRows rows;
   };
-  nodes::sensing::RowsArePlayed played{};
+  sensors::recorded::RowsArePlayed played{};
   std::vector<OfSensor> sensors;
   TrueTime end{};       // the last row
   Duration ends_after;  // from the drive's start

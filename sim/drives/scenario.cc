@@ -6,6 +6,7 @@
 #include "core/file_kind.h"
 #include "fusion/loading/cut_off.h"
 #include "fusion/loading/tracker.h"
+#include "sensors/kinds/loader.h"
 
 namespace ttf::sim::drives {
 
@@ -44,7 +45,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   scenario.weather = sim::world::load_weather(world);
   world.finish();
   if (auto sensors = root.map_if("sensors")) {
-    scenario.sensors = load_sensors(*sensors);
+    scenario.sensors = sensors::kinds::load_sensors(*sensors);
     sensors->finish();
   }
   meet(scenario.weather, scenario.sensors);
@@ -53,7 +54,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     reference->finish();
   }
   if (auto preprocessing = root.map_if("preprocessing")) {
-    load_preprocessing(*preprocessing, scenario.sensors);
+    sensors::kinds::load_preprocessing(*preprocessing, scenario.sensors);
     preprocessing->finish();
   }
   if (auto tracker = root.map_if("tracker")) {
@@ -61,8 +62,8 @@ Scenario read_scenario(const StrictYaml& yaml) {
     tracker->finish();
   }
   if (auto recorded = root.map_if("recorded")) {
-    scenario.recorded_noises = nodes::sensing::load_recorded_noises(*recorded);
-    scenario.recorded_playing = nodes::sensing::load_recorded_playing(*recorded);
+    scenario.recorded_noises = sensors::recorded::load_recorded_noises(*recorded);
+    scenario.recorded_playing = sensors::recorded::load_recorded_playing(*recorded);
     recorded->finish();
   }
   const auto section_of = [&](std::string_view step) {

@@ -20,13 +20,13 @@
 #include "nodes/driving/motion_planner.h"
 #include "nodes/driving/steering/lane_keeping.h"
 #include "nodes/driving/vehicle_control.h"
-#include "nodes/sensing/played_rows.h"
-#include "nodes/sensing/recorded.h"
 #include "nodes/service/feature_service.h"
 #include "nodes/vision/config.h"
 #include "recording/osi/truth_trace.h"
 #include "schedules/model/cluster.h"
-#include "sim/drives/sensors.h"
+#include "sensors/kinds/sensors.h"
+#include "sensors/recorded/played_rows.h"
+#include "sensors/recorded/recorded.h"
 #include "sim/drives/startup.h"
 #include "sim/world/reference.h"
 #include "sim/world/weather.h"
@@ -54,11 +54,11 @@ struct Scenario {
   std::array<int, fusion::strategies::kStrategyCount> cluster_lines{};
   sim::world::WorldConfig world;
   sim::world::Weather weather;
-  Sensors sensors;  // in that weather
+  sensors::kinds::Sensors sensors;  // in that weather
   sim::world::ReferenceConfig reference;
   fusion::config::TrackerConfig tracker;
-  nodes::sensing::RecordedNoises recorded_noises;
-  nodes::sensing::RecordedPlaying recorded_playing;
+  sensors::recorded::RecordedNoises recorded_noises;
+  sensors::recorded::RecordedPlaying recorded_playing;
   nodes::service::FeatureConfig feature;
   nodes::vision::AdaptiveCameraConfig adaptive_camera;
   nodes::driving::CruiseConfig cruise;

@@ -1,10 +1,9 @@
 // The steps of sensors: a device's emulator, and its host's preprocessing.
+#include <array>
+
 #include "nodes/host/signals.h"
-#include "nodes/sensing/emulators.h"
-#include "nodes/sensing/mono_camera.h"
-#include "nodes/sensing/odometry.h"
-#include "nodes/sensing/preprocessing.h"
-#include "nodes/sensing/recorded.h"
+#include "sensors/kinds/sensors.h"
+#include "sensors/recorded/recorded.h"
 #include "sim/drives/drive.h"
 #include "sim/drives/played_recording.h"
 #include "sim/drives/step_catalog.h"
@@ -18,18 +17,10 @@ std::string_view sensor_name(const schedules::model::Cluster& cluster, SensorId 
   return sensor == kNoSensor ? std::string_view() : cluster.sensor(sensor).name;
 }
 
-// `kKind`: the member of Sensors with the sensor's kind.
-template <class Emulator, auto kKind> std::shared_ptr<Step> emulator(const StepSite& site) {
-  const SensorId sensor = site.task.activation.sensor;
-  return std::make_shared<Emulator>(nodes::sensing::EmulatorConfig{&site.cluster(), &site.task, sensor, site.set.scene,
-                                                                   site.set.seed, site.set.replication},
-                                    (site.scenario().sensors.*kKind).of(sensor_name(site.cluster(), sensor)).model);
-}
-
-template <class Preprocessing, auto kKind> std::shared_ptr<Step> preprocessing(const StepSite& site) {
-  return std::make_shared<Preprocessing>(
-      site.cluster(), site.task,
-      (site.scenario().sensors.*kKind).preprocessing_of(raw_sensor_name(site.cluster(), site.task)));
+// Makes a step of a kind of sensor by the kind's row.
+std::shared_ptr<Step> kinds_step(const StepSite& site) {
+  return sensors::kinds::make_step(site.scenario().sensors, {&site.cluster(), &site.task, site.task.activation.sensor,
+                                                             site.set.scene, site.set.seed, site.set.replication});
 }
 
 std::shared_ptr<Step> recorded_source(const StepSite& site) {
@@ -37,61 +28,34 @@ std::shared_ptr<Step> recorded_source(const StepSite& site) {
     throw InputError(site.cluster().finding(site.task.line, "nodes." + site.node.name + "." + site.task.name,
                                             site.task.step, "needs a recording: give one with --input"));
   const SensorId sensor = site.task.activation.sensor;
-  return std::make_shared<nodes::sensing::RecordedSource>(
+  return std::make_shared<sensors::recorded::RecordedSource>(
       site.cluster(), site.task, sensor, rows_of(site.scenario(), site.cluster(), *site.set.recorded, sensor),
       drive_start(site.cluster()));
 }
 
 std::shared_ptr<Step> recorded_preprocessing(const StepSite& site) {
-  return std::make_shared<nodes::sensing::RecordedPreprocessing>(
+  return std::make_shared<sensors::recorded::RecordedPreprocessing>(
       site.cluster(), site.task, site.scenario().recorded_noises.of(raw_sensor_name(site.cluster(), site.task)));
 }
 
-using nodes::sensing::MonoCameraEmulator;
-using nodes::sensing::MonoCameraPreprocessing;
+constexpr StepRow kRecordedSource{
+    {.step = "recorded_source", .writes = {"raw"}}, StepRole::kRecordedSource, &recorded_source};
+constexpr StepRow kRecordedPreprocessing{{.step = "recorded_preprocessing", .reads = {"raw"}, .writes = {"objects"}},
+                                         StepRole::kPreprocessing,
+                                         &recorded_preprocessing};
 
-constexpr StepRow kSensorSteps[] = {
-    {{.step = "laser_emulator", .writes = {"raw"}},
-     StepRole::kEmulator,
-     &emulator<nodes::sensing::LaserEmulator, &Sensors::lasers>},
-    {{.step = "camera_emulator", .writes = {"raw"}},
-     StepRole::kEmulator,
-     &emulator<nodes::sensing::CameraEmulator, &Sensors::cameras>},
-    {{.step = "radar_emulator", .writes = {"raw"}},
-     StepRole::kEmulator,
-     &emulator<nodes::sensing::RadarEmulator, &Sensors::radars>},
-    {{.step = "mono_camera_emulator", .writes = {"raw"}},
-     StepRole::kEmulator,
-     &emulator<MonoCameraEmulator, &Sensors::mono_cameras>},
-    {{.step = "lane_camera_emulator", .writes = {"raw", "marks"}},
-     StepRole::kEmulator,
-     &emulator<MonoCameraEmulator, &Sensors::mono_cameras>},
-    {{.step = "odometry_emulator", .writes = {"raw"}},
-     StepRole::kEmulator,
-     &emulator<nodes::sensing::OdometryEmulator, &Sensors::odometries>},
-    {{.step = "recorded_source", .writes = {"raw"}}, StepRole::kRecordedSource, &recorded_source},
-    {{.step = "laser_preprocessing", .reads = {"raw"}, .writes = {"objects"}},
-     StepRole::kPreprocessing,
-     &preprocessing<nodes::sensing::LaserPreprocessing, &Sensors::lasers>},
-    {{.step = "camera_preprocessing", .reads = {"raw"}, .writes = {"objects"}},
-     StepRole::kPreprocessing,
-     &preprocessing<nodes::sensing::CameraPreprocessing, &Sensors::cameras>},
-    {{.step = "radar_preprocessing", .reads = {"raw"}, .writes = {"objects"}},
-     StepRole::kPreprocessing,
-     &preprocessing<nodes::sensing::RadarPreprocessing, &Sensors::radars>},
-    {{.step = "mono_camera_preprocessing", .reads = {"raw"}, .writes = {"objects"}},
-     StepRole::kPreprocessing,
-     &preprocessing<MonoCameraPreprocessing, &Sensors::mono_cameras>},
-    {{.step = "lane_camera_preprocessing", .reads = {"raw", "marks"}, .writes = {"objects", "lanes"}},
-     StepRole::kPreprocessing,
-     &preprocessing<MonoCameraPreprocessing, &Sensors::mono_cameras>},
-    {{.step = "odometry_preprocessing", .reads = {"raw"}, .writes = {"odometry"}},
-     StepRole::kPreprocessing,
-     &preprocessing<nodes::sensing::OdometryPreprocessing, &Sensors::odometries>},
-    {{.step = "recorded_preprocessing", .reads = {"raw"}, .writes = {"objects"}},
-     StepRole::kPreprocessing,
-     &recorded_preprocessing},
-};
+// Devices come first.
+constexpr auto kSensorSteps = [] {
+  std::array<StepRow, 2 * sensors::kinds::kSteps.size() + 2> rows{};
+  std::size_t n = 0;
+  for (const sensors::SensorSteps& one : sensors::kinds::kSteps)
+    rows[n++] = {one.emulator, StepRole::kEmulator, &kinds_step};
+  rows[n++] = kRecordedSource;
+  for (const sensors::SensorSteps& one : sensors::kinds::kSteps)
+    rows[n++] = {one.preprocessing, StepRole::kPreprocessing, &kinds_step};
+  rows[n++] = kRecordedPreprocessing;
+  return rows;
+}();
 static_assert(complete(kSensorSteps));
 
 }  // namespace

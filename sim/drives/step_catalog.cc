@@ -103,8 +103,6 @@ void check_tasks(const Scenario& scenario, const Cluster& cluster) {
   findings.throw_if_any();
 }
 
-bool is_recorded(const Cluster& cluster) { return has_role(cluster, StepRole::kRecordedSource); }
-
 std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& config, NodeId id) {
   const Node& node = config.cluster->node(id);
   std::shared_ptr<nodes::fusion::FusionHost> fusion_host;

@@ -12,9 +12,9 @@
 #include "core/errors.h"
 #include "nodes/foreign/libraries.h"
 #include "nodes/host/step.h"
-#include "nodes/sensing/scene.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/ports.h"
+#include "sensors/scene.h"
 #include "sim/drives/scenario.h"
 
 namespace ttf::nodes::fusion {
@@ -29,7 +29,7 @@ struct NodeSetConfig {
   fusion::strategies::StrategyKind strategy{};
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
-  std::shared_ptr<const nodes::sensing::Scene> scene;
+  std::shared_ptr<const sensors::Scene> scene;
   std::shared_ptr<const recording::rows::RecordedInput> recorded;  // for clusters with recorded sources
   const nodes::foreign::StepFolder* steps = nullptr;               // for clusters that name libraries
 };
@@ -121,8 +121,5 @@ void check_tasks(const Scenario& scenario, const schedules::model::Cluster& clus
 // Returns the steps of a node's tasks, in file order. Throws InputError if the schedule's names do not match the
 // code's.
 std::vector<std::shared_ptr<nodes::host::Step>> make_steps(const NodeSetConfig& config, NodeId node);
-
-// Returns whether the cluster takes its observations from a recording.
-bool is_recorded(const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::sim::drives

@@ -8,8 +8,8 @@
 #include "core/errors.h"
 #include "core/strict_yaml.h"
 #include "nodes/fusion/fusion_host.h"
-#include "nodes/sensing/recorded.h"
-#include "nodes/sensing/traced.h"
+#include "sensors/recorded/recorded.h"
+#include "sensors/traced.h"
 #include "sim/drives/drive.h"
 #include "sim/drives/step_catalog.h"
 
@@ -37,17 +37,17 @@ Surroundings surroundings_of(const Scenario& scenario, const schedules::model::C
                              const std::shared_ptr<const recording::rows::RecordedInput>& recorded) {
   const TrueTime start = drive_start(cluster);
   Surroundings around;
-  if (is_recorded(cluster)) {
-    around.scene = std::make_shared<nodes::sensing::RecordedScene>(*recorded, start);
+  if (sensors::recorded::is_recorded(cluster)) {
+    around.scene = std::make_shared<sensors::recorded::RecordedScene>(*recorded, start);
     return around;
   }
   if (scenario.truth) {
-    around.scene = std::make_shared<nodes::sensing::TracedScene>(scenario.truth, start);
+    around.scene = std::make_shared<sensors::TracedScene>(scenario.truth, start);
     return around;
   }
   sim::world::WorldConfig world = scenario.world;
   if (world.ego && world.ego->actuator) world.ego->actuator->between = between_readings(cluster);
-  around.world = std::make_shared<nodes::sensing::WorldScene>(world, seed, replication, start);
+  around.world = std::make_shared<sensors::WorldScene>(world, seed, replication, start);
   around.scene = around.world;
   for (const sim::world::ObjectConfig& object : scenario.world.objects)
     if (object.reference && !around.reference)
@@ -60,7 +60,7 @@ void Surroundings::show(Observer& observer, const Scenario& scenario, const sche
 }
 
 std::string motion_warning(const Scenario& scenario, const schedules::model::Cluster& cluster) {
-  if (is_recorded(cluster) || nodes::fusion::fused_odometry(cluster) != kNoSensor) return "";
+  if (sensors::recorded::is_recorded(cluster) || nodes::fusion::fused_odometry(cluster) != kNoSensor) return "";
   const std::string without = fmt::format(
       "moves, and {} has no odometry that its fusion reads: its tracks have velocities relative to the vehicle, "
       "and the truth has them over ground",

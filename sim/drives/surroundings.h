@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "nodes/sensing/scene.h"
 #include "recording/rows/laser_radar_file.h"
 #include "schedules/model/cluster.h"
+#include "sensors/scene.h"
 #include "sim/drives/observer.h"
 #include "sim/drives/scenario.h"
 #include "sim/world/reference.h"
@@ -17,9 +17,9 @@
 namespace ttf::sim::drives {
 
 struct Surroundings {
-  std::shared_ptr<const nodes::sensing::Scene> scene;
-  std::shared_ptr<const nodes::sensing::WorldScene> world;  // the same scene; null if it is recorded or traced
-  std::optional<sim::world::Reference> reference;           // in a world: of the first object with a reference
+  std::shared_ptr<const sensors::Scene> scene;
+  std::shared_ptr<const sensors::WorldScene> world;  // the same scene; null if it is recorded or traced
+  std::optional<sim::world::Reference> reference;    // in a world: of the first object with a reference
 
   // Makes the observer record the reference, too. This must outlive the observer.
   void show(Observer& observer, const Scenario& scenario, const schedules::model::Cluster& cluster) const;

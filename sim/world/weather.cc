@@ -1,7 +1,5 @@
 #include "sim/world/weather.h"
 
-#include <algorithm>
-
 namespace ttf::sim::world {
 namespace {
 
@@ -54,34 +52,6 @@ Weather load_weather(YamlMap& world) {
     factors->finish();
   }
   return weather;
-}
-
-LaserConfig in_weather(LaserConfig laser, const Weather& weather) {
-  laser.max_range_m *= weather.laser_range;
-  laser.miss_at_100m *= weather.laser_misses;
-  return laser;
-}
-
-CameraConfig in_weather(CameraConfig camera, const Weather& weather) {
-  camera.max_range_m *= weather.camera_range;
-  camera.miss_probability = std::min(1.0, camera.miss_probability * weather.camera_misses);
-  camera.clutter_per_frame *= weather.camera_clutter;
-  return camera;
-}
-
-MonoCameraConfig in_weather(MonoCameraConfig camera, const Weather& weather) {
-  camera.max_range_m *= weather.camera_range;
-  // A box shrinks with the range.
-  camera.half_detected_px /= weather.camera_range;
-  camera.detection_probability = std::max(0.0, 1.0 - (1.0 - camera.detection_probability) * weather.camera_misses);
-  camera.clutter_per_frame *= weather.camera_clutter;
-  return camera;
-}
-
-RadarConfig in_weather(RadarConfig radar, const Weather& weather) {
-  radar.attenuation_db_per_km += weather.radar_attenuation_db_per_km;
-  radar.clutter_per_list *= weather.radar_clutter;
-  return radar;
 }
 
 }  // namespace ttf::sim::world

@@ -1,4 +1,4 @@
-// Weather and light, as factors of each kind of sensor. Clear weather changes nothing.
+// Weather and light, as factors of each kind of sensor. Clear weather changes nothing. A kind's model applies them (sensors).
 //
 // | | rain | fog | dark | source |
 // |---|---|---|---|---|
@@ -12,10 +12,6 @@
 #pragma once
 
 #include "core/strict_yaml.h"
-#include "sim/world/camera.h"
-#include "sim/world/laser.h"
-#include "sim/world/mono_camera.h"
-#include "sim/world/radar.h"
 
 namespace ttf::sim::world {
 
@@ -31,11 +27,5 @@ struct Weather {
 
 // Reads `weather`: a name in the table above, or `clear`; and `weather_factors`, which replace single factors of it.
 Weather load_weather(YamlMap& world);
-
-// Returns the sensor in this weather.
-LaserConfig in_weather(LaserConfig laser, const Weather& weather);
-CameraConfig in_weather(CameraConfig camera, const Weather& weather);
-MonoCameraConfig in_weather(MonoCameraConfig camera, const Weather& weather);
-RadarConfig in_weather(RadarConfig radar, const Weather& weather);
 
 }  // namespace ttf::sim::world

@@ -17,8 +17,8 @@
 #include "fusion/motion/constant_velocity.h"
 #include "fusion/motion/ctrv.h"
 #include "fusion/sensors/position.h"
+#include "sensors/stereo_camera/model.h"
 #include "sim/engine/bus_simulation.h"
-#include "sim/world/camera.h"
 #include "sim/world/world.h"
 #include "tests/bench/crowd.h"
 #include "tests/fusion/oosm/any_method.h"
@@ -128,17 +128,17 @@ std::vector<sim::world::ObjectState> square() {
 
 void camera_of_thousand() {
   const auto objects = square();
-  sim::world::CameraConfig camera;
+  sensors::stereo_camera::CameraConfig camera;
   camera.half_field_rad = 0.8;
   camera.max_range_m = 300.0;
   camera.shadow = 0.0224;
   camera.max_detections = 1000;
-  sim::world::CameraRoom room(objects.size());
-  std::vector<sim::world::CameraDetection> detections;
+  sensors::stereo_camera::CameraRoom room(objects.size());
+  std::vector<sensors::stereo_camera::CameraDetection> detections;
   std::vector<ObjectId> truth;
   detections.reserve(1000);
   truth.reserve(1000);
-  counted([&] { sim::world::measure_camera(camera, objects, 1, 0, 0, 0, room, detections, truth); });
+  counted([&] { sensors::stereo_camera::measure_camera(camera, objects, {1, 0, 0, 0}, room, detections, truth); });
 }
 
 void object_pairs_of_thousand() {

@@ -4,16 +4,16 @@
 #include <memory>
 #include <vector>
 
-#include "nodes/sensing/scene.h"
+#include "sensors/scene.h"
 
 namespace ttf::fuzz {
 
-class NothingThere final : public nodes::sensing::Scene {
+class NothingThere final : public sensors::Scene {
  public:
   void states_at(TrueTime, std::vector<sim::world::ObjectState>& out) const override { out.clear(); }
   std::size_t objects() const override { return 0; }
 };
 
-inline std::shared_ptr<const nodes::sensing::Scene> nothing_there() { return std::make_shared<const NothingThere>(); }
+inline std::shared_ptr<const sensors::Scene> nothing_there() { return std::make_shared<const NothingThere>(); }
 
 }  // namespace ttf::fuzz

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "nodes/sensing/traced.h"
 #include "recording/osi/truth_trace.h"
+#include "sensors/traced.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
@@ -47,7 +47,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     check_object(trace->host->vehicle, trace->instants.size());
     TTF_CHECK(trace->host->vehicle.lives[0].states.size() == trace->instants.size(), "a host that is not always there");
   }
-  const nodes::sensing::TracedScene scene(trace, TrueTime{});
+  const sensors::TracedScene scene(trace, TrueTime{});
   std::vector<sim::world::ObjectState> states;
   for (const Duration at : {Duration{-1}, Duration{}, Duration{trace->length().ns / 3}, trace->length() - Duration{1},
                             trace->length(), trace->length() + Duration{1}}) {

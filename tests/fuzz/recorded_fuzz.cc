@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/check.h"
-#include "nodes/laser/laser_preprocessor.h"
-#include "nodes/sensing/recorded.h"
 #include "recording/rows/laser_radar_file.h"
+#include "sensors/laser/preprocessor.h"
+#include "sensors/recorded/recorded.h"
 #include "tests/fuzz/harness.h"
 
 namespace {
@@ -46,7 +46,7 @@ void check_laser_radar(const std::string& text) {
   const std::string once = written(input);
   TTF_CHECK(written(recording::rows::parse_laser_radar(once, kFile)) == once, "rows change when written again");
 
-  const nodes::sensing::RecordedScene scene(input, TrueTime{});
+  const sensors::recorded::RecordedScene scene(input, TrueTime{});
   std::vector<sim::world::ObjectState> states;
   for (const Duration at : {Duration{-1}, Duration{}, Duration::milliseconds(50), Duration::milliseconds(3'600'000)}) {
     scene.states_at(TrueTime{} + at, states);
@@ -66,14 +66,15 @@ void check_scans(const std::string& text) {
   for (const recording::rows::RecordedScan& scan : scans) {
     TTF_CHECK(!scan.returns.empty() && (before == nullptr || before->frame < scan.frame), "scan {}", scan.frame);
     before = &scan;
-    std::vector<nodes::laser::ScanPoint> points;
+    std::vector<sensors::laser::ScanPoint> points;
     for (const recording::rows::RecordedReturn& hit : scan.returns) {
       once += fmt::format("{},{},{},{}\n", scan.frame, hit.azimuth_rad, hit.range_m, hit.intensity);
       points.push_back({0, hit.azimuth_rad, hit.range_m});
     }
-    std::vector<nodes::laser::LaserObject> objects;
-    nodes::laser::LaserPreprocessor(nodes::laser::LaserPreprocessingConfig{}, points.size()).process(points, objects);
-    for (const nodes::laser::LaserObject& o : objects)
+    std::vector<sensors::laser::LaserObject> objects;
+    sensors::laser::LaserPreprocessor(sensors::laser::LaserPreprocessingConfig{}, points.size())
+        .process(points, objects);
+    for (const sensors::laser::LaserObject& o : objects)
       TTF_CHECK(std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.heading) && std::isfinite(o.length) &&
                     std::isfinite(o.width) && o.sxx > 0 && o.syy > 0 && o.sxy * o.sxy < o.sxx * o.syy,
                 "x {} y {} heading {} length {} width {} covariance {} {} {}", o.x, o.y, o.heading, o.length, o.width,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "nodes/sensing/scene.h"
+#include "sensors/scene.h"
 #include "sim/drives/scenario.h"
 #include "tests/fuzz/harness.h"
 
@@ -33,7 +33,7 @@ bool check_scenario(const std::string& text) {
               fault.node_name);
   }
   scenario.world.duration = std::min(scenario.world.duration, kLongestDrawn);
-  const nodes::sensing::WorldScene scene(scenario.world, scenario.seed, 0, TrueTime{});
+  const sensors::WorldScene scene(scenario.world, scenario.seed, 0, TrueTime{});
   std::vector<sim::world::ObjectState> states;
   for (const Duration at :
        {Duration{-1}, Duration{}, Duration::milliseconds(57), scenario.world.duration, scenario.duration}) {

@@ -1,6 +1,6 @@
 // The spread of a radar's returns over an outline, of which the mean of a few has its part.
 //
-// Returns lie evenly over the azimuths of the visible outline (sim/world/radar.h). So the mean of n of them is the silhouette's
+// Returns lie evenly over the azimuths of the visible outline (sensors/radar/model.h). So the mean of n of them is the silhouette's
 // (fusion/tracks/body/anchor.h), beside the noise with the covariance C / n. C is that of range, bearing and range rate over the
 // outline: of 1.8 m across behind a car, of 4.4 m along beside it. A return of several merged echoes has less, by an unknown
 // part.

@@ -34,7 +34,7 @@ class Ways {
   // No image shows odometry (schedules/analysis/ages.h).
   bool fuses(const model::Task& task) const {
     return task.writes.empty() && !way_.empty() && cluster_.pdu(way_.back().out->pdu).sensor == sensor_ &&
-           !reads_shared(cluster_, task) && cluster_.sensor(sensor_).kind != model::SensorKind::kOdometry;
+           !reads_shared(cluster_, task) && model::row_of(cluster_.sensor(sensor_).kind).observes;
   }
 
   // A measuring task may list more of its picture beside the sensor's own list, as marks of lanes. A task that reads both goes

@@ -239,7 +239,7 @@ class Reader {
     // A stamp is a reading of a clock, at most a macrotick old and rounded to a microsecond (schedules/analysis/settled.h).
     made_.order = ticks(g_, clocks_.apart_ns + (g_.gdMacrotick_ps + 999) / 1'000 + 1'000);
     for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
-      if (!made_.sensors[s] || cluster_.sensors[s].kind == model::SensorKind::kOdometry) continue;
+      if (!made_.sensors[s] || !model::row_of(cluster_.sensors[s].kind).observes) continue;
       for (const Hop& hop : way_to_use(cluster_, static_cast<SensorId>(s))) {
         const auto activity = made_.tasks[index_of(hop.at.node)][hop.at.task];
         if (!activity || !fuses(cluster_, hop.at)) continue;

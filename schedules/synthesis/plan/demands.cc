@@ -16,7 +16,7 @@ constexpr Range<double> kSigmas{1e-4, 1e3};  // [m]
 
 // Odometry measures its own vehicle.
 bool observes(const Plan& plan, const PlannedChain& chain) {
-  return plan.cluster.sensor(chain.from).kind != model::SensorKind::kOdometry;
+  return model::row_of(plan.cluster.sensor(chain.from).kind).observes;
 }
 
 std::vector<double> read_densities(YamlMap& map) {

@@ -243,7 +243,7 @@ TEST(FaultAccount, WhatGuardiansCutIsTold) {
   drive.cluster.topology = schedules::model::Topology::kStar;
   drive.cluster.guardian = true;
   Interventions interventions;
-  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, sim::engine::kFirstCycle);
+  const auto scene = std::make_shared<sensors::WorldScene>(drive.scenario.world, 1, 0, sim::engine::kFirstCycle);
   const sim::drives::NodeSetConfig set{&drive.scenario, &drive.cluster, StrategyKind::kTt, 1, 0, scene, nullptr};
   sim::engine::SimulationConfig config;
   config.cluster = &drive.cluster;

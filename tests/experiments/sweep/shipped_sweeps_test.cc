@@ -50,7 +50,7 @@ bool is_in_sight(const sim::drives::Scenario& scenario, const schedules::model::
                  const sim::world::ObjectState& object) {
   const auto sees = [&](const auto& model) {
     std::vector<sim::world::ObjectState> seen{object};
-    sim::world::see_from(model.device.placement, seen);
+    sensors::see_from(model.device.placement, seen);
     const double range = std::hypot(seen[0].x, seen[0].y), bearing = std::atan2(seen[0].y, seen[0].x);
     return range > object.length && range < model.max_range_m && std::abs(bearing) < model.half_field_rad;
   };

@@ -298,7 +298,7 @@ TEST(SweepFile, AKeyReachesASensorByItsName) {
       "axes:\n  noise: {keys: [sensors.right_laser.range_sigma], values: [0.1, 0.3]}\n"
       "  place: {keys: [sensors.left_laser.mounting.y], values: [1.2]}\n",
       TTF_SOURCE_DIR "/experiments/small.yaml");
-  const sim::drives::Sensors sensors = SweepDrives(sweep).prepare({1, 0, 0}).scenario.sensors;
+  const sensors::kinds::Sensors sensors = SweepDrives(sweep).prepare({1, 0, 0}).scenario.sensors;
   EXPECT_EQ(sensors.lasers.of("right_laser").model.range_sigma_m, 0.3);
   EXPECT_EQ(sensors.lasers.of("left_laser").model.range_sigma_m, 0.06);
   EXPECT_EQ(sensors.lasers.of("left_laser").model.device.placement.y, 1.2);

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "nodes/host/executive.h"
-#include "nodes/sensing/preprocessing.h"
 #include "schedules/file/loader.h"
+#include "sensors/stereo_camera/preprocessing.h"
 #include "tests/nodes/host/one_node.h"
 
 namespace ttf::nodes::host {
@@ -38,8 +38,8 @@ struct CameraHost {
     const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}};
     executive = std::make_unique<Executive>(
         config,
-        std::vector<std::shared_ptr<Step>>{
-            std::make_shared<sensing::CameraPreprocessing>(cluster, task, camera::CameraCalibration{})},
+        std::vector<std::shared_ptr<Step>>{std::make_shared<sensors::stereo_camera::CameraPreprocessing>(
+            cluster, task, sensors::stereo_camera::CameraCalibration{})},
         &port, std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
   }
   void wait(Duration duration) {

@@ -44,7 +44,7 @@ AdaptiveCameraConfig sure() {
   return config;
 }
 std::vector<SharedCamera> three() {
-  camera::MonoCalibration calibration;
+  sensors::mono_camera::MonoCalibration calibration;
   calibration.focal_px = 1109.0;
   return std::vector<SharedCamera>(3, SharedCamera{360.0, 360.0, calibration});
 }

@@ -10,10 +10,10 @@
 #include <iostream>
 #include <map>
 
-#include "nodes/sensing/recorded.h"
 #include "recording/replay/replay.h"
 #include "recording/replay/sensor_timing.h"
 #include "recording/rows/laser_radar_file.h"
+#include "sensors/recorded/recorded.h"
 #include "tests/support/recordings.h"
 
 namespace ttf::recording::replay {
@@ -26,7 +26,7 @@ class TrackRecorded : public testing::Test {
     if (!std::filesystem::exists(support::recording_path(name))) GTEST_SKIP() << support::recording_missing(name);
     input = recording::rows::read_laser_radar(support::recording_path(name));
     SensorSetup usual;
-    const nodes::sensing::RecordedNoise documented;
+    const sensors::recorded::RecordedNoise documented;
     usual.noise.position = documented.position_m;
     usual.noise.range = documented.range_m;
     usual.noise.bearing = documented.bearing_rad;

@@ -63,13 +63,12 @@ TEST(BiasedDrive, EveryStrategyHasTheSameDrawAndEveryDriveItsOwn) {
     plain[s] = exact.mean_x();
     drive.scenario.sensors.lasers.usual.model.range_bias.sigma = 1.0;
     drive.run(of[s]);
-    const double drawn = sim::world::in_drive({0.0, 1.0}, sim::world::ErrorOf::kRange, {1, 0, 0}).fixed;
+    const double drawn = in_drive({0.0, 1.0}, sensors::ErrorOf::kRange, {1, 0, 0}).fixed;
     EXPECT_GT(std::abs(drawn), 0.05);
     EXPECT_NEAR(of[s].mean_x() - plain[s], drawn, 0.03) << name_of(strategy);
     LaserSightings other;
     drive.run(other, 2);
-    EXPECT_NEAR(other.mean_x() - plain[s],
-                sim::world::in_drive({0.0, 1.0}, sim::world::ErrorOf::kRange, {2, 0, 0}).fixed, 0.05);
+    EXPECT_NEAR(other.mean_x() - plain[s], in_drive({0.0, 1.0}, sensors::ErrorOf::kRange, {2, 0, 0}).fixed, 0.05);
   }
   EXPECT_EQ(of[0].x, of[1].x) << "the same lists, to the bit";
 }
@@ -257,7 +256,7 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
     blocks.push_back(page.substr(from, page.find("```", from) - from));
   }
   ASSERT_EQ(blocks.size(), 6u);
-  const sim::world::MonoCameraConfig mono =
+  const sensors::mono_camera::MonoCameraConfig mono =
       parse_scenario(scenario + blocks[1], shipped("scenarios/mono.yaml")).sensors.mono_cameras.usual.model;
   EXPECT_EQ(mono.region_count, 1u);
   EXPECT_EQ(mono.pitch.sigma, 0.001);

@@ -256,7 +256,7 @@ struct Restarted {
 Restarted restarted(std::string_view name) {
   const Drive drive(kScenario, StrategyKind::kAdva);
   const TrueTime start = drive_start(drive.cluster);
-  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, start);
+  const auto scene = std::make_shared<sensors::WorldScene>(drive.scenario.world, 1, 0, start);
   const NodeSetConfig set{&drive.scenario, &drive.cluster, drive.strategy, 1, 0, scene, nullptr};
   const auto starts = node_starts(drive.scenario.startup, drive.cluster, 1, 0);
   sim::engine::SimulationConfig config;

@@ -82,7 +82,7 @@ constexpr TrueTime at_s(double s) { return TrueTime{static_cast<std::int64_t>(s 
 struct LivingDrive {
   Drive drive;
   LivingRecords seen;
-  std::shared_ptr<nodes::sensing::WorldScene> scene;
+  std::shared_ptr<sensors::WorldScene> scene;
   NodeSetConfig nodes;
   std::unique_ptr<sim::engine::ClusterSimulation> simulation;
 
@@ -91,7 +91,7 @@ struct LivingDrive {
       : drive("scenarios/paper_scenario1.yaml", strategy),
         tee_(also ? std::vector<recording::records::Sink*>{&seen, also}
                   : std::vector<recording::records::Sink*>{&seen}) {
-    scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, seed, 0, sim::engine::kFirstCycle);
+    scene = std::make_shared<sensors::WorldScene>(drive.scenario.world, seed, 0, sim::engine::kFirstCycle);
     nodes = {&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
     sim::engine::SimulationConfig config;
     config.cluster = &drive.cluster;

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 #include "nodes/fusion/fusion_host.h"
-#include "nodes/sensing/observation_codec.h"
+#include "sensors/observation_codec.h"
 #include "sim/medium/disturbance.h"
 #include "tests/sim/drives/living_drive.h"
 
@@ -86,8 +86,7 @@ class Beside final : public recording::records::Sink {
                            list->second.bytes.end()))
         << "mixed from more than one list";
     const int fragments = static_cast<int>(list->second.bytes.size()) / cluster_.pdu(input.pdu).fragment_bytes;
-    nodes::sensing::ObservationCodec(cluster_, input.pdu)
-        .decode({id.sequence, fragments, list->second.bytes}, observations_);
+    sensors::ObservationCodec(cluster_, input.pdu).decode({id.sequence, fragments, list->second.bytes}, observations_);
     strategy_->accept({id, list->second.measured, observations_});
   }
   void on(const recording::records::FusionStep& step) override { strategy_->fuse(step.stamp.global); }

@@ -13,7 +13,7 @@ namespace ttf::sim::drives {
 namespace {
 
 using fusion::strategies::StrategyKind;
-using Laser = SensorEntry<sim::world::LaserConfig, nodes::laser::LaserPreprocessingConfig>;
+using Laser = sensors::kinds::SensorEntry<sensors::laser::Kind>;
 
 // The sightings of each sensor, in the vehicle's axes, as the fusion node takes them.
 struct Sightings final : recording::records::Sink {

@@ -9,7 +9,7 @@
 namespace ttf::sim::drives {
 namespace {
 
-struct TwoObjects final : nodes::sensing::Scene {
+struct TwoObjects final : sensors::Scene {
   void states_at(TrueTime at, std::vector<sim::world::ObjectState>& out) const override {
     out = {{ObjectId{0}, static_cast<double>(at.ns)}, {ObjectId{1}, 7.0}};
   }

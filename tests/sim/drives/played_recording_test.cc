@@ -22,8 +22,8 @@ namespace ttf::sim::drives {
 namespace {
 
 using fusion::strategies::StrategyKind;
-using nodes::sensing::RowsArePlayed;
 using recording::rows::RecordedInput;
+using sensors::recorded::RowsArePlayed;
 using testing::HasSubstr;
 
 // A car at 5 m/s, seen without noise by laser and radar in turn: a row every 50 ms, then one after `second_us`, and so

@@ -38,13 +38,13 @@ struct Seen final : recording::records::Sink {
 
 struct Cluster {
   Drive drive;
-  std::shared_ptr<nodes::sensing::WorldScene> scene;
+  std::shared_ptr<sensors::WorldScene> scene;
   NodeSetConfig nodes;
   sim::engine::SimulationConfig config;
   int made = 0;  // sets of steps
 
   explicit Cluster(StrategyKind strategy) : drive("scenarios/paper_scenario1.yaml", strategy) {
-    scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, 1, 0, sim::engine::kFirstCycle);
+    scene = std::make_shared<sensors::WorldScene>(drive.scenario.world, 1, 0, sim::engine::kFirstCycle);
     nodes = {&drive.scenario, &drive.cluster, strategy, 1, 0, scene, nullptr};
     config.cluster = &drive.cluster;
     config.seed = 1;

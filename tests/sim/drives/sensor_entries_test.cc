@@ -1,5 +1,5 @@
 // The sensors of a scenario: which entry holds for which sensor of a cluster, and the sentences about wrong ones.
-#include "sim/drives/sensors.h"
+#include "sensors/kinds/loader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,20 +36,20 @@ std::string refusal(const std::string& text, const std::string& cluster = "two_l
         const Scenario scenario = with(text);
         schedules::model::Cluster checked = schedules::file::load_cluster(kFolder + cluster + ".yaml");
         checked.file = cluster + ".yaml";
-        check_sensors(scenario, checked);
+        sensors::kinds::check_sensors(scenario.sensors, scenario.text, scenario.file, checked);
       },
       "taken");
 }
 
 TEST(SensorEntries, ASensorHasItsOwnOrThatOfItsKind) {
-  const Sensors sensors = with(
-                              "sensors:\n"
-                              "  laser: {range_sigma: 0.2, preprocessing: {fewest_points: 7}}\n"
-                              "  left_laser: {kind: laser, mounting: {x: 3.6, y: 0.9}, max_range: 60}\n"
-                              "  right_laser: {kind: laser, preprocessing: {fewest_points: 5}}\n"
-                              "  rear: {kind: camera, focal: 900, time_bias: 1 ms}\n"
-                              "preprocessing: {laser: {fewest_points: 4}, camera: {focal: 1000}}\n")
-                              .sensors;
+  const sensors::kinds::Sensors sensors = with(
+                                              "sensors:\n"
+                                              "  laser: {range_sigma: 0.2, preprocessing: {fewest_points: 7}}\n"
+                                              "  left_laser: {kind: laser, mounting: {x: 3.6, y: 0.9}, max_range: 60}\n"
+                                              "  right_laser: {kind: laser, preprocessing: {fewest_points: 5}}\n"
+                                              "  rear: {kind: camera, focal: 900, time_bias: 1 ms}\n"
+                                              "preprocessing: {laser: {fewest_points: 4}, camera: {focal: 1000}}\n")
+                                              .sensors;
   EXPECT_EQ(sensors.lasers.of("left_laser").model.device.placement.y, 0.9);
   EXPECT_EQ(sensors.lasers.of("left_laser").model.max_range_m, 60.0);
   EXPECT_EQ(sensors.lasers.of("left_laser").model.range_sigma_m, 0.06) << "an entry is complete";
@@ -122,7 +122,9 @@ TEST(SensorEntries, WrongKeysAreNamed) {
 TEST(SensorEntries, SayHowPicturesShowThem) {
   const schedules::model::Cluster cluster = schedules::file::load_cluster(kFolder + "two_lasers_synchronised.yaml");
   using Style = recording::log::SensorStyle;
-  const auto styles = [&](const std::string& text) { return sensor_styles(with(text).sensors, cluster); };
+  const auto styles = [&](const std::string& text) {
+    return sensors::kinds::sensor_styles(with(text).sensors, cluster);
+  };
   EXPECT_TRUE(styles("sensors: {laser: {}}\n").empty()) << "as without a word about them";
   EXPECT_THAT(styles("sensors: {right_laser: {kind: laser, marker: diamond}, camera: {}}\n"),
               ElementsAre(Style{}, Style{"laser", "", "diamond"}));

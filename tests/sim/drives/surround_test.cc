@@ -81,7 +81,7 @@ TEST(MonoCameraDrive, AConsideredPitchIsConsistentAnIgnoredOneIsNot) {
   sim::world::ObjectConfig& car = world.objects[0];
   car.x = 30.0, car.y = 0.0, car.heading = 0.0, car.speed = 0.0;
   car.segments.clear();
-  Sensors& sensors = drive.scenario.sensors;
+  sensors::kinds::Sensors& sensors = drive.scenario.sensors;
   sensors.odometries.usual.model.yaw_rate_bias = {};
   sensors.lasers.usual.model.max_range_m = 1.0;
   for (auto& entry : sensors.cameras.own) entry.model.max_range_m = 1.0;

@@ -209,7 +209,7 @@ class Flips final : public medium::Disturbance {
 
 std::uint64_t hash(fusion::strategies::StrategyKind strategy, std::uint64_t seed, bool flips, const How& how) {
   const sim::drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
-  const auto scene = std::make_shared<nodes::sensing::WorldScene>(drive.scenario.world, seed, 0, kFirstCycle);
+  const auto scene = std::make_shared<sensors::WorldScene>(drive.scenario.world, seed, 0, kFirstCycle);
   const sim::drives::NodeSetConfig nodes{&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
   SimulationConfig config;
   config.cluster = &drive.cluster;

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sim/world/camera.h"
-#include "sim/world/laser.h"
+#include "sensors/laser/model.h"
+#include "sensors/stereo_camera/model.h"
 #include "tests/sim/world/drives.h"
 
 namespace ttf::sim::world {
@@ -65,13 +65,13 @@ TEST(Crowd25, EveryObjectStaysInRangeAndInViewOfBothSensorsForAMinute) {
   const WorldConfig config = drive("crowd_25");
   ASSERT_EQ(config.objects.size(), 25U);
   ASSERT_EQ(config.duration, Duration::milliseconds(60'000));
-  CameraConfig camera;
+  sensors::stereo_camera::CameraConfig camera;
   camera.miss_probability = camera.clutter_per_frame = 0.0;
-  const LaserConfig laser;
+  const sensors::laser::LaserConfig laser;
   std::vector<ObjectState> states;
-  std::vector<HitPoint> hits;
-  CameraRoom room(25);
-  std::vector<CameraDetection> detections;
+  std::vector<sensors::laser::HitPoint> hits;
+  sensors::stereo_camera::CameraRoom room(25);
+  std::vector<sensors::stereo_camera::CameraDetection> detections;
   std::vector<ObjectId> laser_truth, camera_truth;
   std::vector<int> seen(25, 0);
   constexpr int kDrives = 4, kLooks = 61;
@@ -80,8 +80,9 @@ TEST(Crowd25, EveryObjectStaysInRangeAndInViewOfBothSensorsForAMinute) {
   for (int look = 0; look < kDrives * kLooks; ++look) {
     const int k = look % kLooks;
     worlds[static_cast<std::size_t>(look / kLooks)].states_at(at_ms(1000 * k), states);
-    measure_laser(laser, states, 1, 0, 0, static_cast<std::uint32_t>(k), hits, laser_truth);
-    measure_camera(camera, states, 1, 0, 1, static_cast<std::uint32_t>(k), room, detections, camera_truth);
+    sensors::laser::measure_laser(laser, states, {1, 0, 0, static_cast<std::uint32_t>(k)}, hits, laser_truth);
+    sensors::stereo_camera::measure_camera(camera, states, {1, 0, 1, static_cast<std::uint32_t>(k)}, room, detections,
+                                           camera_truth);
     EXPECT_LE(hits.size(), 1300U);
     EXPECT_EQ(camera_truth.size(), 25U) << "hidden or out of view at " << k << " s";
     for (const ObjectState& state : states) {

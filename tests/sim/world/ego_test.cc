@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/sensing/scene.h"
+#include "sensors/scene.h"
 #include "tests/sim/world/drives.h"
 #include "tests/support/refusals.h"
 
@@ -133,7 +133,7 @@ TEST(Ego, SeesObjectsInItsAxes) {
       EXPECT_EQ(s.yaw_rate, is.yaw_rate);
     }
   }
-  const nodes::sensing::WorldScene scene(config, 3, 0, TrueTime{} + Duration::milliseconds(250));
+  const sensors::WorldScene scene(config, 3, 0, TrueTime{} + Duration::milliseconds(250));
   EXPECT_EQ(scene.ego_at(at_ms(1250)).x, from.ego_at(at_ms(1000)).x);
 }
 

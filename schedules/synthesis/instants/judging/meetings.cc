@@ -22,7 +22,7 @@ std::vector<End> ends(const plan::Plan& plan, const Problem& problem) {
   std::vector<End> found;
   for (std::size_t c = 0; c < problem.chains.size(); ++c) {
     // Odometry measures its own vehicle, no object.
-    if (plan.cluster.sensor(plan.chains[c].from).kind == model::SensorKind::kOdometry) continue;
+    if (!model::row_of(plan.cluster.sensor(plan.chains[c].from).kind).observes) continue;
     const std::size_t last = problem.chains[c].activities.back();
     auto end = std::find_if(found.begin(), found.end(), [&](const End& one) { return one.activity == last; });
     if (end == found.end()) end = found.insert(end, {last, {}});

@@ -1,0 +1,80 @@
+#include "sensors/radar/returns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/check.h"
+
+namespace ttf::sensors::radar {
+
+RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml) {
+  RadarPreprocessingConfig c;
+  c.range_sigma_m = yaml.number_or("range_sigma", c.range_sigma_m, {0.001, 5.0}, "m");
+  c.azimuth_sigma_rad = yaml.number_or("azimuth_sigma", c.azimuth_sigma_rad, {1e-5, 0.2}, "rad");
+  c.rate_sigma_mps = yaml.number_or("range_rate_sigma", c.rate_sigma_mps, {0.001, 5.0}, "m/s");
+  c.rate_span_mps = yaml.number_or("range_rate_span", c.rate_span_mps, {1.0, 400.0}, "m/s");
+  c.range_gate_m = yaml.number_or("range_gate", c.range_gate_m, {0.0, 50.0}, "m");
+  c.across_gate_m = yaml.number_or("across_gate", c.across_gate_m, {0.0, 50.0}, "m");
+  c.rate_gate_mps = yaml.number_or("range_rate_gate", c.rate_gate_mps, {0.0, 50.0}, "m/s");
+  c.transverse_speed_mps = yaml.number_or("transverse_speed", c.transverse_speed_mps, {0.0, 100.0}, "m/s");
+  return c;
+}
+
+ReturnJoiner::ReturnJoiner(const RadarPreprocessingConfig& config, std::size_t most_returns)
+    : config_(config), taken_(most_returns) {
+  members_.reserve(most_returns);
+}
+
+bool ReturnJoiner::together(const Return& a, const Return& b) const {
+  // Three standard deviations of a difference.
+  constexpr double kThree = 4.25;
+  const double range = std::min(a.range, b.range);
+  const double turn = std::abs(a.azimuth - b.azimuth);
+  return std::abs(a.range - b.range) <= config_.range_gate_m &&
+         range * turn <= config_.across_gate_m + kThree * range * config_.azimuth_sigma_rad &&
+         std::abs(std::remainder(a.range_rate - b.range_rate, config_.rate_span_mps)) <=
+             config_.rate_gate_mps + config_.transverse_speed_mps * turn;
+}
+
+// Range rates are averaged about the first return's: a fold may lie between them.
+RadarObject ReturnJoiner::object_of(const std::vector<Return>& returns) const {
+  const double n = static_cast<double>(members_.size()), root = std::sqrt(n);
+  const Return& first = returns[members_.front()];
+  double range = 0.0, azimuth = 0.0, rate = 0.0;  // from the first one's
+  for (const std::size_t m : members_) {
+    range += (returns[m].range - first.range) / n;
+    azimuth += (returns[m].azimuth - first.azimuth) / n;
+    rate += std::remainder(returns[m].range_rate - first.range_rate, config_.rate_span_mps) / n;
+  }
+  return {first.range + range,
+          first.azimuth + azimuth,
+          std::remainder(first.range_rate + rate, config_.rate_span_mps),
+          config_.range_sigma_m / root,
+          config_.azimuth_sigma_rad / root,
+          config_.rate_sigma_mps / root,
+          static_cast<int>(members_.size())};
+}
+
+void ReturnJoiner::join(const std::vector<Return>& returns, std::vector<RadarObject>& objects) {
+  TTF_CHECK(returns.size() <= taken_.size(), "{} returns, room for {}", returns.size(), taken_.size());
+  objects.clear();
+  std::fill(taken_.begin(), taken_.end(), 0);
+  for (std::size_t first = 0; first < returns.size(); ++first) {
+    if (taken_[first]) continue;
+    members_.assign(1, first);
+    taken_[first] = 1;
+    for (std::size_t next = 0; next < members_.size(); ++next)
+      for (std::size_t other = first + 1; other < returns.size(); ++other) {
+        if (taken_[other] || !together(returns[members_[next]], returns[other])) continue;
+        taken_[other] = 1;
+        members_.push_back(other);
+      }
+    objects.push_back(object_of(returns));
+  }
+  std::sort(objects.begin(), objects.end(), [](const RadarObject& a, const RadarObject& b) {
+    return std::tuple(a.range, a.bearing) < std::tuple(b.range, b.bearing);
+  });
+}
+
+}  // namespace ttf::sensors::radar

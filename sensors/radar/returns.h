@@ -1,0 +1,56 @@
+// Joins a radar's returns to objects, one observation each.
+//
+// Returns are joined if range, distance across the line of sight and range rate differ by no more than their gates. The gates
+// hold for pairs, so that a chain of returns is one object. Seen from a vehicle that drives past, the range rates of one object
+// differ by its velocity across the line of sight times the difference of azimuths: the gate of the range rate grows by
+// as much. An object is at the mean of its n returns, with the standard
+// deviations of the sensor over sqrt(n). Where the returns lie on the object is the tracker's matter, which knows its size and
+// heading (fusion/tracks/body/returns.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/strict_yaml.h"
+
+namespace ttf::sensors::radar {
+
+struct RadarPreprocessingConfig {
+  double range_sigma_m = 0.15;
+  double azimuth_sigma_rad = 0.003;
+  double rate_sigma_mps = 0.05;
+  double rate_span_mps = 160.0;  // range rates are known up to multiples of this
+  double range_gate_m = 5.0;     // a car's length
+  double across_gate_m = 2.5;    // and three standard deviations of the azimuths' difference
+  double rate_gate_mps = 1.0;
+  double transverse_speed_mps = 0.0;  // objects pass the sensor this fast, at most
+};
+RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml);
+
+struct Return {
+  double range = 0.0, azimuth = 0.0, range_rate = 0.0;
+};
+
+struct RadarObject {
+  double range = 0.0, bearing = 0.0, range_rate = 0.0;  // [m], [rad], [m/s]
+  double sigma_range = 0.0, sigma_bearing = 0.0, sigma_range_rate = 0.0;
+  int returns = 0;
+};
+
+class ReturnJoiner {
+ public:
+  ReturnJoiner(const RadarPreprocessingConfig& config, std::size_t most_returns);
+  // Replaces `objects` by those of the returns, by range. Allocates nothing if `objects` has room.
+  void join(const std::vector<Return>& returns, std::vector<RadarObject>& objects);
+
+ private:
+  bool together(const Return& a, const Return& b) const;
+  RadarObject object_of(const std::vector<Return>& returns) const;
+
+  RadarPreprocessingConfig config_;
+  std::vector<char> taken_;           // by return
+  std::vector<std::size_t> members_;  // the present object's
+};
+
+}  // namespace ttf::sensors::radar

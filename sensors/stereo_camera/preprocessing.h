@@ -1,0 +1,34 @@
+// The host's preprocessing of a stereo camera's detections.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sensors/preprocessing.h"
+#include "sensors/stereo_camera/triangulation.h"
+
+namespace ttf::sensors::stereo_camera {
+
+// The lists of silhouettes that cameras of all kinds have.
+inline constexpr std::array<std::string_view, 7> kSilhouetteSignals{"x",           "y",    "sigma_x",   "sigma_y",
+                                                                    "correlation", "span", "sigma_span"};
+// Writes the nearest silhouettes, as many as the list holds.
+void write_silhouettes(nodes::host::Output& out, const nodes::host::Strobe& measurement,
+                       const std::array<std::size_t, 7>& signals, std::vector<CameraObject>& objects);
+
+// Ports: `raw` (bearing, disparity, width) -> `objects` (position and its covariance, span of the silhouette).
+class CameraPreprocessing final : public Preprocessing {
+ public:
+  CameraPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
+                      const CameraCalibration& calibration);
+
+ private:
+  void process(nodes::host::StepContext& context, const nodes::host::Strobe& measurement) override;
+
+  std::array<std::size_t, 3> raw_;
+  std::array<std::size_t, 7> signals_;
+  CameraCalibration calibration_;
+  std::vector<CameraObject> objects_;
+};
+
+}  // namespace ttf::sensors::stereo_camera
