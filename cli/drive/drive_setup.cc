@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cli/decimal_option.h"
-#include "cli/drive/driving_outputs.h"
 #include "cli/drive/fault_tables.h"
 #include "core/decimal.h"
 #include "core/errors.h"

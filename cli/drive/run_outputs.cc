@@ -8,13 +8,13 @@
 #include <memory>
 #include <optional>
 
-#include "cli/drive/driving_outputs.h"
 #include "cli/drive/fault_tables.h"
 #include "cli/drive/real_time_outputs.h"
 #include "cli/drive/recording_outputs.h"
 #include "cli/drive/startup_outputs.h"
 #include "cli/drive_progress.h"
 #include "evaluation/measures/figures.h"
+#include "experiments/sweep/driving.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
 #include "report/drawing/render.h"
@@ -87,9 +87,19 @@ report::plots::PositionOptions position_options(const sim::drives::Scenario& sce
   return options;
 }
 
-}  // namespace
-
-namespace {
+// The picture's settings for a scenario whose vehicle commands drive.
+report::plots::DrivingOptions driving_options(const sim::drives::Scenario& scenario,
+                                              const schedules::model::Cluster& cluster, const std::string& title) {
+  report::plots::DrivingOptions options{title, sim::drives::evaluation_start(scenario),
+                                        sim::drives::drive_end(scenario), scenario.world.ego->front,
+                                        scenario.world.ego->width};
+  if (const auto lane = experiments::sweep::lane_kept(scenario, cluster))
+    options.lane = [lane = evaluation::driving::TrueLane(*lane)](const recording::records::EgoTruth& ego) {
+      const evaluation::driving::InLane place = lane.place_of(ego);
+      return report::plots::PlaceInLane{place.offset, place.heading};
+    };
+  return options;
+}
 
 struct Column {
   std::string head;
