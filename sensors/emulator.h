@@ -1,4 +1,4 @@
-// What all emulated devices have in common. A device measures the scene and sends raw data over its private CAN, as a real one
+// The common part of all emulated devices. A device measures the scene and sends raw data over its private CAN, as a real one
 // does.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a kind of sensor says of itself: one row, in its folder's kind.h. sensors/kinds/sensors.h has all rows in one table.
+// The row of a kind of sensor, in its folder's kind.h. sensors/kinds/sensors.h has all rows in one table.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ concept IsKind = requires(YamlMap& yaml, const typename Kind::Model& model, cons
   { Kind::load_preprocessing(yaml) } -> std::same_as<typename Kind::Preprocessing>;
   { model.device } -> std::convertible_to<Device>;
   { Kind::in_weather(model, weather) } -> std::same_as<typename Kind::Model>;
-  // What the fusion takes the sensor to see; none for one that observes no objects.
+  // The field of view that the fusion assumes; none for one that observes no objects.
   { Kind::field_of(model) } -> std::same_as<std::optional<fusion::sensors::Field>>;
   // The span up to whose multiples range rates are known [m/s]; none for a kind without range rates.
   { Kind::rate_span(model) } -> std::same_as<std::optional<double>>;

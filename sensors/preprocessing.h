@@ -1,4 +1,4 @@
-// What the preprocessing of all kinds has in common. It turns a device's raw list into a list of observations, stamped with the
+// The common part of all kinds' preprocessing. It turns a device's raw list into a list of observations, stamped with the
 // global time that the host latched at the strobe.
 #pragma once
 
