@@ -11,7 +11,7 @@
 namespace ttf::sensors::laser {
 namespace {
 
-constexpr int kScans = 40;
+constexpr int kHandMadeScans = 40;
 
 LaserPreprocessingConfig without_shapes() {
   LaserPreprocessingConfig config;
@@ -28,7 +28,7 @@ std::vector<LaserObject> objects_in(LaserPreprocessor& preprocessor, const std::
 
 TEST(HandMadeScans, AWallIsAnOutlineAndNoObject) {
   LaserPreprocessor preprocessor({}, kMostPoints);
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     EXPECT_TRUE(objects_in(preprocessor, hand_made_scan({{15, -12, 15, 12}}, static_cast<std::uint64_t>(k))).empty());
     EXPECT_EQ(preprocessor.fates().large, 1U);
     ASSERT_EQ(preprocessor.outlines().size(), 1U);
@@ -38,7 +38,7 @@ TEST(HandMadeScans, AWallIsAnOutlineAndNoObject) {
 
 TEST(HandMadeScans, PolesAreTooThin) {
   LaserPreprocessor preprocessor({}, kMostPoints), before(without_shapes(), kMostPoints);
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     const double range = 4.0 + 0.2 * k;
     const auto scan = hand_made_scan(drawn_circle(range, 0.02 * k, 0.15), static_cast<std::uint64_t>(k));
     EXPECT_TRUE(objects_in(preprocessor, scan).empty()) << "at " << range << " m";
@@ -51,19 +51,19 @@ TEST(HandMadeScans, PolesAreTooThin) {
 TEST(HandMadeScans, BushesAreTooRough) {
   LaserPreprocessor preprocessor({}, kMostPoints);
   int rough = 0, vehicles = 0;
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     const auto scan = hand_made_scan(drawn_circle(9.0, 1.0, 1.2), static_cast<std::uint64_t>(k), 0.02, 1.2);
     for (const LaserObject& o : objects_in(preprocessor, scan)) vehicles += o.shape == VehicleShape::kVehicle;
     rough += preprocessor.fates().rough > 0;
   }
-  EXPECT_GT(rough, kScans / 2);
-  EXPECT_LT(vehicles, kScans / 10) << "by chance";
+  EXPECT_GT(rough, kHandMadeScans / 2);
+  EXPECT_LT(vehicles, kHandMadeScans / 10) << "by chance";
 }
 
 TEST(HandMadeScans, ACarIsAVehicleFromAllSides) {
   LaserPreprocessor preprocessor({}, kMostPoints), before(without_shapes(), kMostPoints);
   int vehicles = 0;
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     const auto scan = hand_made_scan(drawn_box(14.0, 3.0, 0.16 * k), static_cast<std::uint64_t>(k));
     const auto objects = objects_in(preprocessor, scan);
     ASSERT_EQ(objects.size(), 1U) << k;
@@ -71,12 +71,12 @@ TEST(HandMadeScans, ACarIsAVehicleFromAllSides) {
     vehicles += objects[0].shape == VehicleShape::kVehicle;
     EXPECT_EQ(objects[0].x, objects_in(before, scan).at(0).x);
   }
-  EXPECT_EQ(vehicles, kScans);
+  EXPECT_EQ(vehicles, kHandMadeScans);
 }
 
 TEST(HandMadeScans, ACarThatIsAlmostHiddenIsNoPole) {
   LaserPreprocessor preprocessor({}, kMostPoints);
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     // The near car leaves 0.3 m of the far rear in view, which is 1.8 m wide.
     const auto scan = hand_made_scan(drawn_box(26.2, 0, 0) + drawn_box(14.2, -0.65, 0), static_cast<std::uint64_t>(k));
     const auto objects = objects_in(preprocessor, scan);
@@ -90,7 +90,7 @@ TEST(HandMadeScans, ACarThatIsAlmostHiddenIsNoPole) {
 TEST(HandMadeScans, AVehicleInPiecesIsOne) {
   const std::vector<DrawnLine> side = {{8, 8, 9.0, 8}, {9.0, 8, 10.0, 8, true}, {10.0, 8, 12.4, 8}};
   LaserPreprocessor preprocessor({}, kMostPoints), before(without_shapes(), kMostPoints);
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     const auto scan = hand_made_scan(side, static_cast<std::uint64_t>(k));
     const auto objects = objects_in(preprocessor, scan);
     ASSERT_EQ(objects.size(), 1U) << k;
@@ -102,7 +102,7 @@ TEST(HandMadeScans, AVehicleInPiecesIsOne) {
 
 TEST(HandMadeScans, TwoEndsSideBySideAreNotJoined) {
   LaserPreprocessor preprocessor({}, kMostPoints);
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     const auto scan = hand_made_scan(drawn_box(14.2, -1.4, 0) + drawn_box(14.2, 1.4, 0), static_cast<std::uint64_t>(k));
     EXPECT_EQ(objects_in(preprocessor, scan).size(), 2U) << "1 m between them";
   }
@@ -110,7 +110,7 @@ TEST(HandMadeScans, TwoEndsSideBySideAreNotJoined) {
 
 TEST(HandMadeScans, TwoVehiclesThatTouchAreSplitAtTheStep) {
   LaserPreprocessor preprocessor({}, kMostPoints), before(without_shapes(), kMostPoints);
-  for (int k = 0; k < kScans; ++k) {
+  for (int k = 0; k < kHandMadeScans; ++k) {
     // Rears at 12.0 m and at 12.5 m, and 0.1 m between the cars.
     const auto scan =
         hand_made_scan(drawn_box(14.2, -0.95, 0) + drawn_box(14.7, 0.95, 0), static_cast<std::uint64_t>(k));

@@ -26,7 +26,7 @@ class Camera {
   Look look(const sim::world::ObjectState& car, std::uint32_t frame) {
     measure_mono_camera(config_, std::vector<sim::world::ObjectState>{car}, {1, 0, 1, frame}, room_, boxes_, truth_);
     EXPECT_EQ(boxes_.size(), 1U);
-    const auto seen = ttf::fusion::tracks::silhouette_of({car.x, car.y}, {{car.length, car.width}, car.heading});
+    const auto seen = ttf::fusion::tracks::body::silhouette_of({car.x, car.y}, {{car.length, car.width}, car.heading});
     const MonoBox& box = boxes_.at(0);
     return {{box.left, box.right, box.bottom, static_cast<int>(box.seen_as)}, seen->point.at, seen->span};
   }

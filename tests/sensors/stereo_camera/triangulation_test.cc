@@ -95,7 +95,7 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
     ASSERT_EQ(detections.size(), 1U);
     const CameraObject o =
         triangulate(calibration, detections[0].bearing, detections[0].disparity, detections[0].width_px);
-    const auto seen = ttf::fusion::tracks::silhouette_of({car.x, car.y}, {{car.length, car.width}, heading});
+    const auto seen = ttf::fusion::tracks::body::silhouette_of({car.x, car.y}, {{car.length, car.width}, heading});
     ASSERT_TRUE(seen);
     const double ex = o.x - seen->point.at.x(), ey = o.y - seen->point.at.y();
     const double determinant = o.sxx * o.syy - o.sxy * o.sxy;
