@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "fusion/tracks/track.h"
+#include "fusion/tracks/view.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::nodes::fusion {

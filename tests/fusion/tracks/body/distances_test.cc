@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/random.h"
+#include "fusion/tracks/body/turn.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion::tracks::body {
