@@ -27,8 +27,7 @@ class Encoding {
     value(field.number, in.*field.member);
   }
   template <class Record> void write(const Record& in, const records::Optional<Record>& field) {
-    out_.tag(field.number, WireType::kFixed64);
-    out_.raw(&(in.*field.member), sizeof(double));
+    out_.number(field.number, in.*field.member);
   }
   template <class Record, std::size_t count>
   void write(const Record& in, const records::Elements<Record, count>& elements) {
@@ -53,14 +52,9 @@ class Encoding {
     if constexpr (records::IsDescribed<T>) {
       out_.block(number, [&] { all(in); });
     } else if constexpr (std::is_same_v<T, double>) {
-      if (std::bit_cast<std::uint64_t>(in) == 0) return;  // -0.0 is written
-      out_.tag(number, WireType::kFixed64);
-      out_.raw(&in, sizeof in);
+      if (std::bit_cast<std::uint64_t>(in) != 0) out_.number(number, in);  // -0.0 is written
     } else if constexpr (requires { varint_of(in); }) {
-      const std::uint64_t bits = varint_of(in);
-      if (bits == 0) return;
-      out_.tag(number, WireType::kVarint);
-      out_.varint(bits);
+      if (const std::uint64_t bits = varint_of(in); bits != 0) out_.number(number, bits);
     } else {
       list(number, in);
     }

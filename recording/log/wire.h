@@ -56,58 +56,76 @@ template <IsVarint T> constexpr bool from_varint(std::uint64_t bits, T& value) {
 // Writes one message after another into the same memory, which grows to the largest.
 class WireWriter {
  public:
-  WireWriter() : bytes_(kFirstSize, '\0') {}
+  WireWriter() : bytes_(kFirstSize, '\0'), at_(bytes_.data()), end_(at_ + bytes_.size()) {}
+  WireWriter(const WireWriter&) = delete;
+  WireWriter& operator=(const WireWriter&) = delete;
 
-  void clear() { size_ = 0; }
-  std::string_view bytes() const { return {bytes_.data(), size_}; }
+  void clear() { at_ = bytes_.data(); }
+  std::string_view bytes() const { return {bytes_.data(), size()}; }
 
   void varint(std::uint64_t value) {
-    char* at = room(kLongestVarint);
-    while (value >= 0x80) {
-      *at++ = static_cast<char>(value | 0x80);
-      value >>= 7;
-    }
-    *at++ = static_cast<char>(value);
-    size_ = static_cast<std::size_t>(at - bytes_.data());
+    reserve(kLongestVarint);
+    at_ = put(at_, value);
   }
-  void tag(std::uint32_t number, WireType type) { varint(number << 3 | static_cast<std::uint32_t>(type)); }
+  void number(std::uint32_t number, std::uint64_t value) {
+    reserve(2 * kLongestVarint);
+    at_ = put(put(at_, tag_of(number, WireType::kVarint)), value);
+  }
+  void number(std::uint32_t number, double value) {
+    reserve(kLongestVarint + sizeof value);
+    at_ = put(at_, tag_of(number, WireType::kFixed64));
+    raw(&value, sizeof value);
+  }
   void raw(const void* bytes, std::size_t size) {
     if (size == 0) return;
-    std::memcpy(room(size), bytes, size);
-    size_ += size;
+    reserve(size);
+    std::memcpy(at_, bytes, size);
+    at_ += size;
   }
   void block(std::uint32_t number, const void* bytes, std::size_t size) {
-    tag(number, WireType::kBlock);
+    varint(tag_of(number, WireType::kBlock));
     varint(size);
     raw(bytes, size);
   }
   // A block that `write` writes, of a size that only then is given. Few are longer than one byte can say.
   template <class Write> void block(std::uint32_t number, Write&& write) {
-    tag(number, WireType::kBlock);
+    varint(tag_of(number, WireType::kBlock));
     varint(0);
-    const std::size_t begin = size_;
+    const std::size_t begin = size();
     write();
-    const std::size_t length = size_ - begin;
-    if (length >= 0x80) {
-      const auto more = static_cast<std::size_t>((std::bit_width(length) - 1) / 7);
-      room(more);
+    const std::size_t length = size() - begin;
+    const auto more = length < 0x80 ? 0 : static_cast<std::size_t>((std::bit_width(length) - 1) / 7);
+    if (more > 0) {
+      reserve(more);
       std::memmove(bytes_.data() + begin + more, bytes_.data() + begin, length);
+      at_ += more;
     }
-    size_ = begin - 1;
-    varint(length);
-    size_ += length;
+    put(bytes_.data() + begin - 1, length);
   }
 
  private:
   static constexpr std::size_t kFirstSize = 64 * 1024, kLongestVarint = 10;
 
-  char* room(std::size_t more) {
-    if (bytes_.size() - size_ < more) bytes_.resize(std::max(2 * bytes_.size(), size_ + more));
-    return bytes_.data() + size_;
+  static constexpr std::uint64_t tag_of(std::uint32_t number, WireType type) {
+    return number << 3 | static_cast<std::uint32_t>(type);
+  }
+  static char* put(char* at, std::uint64_t value) {
+    for (; value >= 0x80; value >>= 7) *at++ = static_cast<char>(value | 0x80);
+    *at++ = static_cast<char>(value);
+    return at;
+  }
+  std::size_t size() const { return static_cast<std::size_t>(at_ - bytes_.data()); }
+  void reserve(std::size_t more) {
+    if (static_cast<std::size_t>(end_ - at_) >= more) return;
+    const std::size_t before = size();
+    bytes_.resize(std::max(2 * bytes_.size(), before + more));
+    at_ = bytes_.data() + before;
+    end_ = bytes_.data() + bytes_.size();
   }
 
   std::string bytes_;
-  std::size_t size_ = 0;
+  char* at_;
+  char* end_;
 };
 
 // Takes fields off the front of untrusted bytes, as its base does.
