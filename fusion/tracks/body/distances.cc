@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/tracks/body/turn.h"
+
 namespace ttf::fusion::tracks::body {
 namespace {
 

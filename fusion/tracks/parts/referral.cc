@@ -38,7 +38,8 @@ void count_elsewhere(Track& track, const estimators::Estimator& estimator, const
   taken.counted = counted(z, distance, z.from, at.p);
 }
 
-void count_spread(const std::optional<sensors::Observation>& spread, Referred& taken) {
+// `spread` is the observation with the spread of its returns, or null.
+void count_spread(const sensors::Observation* spread, Referred& taken) {
   if (!spread) return;
   if (!taken.elsewhere || taken.moved) taken.counted = *spread;
   taken.spread = true;
@@ -54,7 +55,7 @@ Referred referred_late(Track& then, const estimators::Estimator& estimator, cons
   if (distance)
     count_elsewhere(then, estimator, spread ? *spread : z, *distance, may_move && gives_way(then.anchor, z.seen),
                     taken);
-  count_spread(spread, taken);
+  count_spread(spread ? &*spread : nullptr, taken);
   return taken;
 }
 
@@ -96,8 +97,9 @@ const sensors::Observation& Referral::refer(Track& track, std::size_t column, co
   Referred& taken = taken_[row];
   taken.elsewhere = taken.moved = taken.spread = false;
   taken.from = track.anchor;
-  std::optional<sensors::Observation> spread;
-  if (const linear::Matrix<3>* of_returns = spread_of(track, column, z)) spread = body::with_spread(z, *of_returns);
+  const sensors::Observation* spread = nullptr;
+  if (const linear::Matrix<3>* of_returns = spread_of(track, column, z))
+    spread = &spread_.emplace(body::with_spread(z, *of_returns));
   track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
   if (distance)
     count_elsewhere(track, *estimator_, spread ? *spread : z, *distance,
