@@ -17,8 +17,12 @@ TEST(MeasureTable, NamesAndPathsAreUnique) {
   for (const Measure& row : measures()) {
     EXPECT_TRUE(row.name.empty() || names.insert(row.name).second) << row.name;
     EXPECT_TRUE(row.path.empty() || paths.insert(row.path).second) << row.path;
-    if (!row.name.empty()) EXPECT_EQ(find_measure(row.name), &row);
-    if (!row.path.empty()) EXPECT_EQ(&measure_at(row.path), &row);
+    if (!row.name.empty()) {
+      EXPECT_EQ(find_measure(row.name), &row);
+    }
+    if (!row.path.empty()) {
+      EXPECT_EQ(&measure_at(row.path), &row);
+    }
   }
   EXPECT_EQ(find_measure(""), nullptr);
   EXPECT_EQ(find_measure("speed"), nullptr);
@@ -31,9 +35,15 @@ TEST(MeasureTable, EveryRowIsComplete) {
     EXPECT_EQ(row.name.empty(), row.if_missed.empty()) << what;
     EXPECT_TRUE(!row.name.empty() || !row.path.empty() || !row.shown.label.empty()) << "a row that nobody reads";
     // The page and the account of troubles read values from summary.json.
-    if (row.shown.place != Place::kTable && !row.shown.label.empty()) EXPECT_FALSE(row.path.empty()) << what;
-    if (row.shown.has_interval || !row.shown.trouble.empty()) EXPECT_FALSE(row.path.empty()) << what;
-    if (!row.shown.trouble.empty()) EXPECT_TRUE(row.of.is_count()) << what;
+    if (row.shown.place != Place::kTable && !row.shown.label.empty()) {
+      EXPECT_FALSE(row.path.empty()) << what;
+    }
+    if (row.shown.has_interval || !row.shown.trouble.empty()) {
+      EXPECT_FALSE(row.path.empty()) << what;
+    }
+    if (!row.shown.trouble.empty()) {
+      EXPECT_TRUE(row.of.is_count()) << what;
+    }
   }
 }
 
