@@ -184,7 +184,7 @@ TEST(Twins, AnotherSizeIsAnotherObject) {
   correct_length(lorry_and_car[1].extent, 4.0, 0.1);
   const OwnedList list = list_of_tracks({&lorry_and_car[0]});
   std::vector<Track> unmeasured = lorry_and_car;
-  unmeasured[1].extent = Extent();
+  unmeasured[1].extent = body::Extent();
   twins.unite(lorry_and_car, list.view(), *estimator);
   EXPECT_EQ(lorry_and_car.size(), 2u);
   twins.unite(unmeasured, list.view(), *estimator);

@@ -27,7 +27,7 @@ Track track_of(const Car& car, double sigma = 0.05, bool confirmed = true) {
   estimate.p.diagonal() << sigma * sigma, sigma * sigma, 0.01, 0.01;
   track.estimate = estimate;
   track.heading = {{car.heading, 1e-4, true}};
-  track.extent = Extent({.length = car.length, .length_sigma = 0.1, .width = car.width, .width_sigma = 0.1});
+  track.extent = body::Extent({.length = car.length, .length_sigma = 0.1, .width = car.width, .width_sigma = 0.1});
   track.confirmed = confirmed;
   return track;
 }
