@@ -52,7 +52,7 @@ template <class Check, std::size_t kChecks, class Harm, std::size_t kHarms> stru
 template <class Check, std::size_t kChecks, class Harm, std::size_t kHarms> class JudgeOf {
  public:
   using Judgement = JudgementOf<Check, kChecks, Harm, kHarms>;
-  using Since = Judgement::Since;
+  using Since = typename Judgement::Since;
 
  protected:
   JudgeOf(TrueTime from, TrueTime until, std::size_t nodes) : from_(from), until_(until), out_since_(nodes) {}

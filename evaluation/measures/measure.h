@@ -76,6 +76,14 @@ struct Shown {
   std::string_view absent = "";   // a driven vehicle's cell without a value; its line is there all the same
   std::string_view trouble = "";  // a count of this means that something went wrong: "missed deadline"
 
+ private:
+  template <class Value> constexpr Shown with(Value Shown::*member, Value value) const {
+    Shown changed = *this;
+    changed.*member = value;
+    return changed;
+  }
+
+ public:
   constexpr Shown in(Scale unit) const { return with(&Shown::scale, unit); }
   constexpr Shown only(Place there) const { return with(&Shown::place, there); }
   constexpr Shown rare() const { return with(&Shown::is_rare, true); }
@@ -84,13 +92,6 @@ struct Shown {
   constexpr Shown joins(std::string_view separator) const { return with(&Shown::join, separator); }
   constexpr Shown or_else(std::string_view text) const { return with(&Shown::absent, text); }
   constexpr Shown means(std::string_view what) const { return with(&Shown::trouble, what); }
-
- private:
-  template <class Value> constexpr Shown with(Value Shown::*member, Value value) const {
-    Shown changed = *this;
-    changed.*member = value;
-    return changed;
-  }
 };
 
 struct Measure {

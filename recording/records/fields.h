@@ -81,6 +81,9 @@ template <class Record> struct At {
   GlobalTime Record::*global = nullptr;
   NodeId Record::*node = nullptr;
 };
+template <class Record> At(TrueTime Record::*) -> At<Record>;
+template <class Record> At(TrueTime Record::*, GlobalTime Record::*) -> At<Record>;
+template <class Record> At(TrueTime Record::*, GlobalTime Record::*, NodeId Record::*) -> At<Record>;
 struct NoInstant {};  // a part of records has none
 
 template <class Instant, class... Fields> struct Description {

@@ -123,7 +123,7 @@ Sensors load_sensors(YamlMap& yaml) {
       continue;
     }
     Sensors::of_kind(sensors, entry.choice("kind", schedules::model::kind_choices()),
-                     [&]<class Kind>(SensorsOfKind<Kind>& kind) {
+                     [&name = name, &entry = entry]<class Kind>(SensorsOfKind<Kind>& kind) {
                        kind.own.push_back(load_entry<Kind>(entry, name));
                        kind.own.back().style.kind = kWord<Kind>;
                      });

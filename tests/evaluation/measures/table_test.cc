@@ -68,7 +68,7 @@ TEST(MeasureTable, ADriveWithoutComparisonHasNoValueInsteadOfAPerfectZero) {
   nlohmann::ordered_json json;
   add_to(json, measures(), figures);
   EXPECT_EQ(json["rmse_truth"]["position_m"], nullptr);
-  EXPECT_EQ(json["nees"]["band_95"], nlohmann::json::array({nullptr, nullptr}));
+  EXPECT_EQ(json["nees"]["band_95"], nlohmann::ordered_json::array({nullptr, nullptr}));
   EXPECT_EQ(json["clear_mot"]["switches"], nullptr);
   EXPECT_EQ(json["objects"]["missed"], 0u);
   EXPECT_FALSE(json.contains("driving"));
@@ -91,7 +91,7 @@ TEST(MeasureTable, APartThatADrivenVehicleHasNotIsNullOrAbsent) {
 
   driving.warns_ahead = true;
   driving.warnings[recording::records::kForwardCollision].missed = 2;
-  driving.collision.emplace().closing_mps = 3.5;
+  driving.collision = driving::DrivingFindings::Collision{TrueTime{}, 3.5};
   nlohmann::ordered_json more;
   add_to(more, measures(), figures);
   EXPECT_EQ(more["driving"]["collision"]["closing_mps"], 3.5);
