@@ -79,7 +79,7 @@ template <class Described> class Decoding {
 
   // An absent field is zero or empty, whatever the record's default.
   void clear() {
-    each([this](const auto& entry, auto& list) { clear(entry, list); });
+    each([&](const auto& entry, auto& list) { clear(entry, list); });
   }
   // As in protobuf, the last of several numbers counts, and parts of a message are merged.
   bool read(std::string_view bytes) {
@@ -105,7 +105,7 @@ template <class Described> class Decoding {
     must(in.ok());
     sound_ = ok_;
     must(misfits == 0);
-    each([this](const auto& entry, auto& list) { end(entry, list); });
+    each([&](const auto& entry, auto& list) { end(entry, list); });
     return ok_;
   }
   // Whether protobuf could read it, too.

@@ -10,6 +10,7 @@
 #include "core/file_bytes.h"
 #include "evaluation/driving/driving_account.h"
 #include "schedules/check/checker.h"
+#include "sim/drives/step_catalog.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/sim/drives/drive_fixture.h"
 #include "tests/support/allocation_counter.h"
@@ -141,7 +142,10 @@ TEST(ClosedLoop, KeepsItsLaneInABend) {
 }
 
 std::string refusal(const Drive& drive) {
-  return support::refusal_of([&] { check_loop(drive.scenario, drive.cluster); });
+  return support::refusal_of([&] {
+    check_loop(drive.scenario, drive.cluster);
+    check_tasks(drive.scenario, drive.cluster);
+  });
 }
 
 TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
