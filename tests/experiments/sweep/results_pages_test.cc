@@ -59,7 +59,7 @@ Page page_at(const fs::path& path) {
 }
 
 std::vector<Page> pages() {
-  std::vector<Page> found{page_at(kTop / "docs/results.md"), page_at(kTop / "docs/reference/fault_campaign.md")};
+  std::vector<Page> found{page_at(kTop / "docs/results.md")};
   for (const auto& entry : fs::directory_iterator(kTop / "docs/results"))
     if (entry.path().extension() == ".md") found.push_back(page_at(entry.path()));
   return found;
@@ -92,7 +92,8 @@ TEST(ResultsPages, HaveTheCommandsOfTheirTables) {
     if (!page.commands.empty()) with_command.insert(fs::canonical(page.path));
   EXPECT_GE(with_command.size(), 10u);
   for (const Page& page : pages()) {
-    if (page.text.find("\n|---") == std::string::npos || !page.commands.empty()) continue;
+    if (page.text.find("\n|---") == std::string::npos) continue;
+    if (page.text.find("\n    build/release/ttfusion ") != std::string::npos) continue;
     const auto links = all(page.text, kLink);
     EXPECT_TRUE(std::any_of(links.begin(), links.end(), [&](const std::smatch& link) {
       return with_command.contains(fs::weakly_canonical(page.path.parent_path() / link[1].str()));
