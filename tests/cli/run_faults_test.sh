@@ -44,9 +44,11 @@ expect 0 \
 page_example() \
   { awk -v key="    $2:" '$0 == key { on = 1 } on && !/^    / { exit } on { print substr($0, 5) }' "$source/docs/$1"; }
 for example in faults startup; do
+  page=reference/faults
+  [[ $example == faults ]] || page=schedules/flexray_constraints
   cp "$source/scenarios/paper_scenario1.yaml" "$work/scenarios/page.yaml"
-  page_example $example.md $example >>"$work/scenarios/page.yaml"
-  grep -q "^$example:" "$work/scenarios/page.yaml" || fail "docs/$example.md has no example of $example"
+  page_example $page.md $example >>"$work/scenarios/page.yaml"
+  grep -q "^$example:" "$work/scenarios/page.yaml" || fail "docs/$page.md has no example of $example"
   [[ $example == startup ]] || sed -i 's/^duration: .*/duration: 3 s/' "$work/scenarios/page.yaml"
   expect 0 'precision of the time base' run "$work/scenarios/page.yaml" "${tt[@]}"
 done
