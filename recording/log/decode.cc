@@ -42,18 +42,21 @@ using Storage = decltype(storage(std::declval<decltype(records::kDescription<Des
 template <std::size_t... i>
 std::tuple<Storage<records::RecordAt<i + 1>>...> storage_of_kinds(std::index_sequence<i...>);  // only its type counts
 
+// Converts to every type. It is only named, so it has no definition.
+struct Anything {
+  template <class T> operator T() const;
+};
+
 }  // namespace detail
 
 namespace {
 
+using detail::Anything;
 using detail::Nothing;
 using detail::Storage;
 
 // The number of a struct's members: the most values that can initialise it. Fewer may fail, as some types have no
 // default.
-struct Anything {
-  template <class T> operator T() const;
-};
 template <class T, std::size_t... i> constexpr bool takes(std::index_sequence<i...>) {
   return requires { T{(static_cast<void>(i), Anything{})...}; };
 }
