@@ -48,37 +48,39 @@ std::string YamlMap::key_path(std::string_view key) const {
 bool YamlMap::has(std::string_view key) const {
   if (is_described()) return std::get<bool>(ask(question(key, KeyType::kIsThere)));
   content_->asked.emplace(key);
-  return child(content_->node, key).IsDefined();
+  return content_->child(key).IsDefined();
 }
 
 bool YamlMap::is_map(std::string_view key) const {
   if (is_described()) return std::get<bool>(ask(question(key, KeyType::kIsMap)));
-  const YAML::Node node = child(content_->node, key);
+  const YAML::Node node = content_->child(key);
   return node.IsDefined() && node.IsMap();
 }
 
 int YamlMap::line(std::string_view key) const {
   if (!key.empty())
-    if (const int own = line_of(child(content_->node, key)); own > 0) return own;  // 0: put there
+    if (const int own = line_of(content_->child(key)); own > 0) return own;  // 0: put there
   return content_->node.IsMap() ? line_of(content_->node) : content_->line;
 }
 
 void YamlMap::fail(std::string_view key, std::string expected) {
   if (is_described()) return;
-  const YAML::Node node = child(content_->node, key);
+  const YAML::Node node = content_->child(key);
   const std::string value = node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
   findings_->add({content_->file, line(key), key_path(key), value, std::move(expected)});
 }
 
+void YamlMap::inherit(const YamlMap& other) { content_->inherited = other.content_; }
+
 void YamlMap::gone(std::string_view key, std::string_view now) {
   if (is_described()) return;
   content_->gone.emplace(key);
-  if (child(content_->node, key).IsDefined()) fail(key, fmt::format("is no key any longer: {}", now));
+  if (content_->child(key).IsDefined()) fail(key, fmt::format("is no key any longer: {}", now));
 }
 
 std::optional<std::string> YamlMap::scalar(std::string_view key, std::string_view expected) {
   content_->asked.emplace(key);
-  const YAML::Node node = child(content_->node, key);
+  const YAML::Node node = content_->child(key);
   if (!node.IsDefined()) {
     fail(key, fmt::format("is missing: {}", expected));
     return std::nullopt;
@@ -216,7 +218,7 @@ std::size_t YamlMap::choice_index(std::string_view key, const std::vector<std::s
 
 std::vector<YamlMap::Entry> YamlMap::entries(std::string_view key) {
   content_->asked.emplace(key);
-  const YAML::Node node = child(content_->node, key);
+  const YAML::Node node = content_->child(key);
   std::vector<Entry> list;
   if (!node.IsDefined() || !node.IsSequence() || node.size() == 0) {
     fail(key, node.IsDefined() ? "must be a list with at least one entry"

@@ -101,6 +101,10 @@ class YamlMap {
   // The keys of this mapping that were not asked for yet: name: {...}, in file order.
   std::vector<std::pair<std::string, YamlMap>> other_maps();
 
+  // Reads the keys that this mapping lacks from the other one, where findings find their lines, too. No key of the other one is
+  // unknown. It must not inherit from this one.
+  void inherit(const YamlMap& other);
+
   // Refuses a key that earlier versions had; `now` says what stands for it. It is not among the known keys.
   void gone(std::string_view key, std::string_view now);
 

@@ -16,7 +16,7 @@ YamlMap YamlMap::map(std::string_view key) {
     return described_map(key_path(key));
   }
   content_->asked.emplace(key);
-  const YAML::Node node = child(content_->node, key);
+  const YAML::Node node = content_->child(key);
   if (!node.IsDefined()) fail(key, "is missing: must be a mapping");
   if (node.IsDefined() && !node.IsMap()) fail(key, "must be a mapping");
   auto content = std::make_shared<Content>();
@@ -46,7 +46,7 @@ std::vector<YamlMap> YamlMap::maps(std::string_view key) {
     return {described_map(key_path(key) + "[]")};
   }
   content_->asked.emplace(key);
-  const YAML::Node node = child(content_->node, key);
+  const YAML::Node node = content_->child(key);
   std::vector<YamlMap> list;
   if (!node.IsDefined() || !node.IsSequence()) {
     fail(key, node.IsDefined() ? "must be a list of mappings" : "is missing: must be a list of mappings");

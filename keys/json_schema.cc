@@ -45,6 +45,9 @@ Json named(Json entry) {
 // A file with this key changes another one.
 constexpr const char* kExtends = "extends";
 
+// An entry with this key has another's value for each key that it lacks.
+constexpr const char* kLike = "like";
+
 // A mapping has a schema of its own here. Another value keeps its schema, which then stands once.
 Json or_null(Json schema) {
   if (!schema.contains("properties") && !schema.contains("patternProperties"))
@@ -53,28 +56,35 @@ Json or_null(Json schema) {
   return schema;
 }
 
-// Returns the schema of a mapping that changes another one: no key is required, and null removes one. Keys of all cases are
-// known, since the mapping below decides which case it is. Lists stand for themselves.
-Json changing(Json schema) {
-  if (!schema.is_object()) return schema;
+// Returns the schema of a mapping that has other keys elsewhere. No key is required. Keys of all cases are known, since the other
+// mapping decides which case it is.
+Json lacking(Json schema) {
   schema.erase("required");
-  for (const char* of : {"properties", "patternProperties"})
-    if (schema.contains(of))
-      for (auto& [key, value] : schema[of].items())
-        if (value.is_object()) value = or_null(changing(value));
-  for (const char* of : {"then", "else"})
-    if (schema.contains(of)) schema[of] = changing(schema[of]);
   if (!schema.contains("allOf")) return schema;
   for (Json& one : schema["allOf"]) {
-    one = changing(one);
     if (!one.contains("then")) continue;
     for (const auto& [key, value] : one["then"]["properties"].items())
       if (!schema["properties"].contains(key)) schema["properties"][key] = true;
     if (one["then"].contains("additionalProperties"))
       schema["additionalProperties"] = one["then"]["additionalProperties"];
     one["then"].erase("additionalProperties");
+    one["then"].erase("required");
   }
   return schema;
+}
+
+// Returns the schema of a mapping that changes another one: null removes a key. Lists stand for themselves.
+Json changing(Json schema) {
+  if (!schema.is_object()) return schema;
+  for (const char* of : {"properties", "patternProperties"})
+    if (schema.contains(of))
+      for (auto& [key, value] : schema[of].items())
+        if (value.is_object()) value = or_null(changing(value));
+  for (const char* of : {"then", "else"})
+    if (schema.contains(of)) schema[of] = changing(schema[of]);
+  if (schema.contains("allOf"))
+    for (Json& one : schema["allOf"]) one = changing(one);
+  return lacking(std::move(schema));
 }
 
 class Schema {
@@ -103,9 +113,34 @@ class Schema {
   // `around`: conditions that hold in the mapping around.
   Json mapping(const std::string& path, const std::vector<Condition>& around = {}) const {
     const Mapping* mapping = outline_.find(path);
-    Json schema{{"type", "object"}};
-    if (mapping == nullptr) return schema;
+    if (mapping == nullptr) return {{"type", "object"}};
     const Cases cases = cases_in(*mapping, around);
+    if (!may_be_alike(cases)) return mapping_of(cases);
+    return {{"if", {{"required", {kLike}}}},
+            {"then", lacking(mapping_of(cases_with_like(cases, "true")))},
+            {"else", mapping_of(cases_with_like(cases, "false"))}};
+  }
+
+  static bool may_be_alike(const Cases& cases) {
+    return std::any_of(cases.begin(), cases.end(), [](const Case& one) {
+      return std::any_of(one.keys.begin(), one.keys.end(),
+                         [](const Key& key) { return key.question.key == kLike && key.question.optional; });
+    });
+  }
+
+  static Cases cases_with_like(Cases cases, const char* presence) {
+    const auto of_like = [](const Condition& one) { return one.key == kLike && one.of == Condition::Of::kPresence; };
+    std::erase_if(cases, [&](const Case& one) {
+      return std::any_of(one.conditions.begin(), one.conditions.end(), [&](const Condition& condition) {
+        return of_like(condition) && condition.values != std::vector<std::string>{presence};
+      });
+    });
+    for (Case& one : cases) std::erase_if(one.conditions, of_like);
+    return cases;
+  }
+
+  Json mapping_of(const Cases& cases) const {
+    Json schema{{"type", "object"}};
     if (cases.size() == 1) {
       const Case& one = cases.front();
       schema["properties"] = properties(one);

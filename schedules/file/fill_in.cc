@@ -98,7 +98,7 @@ class Filler {
                          activation_path(n, t));
       }
     for (const left_out::List& list : parts_.lists)
-      check_base_cycle(list.at, list.base_cycle, list.repetition, list.line, frame_path(list));
+      check_base_cycle(list.at, list.base_cycle, list.repetition, list.line, path_of(cluster_, list));
   }
 
   std::string task_path(std::size_t node, std::size_t task) const {
@@ -106,9 +106,6 @@ class Filler {
   }
   std::string activation_path(std::size_t node, std::size_t task) const {
     return task_path(node, task) + ".activation";
-  }
-  static std::string frame_path(const left_out::List& list) {
-    return fmt::format("frames[{}]", list.entry.value_or(0));
   }
 
   void say_instant(const left_out::Instant& absent, const std::string& path, int base_cycle, int repetition,
@@ -135,7 +132,7 @@ class Filler {
       }
     for (std::size_t l = 0; l < parts_.lists.size(); ++l) {
       const left_out::List& list = parts_.lists[l];
-      say_instant(absent_of_lists_[l], frame_path(list), list.base_cycle, list.repetition, "slot", list.slot);
+      say_instant(absent_of_lists_[l], path_of(cluster_, list), list.base_cycle, list.repetition, "slot", list.slot);
     }
   }
 

@@ -38,33 +38,17 @@ void load_signals(YamlMap& map, std::string_view key, std::vector<model::Signal>
   total_bits = offset;
 }
 
-// Returns the PDU that the key `like` names; none if it names none, or not as it may.
-std::optional<YamlMap> like_of(YamlMap& map, std::size_t own, NamedMaps& pdus) {
-  if (!map.has("like")) return std::nullopt;
-  const std::string name = map.text("like");
-  for (std::size_t i = 0; i < pdus.size(); ++i)
-    if (pdus[i].first == name && i != own && !pdus[i].second.has("like")) return pdus[i].second;
-  map.fail("like", "must be the name of another PDU in this file, which is like none itself");
-  return std::nullopt;
-}
-
 }  // namespace
 
-void load_pdu(NamedMaps& pdus, std::size_t own, const Names& names, model::PduLayout& layout) {
-  YamlMap& map = pdus[own].second;
-  std::optional<YamlMap> like = like_of(map, own, pdus);
-  const auto from = [&](std::string_view key) -> YamlMap& {
-    return like && !map.has(key) && like->has(key) ? *like : map;
-  };
+void load_pdu(YamlMap& map, const Names& names, model::PduLayout& layout) {
   layout.line = map.line();
-  if (from("sensor").has("sensor")) layout.sensor = names.sensor(from("sensor"), "sensor");
-  layout.fragment_bytes =
-      static_cast<int>(from("fragment_bytes").integer("fragment_bytes", {1, model::kMostFragmentBytes}, "bytes"));
-  layout.max_elements = static_cast<int>(from("max_elements").integer("max_elements", {1, 65535}));
-  layout.elements_per_fragment = static_cast<int>(
-      from("elements_per_fragment").integer("elements_per_fragment", {1, 8 * model::kMostFragmentBytes}));
-  load_signals(from("header"), "header", layout.header, layout.header_bits);
-  load_signals(from("element"), "element", layout.element, layout.element_bits);
+  if (map.has("sensor")) layout.sensor = names.sensor(map, "sensor");
+  layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, model::kMostFragmentBytes}, "bytes"));
+  layout.max_elements = static_cast<int>(map.integer("max_elements", {1, 65535}));
+  layout.elements_per_fragment =
+      static_cast<int>(map.integer("elements_per_fragment", {1, 8 * model::kMostFragmentBytes}));
+  load_signals(map, "header", layout.header, layout.header_bits);
+  load_signals(map, "element", layout.element, layout.element_bits);
   layout.header_bits = (layout.header_bits + 7) / 8 * 8;
   if (layout.element.empty()) map.fail("element", "must have at least one signal");
   const auto needs = [&](std::string_view name, std::int64_t largest) {

@@ -13,6 +13,8 @@
 #include "schedules/file/completion.h"
 #include "schedules/file/fill_in.h"
 #include "schedules/file/inherit.h"
+#include "schedules/file/likeness/inherit_alike.h"
+#include "schedules/file/likeness/sensor_copy.h"
 #include "schedules/file/load_frames.h"
 #include "schedules/file/load_instants.h"
 #include "schedules/file/load_modes.h"
@@ -65,7 +67,9 @@ class Loader {
     for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
     for (auto& [name, map] : pdus) cluster_.pdus.emplace_back().name = name;
     for (auto& [name, map] : cans) cluster_.can_buses.emplace_back().name = name;
-    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus, i, names_, cluster_.pdus[i]);
+    (void)likeness::inherit_alike(pdus, "PDU");
+    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus[i].second, names_, cluster_.pdus[i]);
+    take_likeness(sensors);
     for (std::size_t i = 0; i < sensors.size(); ++i) load_sensor(sensors[i].second, cluster_.sensors[i]);
     for (std::size_t i = 0; i < cans.size(); ++i) load_can(cans[i].second, cluster_.can_buses[i]);
     for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);
@@ -74,6 +78,7 @@ class Loader {
     load_frames(frames, names_, cluster_, left_out_.lists);
     completion_.finish();
     root_.finish();
+    if (findings_.empty()) copy_sensors(sensors);
     return std::move(cluster_);
   }
   left_out::Parts& left_out() { return left_out_; }
@@ -134,6 +139,49 @@ class Loader {
     for (const auto& p : kNodeFlags) local.*p.member = from(p.name).boolean(p.name);
     own.finish();
     return local;
+  }
+
+  // A sensor without device and host has copies of the other's, and its own keys say how these differ.
+  void take_likeness(likeness::NamedMaps& sensors) {
+    std::vector<bool> own_nodes;
+    for (auto& [name, map] : sensors) {
+      own_nodes.push_back(map.lacks("device") && map.lacks("host"));
+      for (const char* key : {"raw", "objects", "preprocessing"})
+        if (map.has("like") && !own_nodes.back() && !map.lacks(key))
+          map.fail(key, "needs a device and a host that are copies: device and host must be left out");
+    }
+    const auto alike = likeness::inherit_alike(sensors, "sensor");
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      YamlMap& map = sensors[i].second;
+      if (!map.has("like")) continue;
+      likeness::SensorCopy copy;
+      copy.name = sensors[i].first;
+      copy.line = map.line();
+      read_differences(map, copy);
+      if (!own_nodes[i] || !alike[i]) continue;
+      copy.from = static_cast<SensorId>(*alike[i]);
+      copies_.push_back({static_cast<SensorId>(i), std::move(copy)});
+    }
+  }
+
+  // A copy's copy comes behind it.
+  void copy_sensors(likeness::NamedMaps& sensors) {
+    const likeness::Unfinished schedule{cluster_, left_out_.tasks, left_out_.lists, left_out_.shortest_periods};
+    const std::size_t before = left_out_.lists.size();
+    while (!copies_.empty()) {
+      const auto next = std::find_if(copies_.begin(), copies_.end(), [&](const auto& one) {
+        return std::none_of(copies_.begin(), copies_.end(),
+                            [&](const auto& other) { return other.first == one.second.from; });
+      });
+      auto& [made, copy] = *next;
+      copy.kind = cluster_.sensor(made).kind;
+      if (const auto refused = refusal(schedule, copy))
+        return sensors[index_of(made)].second.fail(refused->key, refused->expected);
+      copy_nodes(schedule, copy, made);
+      copies_.erase(next);
+    }
+    for (std::size_t list = before; list < left_out_.lists.size(); ++list) left_out_.lists[list].entry.reset();
+    model::order(cluster_.frames);
   }
 
   void load_sensor(YamlMap& map, model::Sensor& item) {
@@ -284,6 +332,7 @@ class Loader {
   Findings& findings_;
   model::Cluster cluster_;
   left_out::Parts left_out_;
+  std::vector<std::pair<SensorId, likeness::SensorCopy>> copies_;  // for the sensors without device and host
   Names names_;
   Completion completion_;
 };

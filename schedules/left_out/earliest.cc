@@ -121,7 +121,8 @@ class Putting {
     for (std::size_t i = 0; i < items_.all.size(); ++i) {
       Item& item = items_.all[i];
       if (item.at) continue;
-      if (needs_[i].empty() && !item.fixed && item.place.kind != Place::Kind::kMeasurement)
+      const bool anywhere = item.list && parts_.lists[*item.list].anywhere;
+      if (needs_[i].empty() && !item.fixed && !anywhere && item.place.kind != Place::Kind::kMeasurement)
         return refuse(item, 0, "must be in the file: " + no_beginning(item));
       const auto from = earliest(i);
       if (!from) continue;

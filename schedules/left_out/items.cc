@@ -68,8 +68,8 @@ class Collector {
   void add_lists() {
     for (std::size_t l = 0; l < parts_.lists.size(); ++l) {
       const List& list = parts_.lists[l];
-      add({Place::Kind::kSlots, kNoSensor, {}, list.pdu}, fmt::format("frames[{}]", list.entry.value_or(0)), list.line,
-          list.repetition, cluster_.pdu(list.pdu).max_fragments() * Ticks{g_.gdStaticSlot},
+      add({Place::Kind::kSlots, kNoSensor, {}, list.pdu}, path_of(cluster_, list), list.line, list.repetition,
+          cluster_.pdu(list.pdu).max_fragments() * Ticks{g_.gdStaticSlot},
           list.at.instant ? std::nullopt : std::optional(at_slot(list.base_cycle, list.slot)), l);
     }
   }
@@ -96,6 +96,10 @@ class Collector {
 };
 
 }  // namespace
+
+std::string path_of(const model::Cluster& cluster, const List& list) {
+  return list.entry ? fmt::format("frames[{}]", *list.entry) : fmt::format("frames ({})", cluster.pdu(list.pdu).name);
+}
 
 Items items_of(const model::Cluster& cluster, const Parts& parts) { return Collector(cluster, parts).collect(); }
 

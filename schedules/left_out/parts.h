@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/ids.h"
@@ -29,8 +30,13 @@ struct List {
   int base_cycle = 0, repetition = 1, slot = 1;  // placeholders where they are left out
   Instant at;
   int line = 0;
-  std::optional<int> entry = std::nullopt;  // its number in the file's list `frames`
+  std::optional<int> entry =
+      std::nullopt;       // its number in the file's list `frames`; none for a list of a copied sensor
+  bool anywhere = false;  // takes the first free slots: its sensor measures freely
 };
+
+// As a file would have it.
+std::string path_of(const model::Cluster& cluster, const List& list);
 
 // All that a file leaves out.
 struct Parts {

@@ -100,6 +100,9 @@ WRONG = [
     ("a parameter below its range", "cluster", PAPER, "gdStaticSlot: 84", "gdStaticSlot: 3", "gdStaticSlot"),
     ("a key of another measurement", "cluster", PAPER, "measurement: scheduled", "measurement: scheduled, period: 80 ms",
      "period"),
+    ("an unknown key of a sensor that is like another", "cluster", PAPER, "sensors:\n", "sensors:\n  rear: {like: laser, mount: 1}\n",
+     "mount"),
+    ("a difference without a copy", "cluster", PAPER, "camera: {kind: camera", "camera: {raw: 9, kind: camera", "raw"),
     ("an unknown key in a file that extends another", "cluster", HEIR, "sensors:\n", "sensorz: ~\nsensors:\n", "sensorz"),
     ("a parameter beyond its range in such a file", "cluster", HEIR, "sensors:\n", "flexray: {gdNIT: 900}\nsensors:\n", "gdNIT"),
     ("a fraction of a whole number", "cluster", PAPER, "gSyncNodeMax: 5", "gSyncNodeMax: 5.5", "gSyncNodeMax"),
@@ -173,6 +176,15 @@ class Schemas(unittest.TestCase):
         for text in TRACKS + blocks:
             with self.subTest(text):
                 self.assertEqual(refusals("track", text), [])
+
+    def test_an_entry_may_be_like_another(self):
+        for old, new in [("kind: camera, device: camera, host: camera_pre, measurement: scheduled, base",
+                          "like: laser, kind: camera, device: camera, host: camera_pre, base"),
+                         ("sensors:\n", "sensors:\n  rear: {like: laser, raw: 9}\n"),
+                         ("pdus:\n", "pdus:\n  rear_scan: {like: laser_scan, sensor: camera}\n")]:
+            for kind, path in [("cluster", PAPER), ("plan", PLAN)]:
+                text = (SOURCE / path).read_text()
+                self.assertEqual(refusals(kind, text.replace(old, new)), [], new)
 
     def test_wrong_files_are_refused_with_the_key(self):
         for name, kind, file, old, new, key in WRONG:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/decimal.h"
+#include "schedules/file/likeness/inherit_alike.h"
 #include "schedules/model/limits.h"
 #include "schedules/model/repetitions.h"
 
@@ -121,7 +122,13 @@ class Filler {
   }
 
   void sensors() {
-    for (auto& [name, map] : root_.named_maps("sensors")) {
+    auto sensors = root_.named_maps("sensors");
+    for (auto& [name, map] : sensors)
+      if (map.has("like") && map.lacks("device") && map.lacks("host"))
+        findings_.add({map.file(), map.line("like"), map.path() + ".like", "",
+                       "needs device and host beside it: plan.sensors has the sensors whose nodes are copies"});
+    (void)file::likeness::inherit_alike(sensors, "sensor");
+    for (auto& [name, map] : sensors) {
       LeftOut& left = found_.sensors.emplace_back();
       if (!map.choice<bool>("measurement", {{"free", false}, {"scheduled", true}, {"completion", false}})) continue;
       left.instant = leave_instant(map, {"sensors", name}, "offset", kNone);
@@ -130,15 +137,10 @@ class Filler {
   }
 
   void pdus() {
-    std::vector<std::string> names, like;  // the PDU whose layout another one has; else empty
-    for (auto& [name, map] : root_.named_maps("pdus")) {
+    auto pdus = root_.named_maps("pdus");
+    (void)file::likeness::inherit_alike(pdus, "PDU");
+    for (auto& [name, map] : pdus) {
       const Path path{"pdus", name};
-      names.push_back(name);
-      like.push_back(map.has("like") ? map.text("like") : "");
-      if (!like.back().empty()) {
-        found_.layouts.push_back(!map.has("fragment_bytes") && !map.has("elements_per_fragment"));
-        continue;
-      }
       const bool bytes = payload_ && leave(map, path, "fragment_bytes", fmt::format("{}", payload_->longest));
       const bool elements = payload_ && !map.has("elements_per_fragment");
       if (elements) {
@@ -151,10 +153,6 @@ class Filler {
         findings_.add({map.file(), map.line(),
                        fmt::format("{}.{}", map.path(), bytes ? "fragment_bytes" : "elements_per_fragment"), "",
                        "is missing: a plan leaves out both fragment_bytes and elements_per_fragment, or none of them"});
-    }
-    for (std::size_t p = 0; p < names.size(); ++p) {
-      const auto other = static_cast<std::size_t>(std::find(names.begin(), names.end(), like[p]) - names.begin());
-      if (!like[p].empty()) found_.layouts[p] = found_.layouts[p] && other < names.size() && found_.layouts[other];
     }
   }
 

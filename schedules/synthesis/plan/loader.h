@@ -16,7 +16,7 @@
 //     cycle: {shortest: 5 ms, longest: 10 ms, step: 100 us}     lengths to choose from; instead of gdCycle
 //     payload: {shortest: 32, longest: 96, step: 2}             of a static slot, in bytes; instead of gPayloadLengthStatic
 //     rates: {SENSOR: {shortest: 34 ms, longest: 40 ms}}        allowed periods
-//     sensors: {NAME: {like: SENSOR, ...}}                      further sensors (schedules/synthesis/plan/likeness.h)
+//     sensors: {NAME: {like: SENSOR, ...}}                      further sensors (schedules/file/likeness/sensor_copy.h)
 //     chains: {NAME: {from: SENSOR, to: NODE.TASK, largest_age: 60 ms}}   all sensors to their use, if absent
 //     objective: [worst_age, data_age, slots, jitter, room, error, gap_error]   in this order; worst_age, if absent
 //     error: {...}, gap_error: {...}                            for these objectives (plan/demands.h)

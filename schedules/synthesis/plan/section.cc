@@ -4,13 +4,16 @@
 
 #include <algorithm>
 
+#include "schedules/file/likeness/layouts.h"
+#include "schedules/file/likeness/sensor_copy.h"
 #include "schedules/model/limits.h"
 #include "schedules/synthesis/plan/demands.h"
-#include "schedules/synthesis/plan/likeness.h"
 #include "schedules/synthesis/plan/ways.h"
 
 namespace ttf::schedules::synthesis::plan {
 namespace {
+
+namespace likeness = file::likeness;
 
 constexpr Range<Duration> kCycles{Duration::microseconds(10), Duration::milliseconds(16)};
 constexpr Range<Duration> kPeriods{Duration::milliseconds(1), Duration::milliseconds(1'024)};  // 64 cycles of 16 ms
@@ -21,6 +24,42 @@ const std::vector<std::pair<std::string, Goal>> kGoals{{"worst_age", Goal::kWors
                                                        {"slots", Goal::kSlots},        {"jitter", Goal::kJitter},
                                                        {"room", Goal::kRoom},          {"error", Goal::kError},
                                                        {"gap_error", Goal::kGapError}};
+
+// Adds a sensor that is like an earlier one. Its instant is left out.
+void add_alike(const std::string& name, YamlMap& map, Plan& plan) {
+  model::Cluster& cluster = plan.cluster;
+  likeness::SensorCopy copy;
+  copy.name = name;
+  copy.line = map.line();
+  const std::string like = map.text("like");
+  const auto kind = map.choice_if("kind", likeness::known_kinds());
+  likeness::read_differences(map, copy);
+  map.finish();
+  if (name.empty() || cluster.find_sensor(name)) return map.fail("", "is the name of an earlier sensor");
+  const auto from = cluster.find_sensor(like);
+  if (!from) {
+    if (map.has("like")) map.fail("like", "is not the name of an earlier sensor");
+    return;
+  }
+  model::Sensor made = cluster.sensor(*from);
+  copy.from = *from;
+  copy.kind = made.kind = kind.value_or(made.kind);
+  const likeness::Unfinished schedule{cluster, plan.tasks, plan.lists, plan.shortest_periods};
+  if (const auto refused = refusal(schedule, copy)) return map.fail(refused->key, refused->expected);
+  for (const NodeId node : {made.device, made.host})
+    plan.parameters.controllers.push_back(plan.parameters.controllers[index_of(node)]);
+  for (std::size_t p = 0; p < cluster.pdus.size(); ++p)
+    if (cluster.pdus[p].sensor == *from)
+      plan.free_layouts.push_back(plan.free_layouts[p] && copy.kind == cluster.sensor(*from).kind);
+  PlannedSensor planned = plan.sensors[index_of(*from)];
+  planned.at.instant = true;
+  planned.like = from;
+  plan.sensors.push_back(planned);
+  made.name = name;
+  made.line = copy.line;
+  cluster.sensors.push_back(std::move(made));
+  copy_nodes(schedule, copy, static_cast<SensorId>(cluster.sensors.size() - 1));
+}
 
 // A copy without a rate of its own has that of its original.
 void share_rates(Plan& plan) {

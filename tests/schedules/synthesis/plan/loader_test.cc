@@ -5,6 +5,7 @@
 
 #include "schedules/file/inherit.h"
 #include "schedules/file/loader.h"
+#include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/synthesis/plans.h"
 #include "tests/support/refusals.h"
 
@@ -74,6 +75,8 @@ TEST(PlanLoader, NamesEachMistake) {
       {"more than a header counts",
        "  objective:", "  sensors: {rear: {like: laser, objects: 255}, left: {like: camera, raw: 65}}\n  objective:",
        "plan.sensors.left.raw", "at most 63"},
+      {"a copy among the sensors", "sensors:\n  laser:", "sensors:\n  rear: {like: laser}\n  laser:",
+       "sensors.rear.like", "plan.sensors has the sensors whose nodes are copies"},
       {"like itself", "  objective:", "  sensors: {laser: {like: laser}}\n  objective:", "plan.sensors.laser",
        "is the name of an earlier sensor"},
   };
@@ -187,6 +190,17 @@ TEST(PlanLoader, InPlaceOfAClusterAPlanIsOneSentence) {
     EXPECT_EQ(error.findings()[0].sentence(),
               "plan.yaml:12: plan: is of a plan, not of a cluster; `ttfusion schedule synthesize` takes it");
   }
+}
+
+// The keys of the other sensor stand there, left-out ones, too.
+TEST(PlanLoader, ASensorOfItsClusterMayBeLikeAnother) {
+  const Plan paper = parse_plan(plan_text("paper"), "p");
+  const Plan plan = parse_plan(changed(plan_text("paper"), "camera: \\{kind: camera, (.*), measurement: scheduled",
+                                       "camera: {like: laser, kind: camera, $1"),
+                               "p");
+  EXPECT_EQ(dump(plan.cluster), dump(paper.cluster));
+  EXPECT_TRUE(plan.sensors[1].at.instant);
+  EXPECT_EQ(plan.sensors[1].at.repetition, paper.sensors[1].at.repetition);
 }
 
 // A list of one frame stands in its sender's key slot: a further sensor's host needs another one.

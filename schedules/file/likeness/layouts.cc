@@ -1,11 +1,11 @@
-#include "schedules/synthesis/plan/layouts.h"
+#include "schedules/file/likeness/layouts.h"
 
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace ttf::schedules::synthesis::plan {
+namespace ttf::schedules::file::likeness {
 namespace {
 
 struct Field {
@@ -43,9 +43,8 @@ const std::vector<Field> kScanHeader{{"sequence", "", 16}, {"fragment", "", 8}, 
 const std::vector<Field> kListHeader{
     {"sequence", "", 16}, {"fragment", "", 8}, {"count", "", 8}, {"timestamp", "us", 32}};
 
-KnownKind laser() {
-  return {"laser_emulator", "laser_preprocessing",
-          layout(64, 1300, 14, kScanHeader,
+KnownLayouts laser() {
+  return {layout(64, 1300, 14, kScanHeader,
                  {{"layer", "", 2}, {"azimuth", "rad", 14, -1.6384, 0.0002}, {"range", "m", 16, 0, 0.005, 200}}),
           layout(56, 25, 3, kListHeader,
                  {{"x", "m", 16, -163.84, 0.005},
@@ -62,9 +61,8 @@ KnownKind laser() {
                   {"valid", "", 4}})};
 }
 
-KnownKind camera() {
+KnownLayouts camera() {
   return {
-      "camera_emulator", "camera_preprocessing",
       layout(8, 40, 1, {{"sequence", "", 12}, {"fragment", "", 6}, {"count", "", 6}},
              {{"bearing", "rad", 14, -0.8192, 0.0001}, {"disparity", "px", 14, 0, 0.01}, {"width", "px", 12, 0, 0.25}}),
       layout(56, 25, 4, kListHeader,
@@ -78,9 +76,8 @@ KnownKind camera() {
               {"spare", "", 8}})};
 }
 
-KnownKind radar() {
-  return {"radar_emulator", "radar_preprocessing",
-          layout(64, 32, 8, kScanHeader,
+KnownLayouts radar() {
+  return {layout(64, 32, 8, kScanHeader,
                  {{"range", "m", 16, 0, 0.005},
                   {"azimuth", "rad", 16, -1.6384, 0.00005},
                   {"range_rate", "m/s", 16, -81.92, 0.0025},
@@ -97,7 +94,7 @@ KnownKind radar() {
 
 }  // namespace
 
-std::optional<KnownKind> known_kind(model::SensorKind kind) {
+std::optional<KnownLayouts> known_layouts(model::SensorKind kind) {
   switch (kind) {
     case model::SensorKind::kLaser: return laser();
     case model::SensorKind::kCamera: return camera();
@@ -108,4 +105,10 @@ std::optional<KnownKind> known_kind(model::SensorKind kind) {
   return std::nullopt;
 }
 
-}  // namespace ttf::schedules::synthesis::plan
+std::vector<std::pair<std::string_view, model::SensorKind>> known_kinds() {
+  auto kinds = model::kind_choices();
+  std::erase_if(kinds, [](const auto& one) { return !known_layouts(one.second); });
+  return kinds;
+}
+
+}  // namespace ttf::schedules::file::likeness
