@@ -31,6 +31,7 @@ std::string others(const PortNames& optional) {
 
 // Returns the sensor after which a port is called.
 std::optional<SensorId> sensor_of(const Cluster& cluster, const Direction& direction, std::string_view port) {
+  if (!direction.any) return std::nullopt;
   if (direction.key == "reads") return cluster.find_sensor(port);
   return port.ends_with(kObjects) ? cluster.find_sensor(port.substr(0, port.size() - kObjects.size())) : std::nullopt;
 }
@@ -44,7 +45,7 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
                                    fmt::format("must bind the port {}: step {} needs it", port, task.step)));
   for (const PortBinding& binding : direction.bound) {
     const bool known = direction.needed.contains(binding.port) || direction.optional.contains(binding.port);
-    const auto sensor = direction.any ? sensor_of(cluster, direction, binding.port) : std::nullopt;
+    const auto sensor = sensor_of(cluster, direction, binding.port);
     const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
     if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
       findings.add(cluster.finding(
