@@ -47,6 +47,7 @@ constexpr const char* kExtends = "extends";
 
 // An entry with this key has another's value for each key that it lacks.
 constexpr const char* kLike = "like";
+Json is_alike() { return {{"required", {kLike}}}; }
 
 // A mapping has a schema of its own here. Another value keeps its schema, which then stands once.
 Json or_null(Json schema) {
@@ -76,6 +77,7 @@ Json lacking(Json schema) {
 // Returns the schema of a mapping that changes another one: null removes a key. Lists stand for themselves.
 Json changing(Json schema) {
   if (!schema.is_object()) return schema;
+  if (schema.contains("if") && schema["if"] == is_alike()) return changing(schema["then"]);
   for (const char* of : {"properties", "patternProperties"})
     if (schema.contains(of))
       for (auto& [key, value] : schema[of].items())
@@ -116,7 +118,7 @@ class Schema {
     if (mapping == nullptr) return {{"type", "object"}};
     const Cases cases = cases_in(*mapping, around);
     if (!may_be_alike(cases)) return mapping_of(cases);
-    return {{"if", {{"required", {kLike}}}},
+    return {{"if", is_alike()},
             {"then", lacking(mapping_of(cases_with_like(cases, "true")))},
             {"else", mapping_of(cases_with_like(cases, "false"))}};
   }

@@ -71,6 +71,10 @@ void simplify(const Mapping& mapping, const std::string& key, std::vector<Condit
   }
   while (join_some(where, false)) {
   }
+  for (Conditions& conditions : where)
+    std::erase_if(conditions, [](const Condition& one) {
+      return one.of == Condition::Of::kPresence && one.values.size() == 2;  // present or not
+    });
 }
 
 class Walk {
