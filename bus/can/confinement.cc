@@ -8,7 +8,7 @@ namespace ttf::bus::can {
 namespace {
 
 using E = ConfinementEvent;
-using S = ErrorState;
+using S = CanState;
 
 // Rules 9 to 11: the counters of a controller on the bus set its state.
 Confinement judged(Confinement c) {
@@ -99,15 +99,6 @@ constexpr bool is_in_order() {
 static_assert(is_in_order(), "a pair without a row, or rows in another order");
 
 }  // namespace
-
-std::string_view text(ErrorState state) {
-  switch (state) {
-    case S::kActive: return "error active";
-    case S::kPassive: return "error passive";
-    case S::kBusOff: return "bus off";
-  }
-  TTF_CHECK(false, "error state {}", static_cast<int>(state));
-}
 
 Confinement step(const Confinement& now, ConfinementEvent event) {
   TTF_CHECK(event < E::kEnd, "event {}", static_cast<int>(event));

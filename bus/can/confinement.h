@@ -10,14 +10,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
+
+#include "recording/records/records.h"
 
 namespace ttf::bus::can {
 
-// The values are part of recordings: append only.
-enum class ErrorState : std::uint8_t { kActive = 0, kPassive = 1, kBusOff = 2 };
+using recording::records::CanState;
 inline constexpr std::size_t kErrorStates = 3;
-std::string_view text(ErrorState state);  // "error active"
 
 enum class ConfinementEvent : std::uint8_t {
   kReceiverError,         // 1: a receiver detected an error, not a bit error in a flag of its own
@@ -42,7 +41,7 @@ inline constexpr int kMostReceiveErrors = 255;  // an eight-bit register; all fr
 inline constexpr int kRecoverySequences = 128;
 
 struct Confinement {
-  ErrorState state = ErrorState::kActive;
+  CanState state = CanState::kActive;
   int transmit_errors = 0;  // bus off: at least 256
   int receive_errors = 0;   // 0..255
   int sequences = 0;        // bus off: of eleven recessive bits so far

@@ -10,11 +10,11 @@
 #include <span>
 
 #include "bus/can/frame_bits.h"
+#include "recording/records/records.h"
 
 namespace ttf::bus::can {
 
-// The values are part of recordings: append only.
-enum class CanError : std::uint8_t { kNone = 0, kBit = 1, kStuff = 2, kForm = 3, kCrc = 4, kAcknowledgement = 5 };
+using recording::records::CanError;
 
 class Decoder {
  public:

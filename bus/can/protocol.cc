@@ -34,7 +34,7 @@ void Protocol::hold_off() {
 }
 
 void Protocol::release() {
-  TTF_CHECK(phase_ == Phase::kOff && confinement_.state == ErrorState::kBusOff, "released in phase {}",
+  TTF_CHECK(phase_ == Phase::kOff && confinement_.state == CanState::kBusOff, "released in phase {}",
             static_cast<int>(phase_));
   become(Phase::kBusOff);
 }
@@ -86,7 +86,7 @@ void Protocol::drive_next() {
 
 void Protocol::count(ConfinementEvent of_transmitter, ConfinementEvent of_receiver) {
   confinement_ = step(confinement_, transmitter_ ? of_transmitter : of_receiver);
-  if (confinement_.state == ErrorState::kBusOff) become(Phase::kBusOff);
+  if (confinement_.state == CanState::kBusOff) become(Phase::kBusOff);
 }
 
 Protocol::Brought Protocol::end_of_bit(bool recessive) {
@@ -178,7 +178,7 @@ Protocol::Brought Protocol::received(bool recessive, const Decoder::Taken& taken
 
 // The state before the error decides which flag it sends.
 Protocol::Brought Protocol::fail(CanError error, bool stuff_bit_overwritten) {
-  const bool active = confinement_.state == ErrorState::kActive;
+  const bool active = confinement_.state == CanState::kActive;
   lone_ = !active && transmitter_ && error == CanError::kAcknowledgement;
   Brought brought;
   brought.error = error;
@@ -200,7 +200,7 @@ void Protocol::raise_flag(bool active, bool of_error) {
 void Protocol::active_flag_bit(bool recessive) {
   if (recessive) {
     // A bit error in its own flag: it sends another.
-    const bool active = confinement_.state == ErrorState::kActive;
+    const bool active = confinement_.state == CanState::kActive;
     raise_flag(active, true);
     return count(E::kTransmitterFlagError, E::kReceiverFlagError);
   }
@@ -247,7 +247,7 @@ Protocol::Brought Protocol::delimiter_bit(bool recessive) {
 void Protocol::intermission_bit(bool recessive) {
   if (!recessive) return count_ < kIntermissionBits - 1 ? raise_flag(true, false) : receive_start();
   if (++count_ < kIntermissionBits) return;
-  become(transmitter_ && confinement_.state == ErrorState::kPassive ? Phase::kSuspend : Phase::kIdle);
+  become(transmitter_ && confinement_.state == CanState::kPassive ? Phase::kSuspend : Phase::kIdle);
 }
 
 void Protocol::bus_off_bit(bool recessive) {
@@ -255,7 +255,7 @@ void Protocol::bus_off_bit(bool recessive) {
   if (count_ < kSequenceBits) return;
   count_ = 0;
   confinement_ = step(confinement_, E::kElevenRecessive);
-  if (confinement_.state == ErrorState::kBusOff) return;
+  if (confinement_.state == CanState::kBusOff) return;
   transmitter_ = false;
   become(Phase::kIdle);
 }

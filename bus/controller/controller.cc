@@ -129,7 +129,7 @@ void FlexRayController::State::handle(Microticks at) {
   if (listen_timer == at) {
     listen_timer = kNever<Microticks>;
     // Arriving activity may have stopped the timer, which restarts when the channels are idle again.
-    const bool stopped = listen_timer_follows_channels(poc.kind) && busy();
+    const bool stopped = poc::listen_timer_follows_channels(poc.kind) && busy();
     return tell({stopped ? poc::PocEventKind::kChannelActive : poc::PocEventKind::kListenTimeout}, at);
   }
   if (wakeup_sent == at) {
@@ -154,7 +154,7 @@ void FlexRayController::State::handle(Microticks at) {
       [[fallthrough]];
     case Segment::kRest: {
       const poc::StartupFramesSeen ended = sync.startup_frames(poc.reference);
-      network_management.end_cycle(!in_startup(poc.kind));
+      network_management.end_cycle(!poc::in_startup(poc.kind));
       clock->next_cycle(next_rate);
       lay_cycle();
       return enter_cycle(ended, at);
@@ -217,7 +217,7 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
 void FlexRayController::State::close_static_segment(Microticks at) {
   const std::int64_t cycle = clock->cycle();
   note_what_goes_on();
-  if (!in_startup(poc.kind)) tell_slot_problems(at);
+  if (!poc::in_startup(poc.kind)) tell_slot_problems(at);
   board.end_segment();
   const int valid_a = sync.valid(schedules::model::Channel::kA), valid_b = sync.valid(schedules::model::Channel::kB);
   (cycle % 2 == 0 ? sync_status.VSAE : sync_status.VSAO) = valid_a;
@@ -235,8 +235,8 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   const timebase::Correction offset = timebase::offset_correction(sync.odd(), p.pOffsetCorrectionOut);
   const timebase::Correction rate = timebase::rate_correction(sync.measurements(), clock->rate_correction(),
                                                               p.pClusterDriftDamping, p.pRateCorrectionOut);
-  if (cluster.synchronisation && corrects_clock(poc.kind)) {
-    const bool external = !in_startup(poc.kind);
+  if (cluster.synchronisation && poc::corrects_clock(poc.kind)) {
+    const bool external = !poc::in_startup(poc.kind);
     clock->set_offset_correction(offset.value + (external ? extern_offset : 0));
     next_rate = rate.value + (external ? extern_rate : 0);
   }

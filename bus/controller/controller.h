@@ -40,27 +40,17 @@
 #include "bus/ports/flexray_port.h"
 #include "core/ids.h"
 #include "core/time.h"
+#include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 #include "timebase/clock_sync.h"
 #include "timebase/cycle_clock.h"
 
 namespace ttf::bus::controller {
 
-// The status of a slot on a channel (FlexRay 2.1A vSS), and at the end the host's view of a valid frame. The values
-// are the bits of records::SlotProblem.
-enum SlotStatus : std::uint8_t {
-  kValidFrame = 0,
-  kSyntaxError = 1,
-  kContentError = 2,
-  kBoundaryViolation = 4,
-  kTransmissionConflict = 8,
-  kNoFrame = 16,
-  // A valid frame that is not in the schedule's slot, cycle and channel. Or its message id, its length or its payload
-  // is not that of the slot's list.
-  kUnexpectedFrame = 32,
-};
+using recording::records::SlotStatus;
+using enum recording::records::SlotStatus;
 
-// The same status as a host reads it, of one static slot on one channel in one cycle. No flag set: the channel
+// The status of a slot as a host reads it, of one static slot on one channel in one cycle. No flag set: the channel
 // was silent, as always in the node's own slots. Several may be set, for a valid frame with noise after it.
 struct SlotSeen {
   bool valid_frame = false;
@@ -189,7 +179,7 @@ class FlexRayController {
   const timebase::CycleClock* synchronised_clock() const { return synchronised() ? &*clock_ : nullptr; }
   const poc::PocState& state() const { return poc_; }
   // Returns whether the clock is the cluster's, so that the host may rely on it.
-  bool synchronised() const { return in_operation(poc_.kind); }
+  bool synchronised() const { return poc::in_operation(poc_.kind); }
   // Returns the status of a static slot (1..gNumberOfStaticSlots) in the static segment that ended last.
   // Activity that outlasts the segment has violated boundaries; its other errors are added when it ends.
   SlotSeen slot_status(int slot, schedules::model::Channel channel) const;

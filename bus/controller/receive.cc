@@ -55,7 +55,7 @@ void FlexRayController::State::receive(const ports::Reception& reception) {
   const auto c = index_of(reception.channel);
   // A controller that is sending cannot decode other signals.
   const bool conflict = talks_over(reception, c);
-  if (clock && !in_startup(poc.kind)) return judge(reception, conflict);
+  if (clock && !poc::in_startup(poc.kind)) return judge(reception, conflict);
   hear_in_startup(reception, conflict);
   due = next_event();
 }
@@ -214,7 +214,7 @@ void FlexRayController::State::judge_elsewhere(const ports::Reception& reception
   const Macroticks window = window_start();
   const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
                          reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
-  if (in_startup(poc.kind) || (in_window && is_cas(reception) && !conflict)) return;
+  if (poc::in_startup(poc.kind) || (in_window && is_cas(reception) && !conflict)) return;
   if (!in_window) errors |= kBoundaryViolation;
   events.slot_problem(clock->cycle(), 0, reception.channel, static_cast<SlotStatus>(errors | kSyntaxError),
                       reception.end);
@@ -233,7 +233,7 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
   status.errors[c] |= errors;
   if (errors != 0) {
     // Activity that outlasts the segment is judged after the segment has been closed.
-    if (!board.under_way() && !in_startup(poc.kind))
+    if (!board.under_way() && !poc::in_startup(poc.kind))
       events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
     return;
   }
@@ -244,7 +244,7 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
 void FlexRayController::State::accept(const ports::Reception& reception, Channel channel, int slot,
                                       const FrameSlot* expected) {
   const wire::FrameHeader& header = reception.frame.header;
-  if (!in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
+  if (!poc::in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
   if (header.sync)
     hear_sync(reception, slot,
               channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB);
@@ -252,7 +252,7 @@ void FlexRayController::State::accept(const ports::Reception& reception, Channel
   if (expected != nullptr && (expected->pdu == kNoPdu || store(*expected, reception))) return;
   board.at(slot).errors[index_of(channel)] |= kUnexpectedFrame;
   // As of activity that outlasts the segment, the segment's own report is out.
-  if (!board.under_way() && !in_startup(poc.kind))
+  if (!board.under_way() && !poc::in_startup(poc.kind))
     events.slot_problem(clock->cycle(), slot, channel, kUnexpectedFrame, reception.end);
 }
 
@@ -290,12 +290,12 @@ void FlexRayController::State::judge_dynamic(const ports::Reception& reception, 
 
   if (errors == 0 && !is_of_dynamic_slot(header, slot)) errors |= kContentError;
   if (errors == 0) {
-    if (!in_startup(poc.kind))
+    if (!poc::in_startup(poc.kind))
       events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
     const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
     if (!is_as_expected(reception.frame, expected) || !store(*expected, reception)) errors |= kUnexpectedFrame;
   }
-  if (errors != 0 && !in_startup(poc.kind))
+  if (errors != 0 && !poc::in_startup(poc.kind))
     events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
 }
 
@@ -309,7 +309,7 @@ bool FlexRayController::State::is_as_expected(const wire::DecodedFrame& heard, c
 
 // Returns false if the frame's payload is no fragment of this slot's list.
 bool FlexRayController::State::store(const FrameSlot& slot, const ports::Reception& reception) {
-  if (slot.pdu == kNoPdu || reception.frame.header.null_frame || in_startup(poc.kind)) return true;
+  if (slot.pdu == kNoPdu || reception.frame.header.null_frame || poc::in_startup(poc.kind)) return true;
   cni::IncomingList& list = cni.incoming(slot.pdu);
   const auto bytes = static_cast<std::size_t>(cluster.pdu(slot.pdu).fragment_bytes);
   const cni::ArrivalEffect effect =

@@ -56,7 +56,7 @@ void FlexRayController::State::judge_symbol_window(const ports::Reception& recep
 }
 
 void FlexRayController::State::close_symbol_window() {
-  window_last = in_startup(poc.kind) ? decltype(window_last){} : window_seen;
+  window_last = poc::in_startup(poc.kind) ? decltype(window_last){} : window_seen;
   segment = Segment::kRest;
 }
 

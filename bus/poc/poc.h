@@ -41,37 +41,17 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "bus/poc/event.h"
 #include "bus/poc/reason.h"
 #include "core/time.h"
+#include "recording/records/records.h"
 #include "schedules/model/flexray_parameters.h"
 
 namespace ttf::bus::poc {
 
-// Values: E-Ray CCSV.POCS. A step passes through wake-up standby, startup prepare, abort startup and startup
-// success; its reason names them.
-enum class PocKind : std::uint8_t {
-  kDefaultConfig = 0x00,
-  kReady = 0x01,
-  kNormalActive = 0x02,
-  kNormalPassive = 0x03,
-  kHalt = 0x04,
-  kConfig = 0x0F,
-  kWakeupListen = 0x11,
-  kWakeupSend = 0x12,
-  kWakeupDetect = 0x13,
-  kColdstartListen = 0x21,
-  kColdstartCollisionResolution = 0x22,
-  kColdstartConsistencyCheck = 0x23,
-  kColdstartGap = 0x24,
-  kColdstartJoin = 0x25,
-  kIntegrationColdstartCheck = 0x26,
-  kIntegrationListen = 0x27,
-  kIntegrationConsistencyCheck = 0x28,
-  kInitialiseSchedule = 0x29,
-};
+// A step passes through wake-up standby, startup prepare, abort startup and startup success; its reason names them.
+using recording::records::PocKind;
 inline constexpr std::array kAllPocKinds = {
     PocKind::kDefaultConfig,
     PocKind::kConfig,
@@ -212,7 +192,5 @@ bool has_schedule(PocKind kind);
 bool listen_timer_follows_channels(PocKind kind);
 // Returns whether computed corrections are applied: not while only this node's own frame is on the bus.
 bool corrects_clock(PocKind kind);
-
-std::string_view to_text(PocKind kind);
 
 }  // namespace ttf::bus::poc

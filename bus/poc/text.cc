@@ -2,30 +2,6 @@
 
 namespace ttf::bus::poc {
 
-std::string_view to_text(PocKind kind) {
-  switch (kind) {
-    case PocKind::kDefaultConfig: return "default config";
-    case PocKind::kConfig: return "config";
-    case PocKind::kReady: return "ready";
-    case PocKind::kHalt: return "halt";
-    case PocKind::kWakeupListen: return "wakeup listen";
-    case PocKind::kWakeupSend: return "wakeup send";
-    case PocKind::kWakeupDetect: return "wakeup detect";
-    case PocKind::kColdstartListen: return "coldstart listen";
-    case PocKind::kColdstartCollisionResolution: return "coldstart collision resolution";
-    case PocKind::kColdstartConsistencyCheck: return "coldstart consistency check";
-    case PocKind::kColdstartGap: return "coldstart gap";
-    case PocKind::kColdstartJoin: return "coldstart join";
-    case PocKind::kIntegrationListen: return "integration listen";
-    case PocKind::kInitialiseSchedule: return "initialise schedule";
-    case PocKind::kIntegrationColdstartCheck: return "integration coldstart check";
-    case PocKind::kIntegrationConsistencyCheck: return "integration consistency check";
-    case PocKind::kNormalActive: return "normal active";
-    case PocKind::kNormalPassive: return "normal passive";
-  }
-  return "";
-}
-
 std::string_view to_text(PocEventKind kind) {
   switch (kind) {
     case PocEventKind::kPowerOn: return "power on";

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "bus/wire/flexray_frame.h"
 #include "core/time.h"
@@ -30,6 +31,15 @@ enum class Signal : std::uint8_t {
   kWakeup,       // a wake-up pattern
   kUndecodable,  // any other activity: noise, a collision, a frame without an end
 };
+constexpr std::string_view to_text(Signal signal) {
+  switch (signal) {
+    case Signal::kFrame: return "a frame";
+    case Signal::kCas: return "a collision avoidance symbol";
+    case Signal::kWakeup: return "a wake-up pattern";
+    case Signal::kUndecodable: return "noise";
+  }
+  return "";
+}
 
 struct Transmission {
   schedules::model::Channel channel{};

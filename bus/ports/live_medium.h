@@ -31,6 +31,7 @@
 #include "bus/ports/can_port.h"
 #include "bus/ports/flexray_port.h"
 #include "core/time.h"
+#include "recording/records/records.h"
 
 namespace ttf::bus::ports {
 
@@ -58,12 +59,11 @@ struct LiveSignal {
   bool tells_late = false;           // a sync frame: receivers learn how late it left
 };
 
-// A report of a CAN's controller about an error, or about its state of error confinement. The numbers are those of
-// recording::records::CanErrorFrame and CanStateChanged.
+// A report of a CAN's controller about an error, or about its state of error confinement.
 struct CanReport {
-  std::uint8_t error = 0;  // 0: it is about the state only
+  recording::records::CanError error{};  // none: it is about the state only
   bool as_transmitter = false;
-  std::optional<std::uint8_t> state;                      // it has this one
+  std::optional<recording::records::CanState> state;      // it has this one
   std::uint16_t transmit_errors = 0, receive_errors = 0;  // 0 where the carrier does not tell
 };
 

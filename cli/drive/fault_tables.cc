@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 
 #include "core/counted.h"
 #include "evaluation/faults/reach.h"
+#include "recording/records/words.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {
@@ -21,6 +21,7 @@ using evaluation::faults::GuardianSeen;
 using evaluation::faults::Harm;
 using evaluation::faults::HarmSeen;
 using evaluation::faults::StateSeen;
+using recording::records::CanError;
 
 double seconds(TrueTime at) { return (at - TrueTime{}).seconds(); }
 std::string cell(TrueTime at) { return report::drawing::cell(seconds(at), 6); }
@@ -102,9 +103,6 @@ std::string states_text(const FaultFindings& findings, const schedules::model::C
   return table.rows() == 0 ? "No node changed its state.\n" : table.text();
 }
 
-constexpr std::array<std::string_view, CanSeen::kErrors> kCanErrors{"",     "bit", "stuff",
-                                                                    "form", "CRC", "acknowledgement"};
-
 std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster) {
   return bus < cluster.can_buses.size() ? cluster.can_buses[bus].name : "-";
 }
@@ -120,7 +118,7 @@ std::string cans_text(const FaultFindings& findings, const schedules::model::Clu
     for (std::size_t e = 0; e < seen.errors.size(); ++e) {
       if (seen.errors[e] == 0) continue;
       all += seen.errors[e];
-      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", seen.errors[e], kCanErrors[e]);
+      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", seen.errors[e], to_text(static_cast<CanError>(e)));
     }
     table.add({can_name(seen.bus, cluster), node_name(seen.node, cluster), cell(seen.first), fmt::format("{}", all),
                fmt::format("{}", seen.passive), fmt::format("{}", seen.bus_off), words.empty() ? "-" : words});
@@ -280,7 +278,8 @@ nlohmann::ordered_json cans_json(const std::vector<CanSeen>& cans, const schedul
                                   {"first_s", seconds(seen.first)},
                                   {"error_passive", seen.passive},
                                   {"bus_off", seen.bus_off}};
-    for (std::size_t e = 1; e < seen.errors.size(); ++e) one["error_frames"][kCanErrors[e]] = seen.errors[e];
+    for (std::size_t e = 1; e < seen.errors.size(); ++e)
+      one["error_frames"][to_text(static_cast<CanError>(e))] = seen.errors[e];
     json.push_back(std::move(one));
   }
   return json;

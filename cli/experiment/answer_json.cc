@@ -123,7 +123,7 @@ nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepA
   for (const answers::ExpectationAnswer& expectation : answer.expectations) {
     nlohmann::ordered_json one{{"expected", expectation.text},
                                {"holds", expectation.holds()},
-                               {"outcome", answers::words(expectation.outcome)},
+                               {"outcome", to_text(expectation.outcome)},
                                {"where_not", nlohmann::ordered_json::array()},
                                {"why_not", nlohmann::ordered_json::array()}};
     for (const answers::Unmet& unmet : expectation.unmet) {

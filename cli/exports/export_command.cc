@@ -168,7 +168,7 @@ int run_export(const ExportOptions& options) {
   write_file(options.out, converted(options.format, collector, frames, names));
   std::size_t flexray = 0, can = 0, symbols = 0;
   for (const recording::exports::LoggedFrame& frame : frames)
-    ++(frame.symbol != 0 ? symbols : frame.flexray ? flexray : can);
+    ++(frame.symbol ? symbols : frame.flexray ? flexray : can);
   const bool can_only = options.format == "candump";
   if (options.json)
     fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",

@@ -5,18 +5,21 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/poc/poc.h"
 #include "core/counted.h"
+#include "recording/records/words.h"
 
 namespace ttf::cli::launch {
 namespace {
+
+using recording::records::PocKind;
 
 // Returns why a node was not in operation, or no value if it was.
 std::optional<std::string> why_absent(const NodeAtEnd& node) {
   if (node.external) return node.state.empty() ? std::nullopt : std::optional(node.state);
   if (!node.ending) return "never started";
   if (!node.ending->success()) return node.ending->text();
-  if (!node.on_flexray || node.state == bus::poc::to_text(bus::poc::PocKind::kNormalActive)) return std::nullopt;
+  const auto state = recording::records::from_text<PocKind>(node.state);
+  if (!node.on_flexray || state == PocKind::kNormalActive) return std::nullopt;
   return node.state.empty() ? "no state reported" : node.state;
 }
 
@@ -63,9 +66,7 @@ std::vector<std::string> states_at_end(const schedules::model::Cluster& cluster,
                                        const std::vector<evaluation::cluster::NodeStartup>& changes) {
   std::vector<std::string> states;
   for (const schedules::model::Node& node : cluster.nodes)
-    states.emplace_back(!node.flexray ? ""
-                        : cold        ? "not powered on"
-                                      : bus::poc::to_text(bus::poc::PocKind::kNormalActive));
+    states.emplace_back(!node.flexray ? "" : cold ? "not powered on" : to_text(PocKind::kNormalActive));
   for (const evaluation::cluster::NodeStartup& node : changes)
     if (cluster.node(node.node).flexray && !node.state.empty()) states[index_of(node.node)] = node.state;
   return states;

@@ -35,7 +35,7 @@ class LoggedCommands final : public recording::records::Sink {
   bool wants_frames() const override { return false; }
   using recording::records::Sink::on;
   void on(const recording::records::CommandTaken& taken) override {
-    if (taken.verdict == recording::records::kApplied)
+    if (taken.verdict == recording::records::CommandVerdict::kApplied)
       (void)driven_.insert({TrueTime{} + (taken.from - start_), taken.acceleration, taken.steering});
   }
 

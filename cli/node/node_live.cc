@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "bus/can/confinement.h"
 #include "cli/drive/drive_setup.h"
 #include "cli/live_media/dds_configuration.h"
 #include "cli/live_media/live_media.h"
@@ -28,6 +27,7 @@
 #include "nodes/runner/runner.h"
 #include "nodes/runner/thread_privileges.h"
 #include "recording/records/tee.h"
+#include "recording/records/words.h"
 #include "sim/drives/startup.h"
 #include "sim/drives/step_catalog.h"
 #include "sim/drives/surroundings.h"
@@ -49,11 +49,11 @@ nlohmann::ordered_json health_json(const Health& health) {
       {"drops", health.drops()}};
   if (health.state) {
     json["sync_precision_us"] = in_us(health.largest_offset);
-    json["state"] = bus::poc::to_text(*health.state);
+    json["state"] = to_text(*health.state);
   }
   if (health.can_state) {
     json["can_errors"] = health.can_errors;
-    json["can_state"] = bus::can::text(static_cast<bus::can::ErrorState>(*health.can_state));
+    json["can_state"] = to_text(*health.can_state);
   }
   if (health.vehicle) json["vehicle"] = node_set::vehicle_json(*health.vehicle);
   json["late_frames"] = health.timing.late_frames;

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "bus/can/confinement.h"
 #include "bus/dds/ros/publisher.h"
+#include "recording/records/words.h"
 #include "sim/drives/observer.h"
 #include "sim/drives/step_catalog.h"
 
@@ -100,11 +100,12 @@ void DdsTopics::health(const nodes::runner::Health& health, TrueTime at) {
                                                         {"wake-up lateness p99 [us]", values[5]},
                                                         {"wake-up lateness max [us]", values[6]},
                                                         {"largest offset correction [us]", values[7]}}};
-  const auto can = static_cast<bus::can::ErrorState>(health.can_state.value_or(recording::records::kCanErrorActive));
-  std::string words(health.state ? bus::poc::to_text(*health.state) : "running");
-  if (can != bus::can::ErrorState::kActive) words += fmt::format(", CAN {}", bus::can::text(can));
+  using recording::records::CanState;
+  const CanState can = health.can_state.value_or(CanState::kActive);
+  std::string words(health.state ? to_text(*health.state) : "running");
+  if (can != CanState::kActive) words += fmt::format(", CAN {}", to_text(can));
   const bool good =
-      (!health.state || *health.state == bus::poc::PocKind::kNormalActive) && can == bus::can::ErrorState::kActive;
+      (!health.state || *health.state == recording::records::PocKind::kNormalActive) && can == CanState::kActive;
   publisher_.health(
       {at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_, words, told});
 }

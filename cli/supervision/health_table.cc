@@ -6,16 +6,18 @@
 #include <cmath>
 #include <limits>
 
-#include "bus/can/confinement.h"
-#include "bus/poc/poc.h"
 #include "cli/supervision/lines.h"
 #include "core/counted.h"
+#include "recording/records/words.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::supervision {
 namespace {
 
 using Json = nlohmann::json;
+using recording::records::CanState;
+using recording::records::from_text;
+using recording::records::PocKind;
 
 // Reads a message's values and keeps its first error, in words.
 class Reader {
@@ -72,8 +74,7 @@ constexpr std::size_t kNamed = 3;  // nodes that are not up, in the summary
 std::string state_words(const std::string& process, const NodeHealth& health) {
   std::string words = process;
   if (!health.state.empty()) words = (process == kRunning ? "" : process + ", ") + printable(health.state);
-  if (!health.can_state.empty() && health.can_state != bus::can::text(bus::can::ErrorState::kActive))
-    words += ", CAN " + printable(health.can_state);
+  if (!health.is_can_active) words += ", CAN " + printable(health.can_state);
   return words;
 }
 
@@ -96,6 +97,8 @@ std::optional<std::string> HealthTable::update(std::size_t node, const Json& hea
   reader.count("drops", next.drops);
   reader.word("state", next.state);
   reader.word("can_state", next.can_state);
+  next.is_active = next.state.empty() || from_text<PocKind>(next.state) == PocKind::kNormalActive;
+  next.is_can_active = next.can_state.empty() || from_text<CanState>(next.can_state) == CanState::kActive;
   if (reader.wrong()) return reader.wrong();
   if (const Json* const given = reader.find("lateness_us")) {
     Reader lateness(*given, "health.lateness_us");
@@ -121,8 +124,10 @@ void HealthTable::begin_process(std::size_t node) {
 void HealthTable::end_process(std::size_t node, std::string how, bool well) {
   rows_[node].process = std::move(how);
   if (well) return;
-  rows_[node].health.state.clear();
-  rows_[node].health.can_state.clear();
+  NodeHealth& health = rows_[node].health;
+  health.state.clear();
+  health.can_state.clear();
+  health.is_active = health.is_can_active = true;
 }
 
 void HealthTable::set_external(std::size_t node, const ExternalHealth& health) {
@@ -131,11 +136,7 @@ void HealthTable::set_external(std::size_t node, const ExternalHealth& health) {
   rows_[node].health.missed_slots = health.missing;
 }
 
-bool HealthTable::Row::up() const {
-  return sending ? *sending
-                 : process == kRunning &&
-                       (health.state.empty() || health.state == bus::poc::to_text(bus::poc::PocKind::kNormalActive));
-}
+bool HealthTable::Row::up() const { return sending ? *sending : process == kRunning && health.is_active; }
 
 std::uint64_t HealthTable::Row::restarts() const { return processes > 1 ? processes - 1 : 0; }
 

@@ -1,13 +1,6 @@
 #include "evaluation/cluster/startup_account.h"
 
-#include "bus/poc/poc.h"
-
 namespace ttf::evaluation::cluster {
-namespace {
-
-constexpr auto kNormalActive = static_cast<std::uint8_t>(bus::poc::PocKind::kNormalActive);
-
-}  // namespace
 
 NodeStartup& StartupAccount::of(NodeId node) {
   NodeStartup& startup = nodes_[node];
@@ -28,7 +21,7 @@ void StartupAccount::on(const recording::records::StateChanged& change) {
   startup.state = change.to_name;
   startup.why = change.why;
   if (!change.consequence.empty()) startup.why += "; " + std::string(change.consequence);
-  if (change.to != kNormalActive || startup.active) return;
+  if (change.to != recording::records::PocKind::kNormalActive || startup.active) return;
   // It happens at the start of a cycle; global time counts whole macroticks.
   const std::int64_t cycle = cycle_.ns > 0 ? (change.stamp.global.ns + cycle_.ns / 2) / cycle_.ns : 0;
   startup.active = {change.stamp.true_time, cycle, std::string(change.from_name), startup.why};

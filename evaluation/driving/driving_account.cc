@@ -9,6 +9,9 @@
 namespace ttf::evaluation::driving {
 namespace {
 
+using recording::records::CommandVerdict;
+using recording::records::WarningKind;
+
 // A slower approach than walking pace is no collision course.
 constexpr double kSlowestClosing_mps = 0.5;
 constexpr double kBrakes = 1.0;  // [m/s^2]
@@ -112,7 +115,7 @@ void DrivingAccount::on(const recording::records::ImageWritten& image) {
   // The image's object in the way is found as the true one is.
   std::optional<double> nearest, speed;
   for (const recording::records::ImageObject& object : image.objects) {
-    if ((object.status & recording::records::kImageConfirmed) == 0) continue;
+    if (!has(object.status, recording::records::ImageStatus::kConfirmed)) continue;
     recording::records::TruthState believed;
     believed.x = object.x;
     believed.y = object.y;
@@ -147,10 +150,10 @@ void DrivingAccount::note_jerk() {
 
 void DrivingAccount::note_hazards(double time_to_collision) {
   for (std::size_t service = 0; service < config_.hazard_time_s.size(); ++service)
-    warnings_.judge(service, ego_->at, time_to_collision < config_.hazard_time_s[service]);
-  if (lane_) warnings_.judge(recording::records::kLaneDeparture, ego_->at, lane_->judge(*ego_));
-  warnings_.judge(recording::records::kBlindSpotLeft, ego_->at, beside_[0]);
-  warnings_.judge(recording::records::kBlindSpotRight, ego_->at, beside_[1]);
+    warnings_.judge(static_cast<WarningKind>(service), ego_->at, time_to_collision < config_.hazard_time_s[service]);
+  if (lane_) warnings_.judge(WarningKind::kLaneDeparture, ego_->at, lane_->judge(*ego_));
+  warnings_.judge(WarningKind::kBlindSpotLeft, ego_->at, beside_[0]);
+  warnings_.judge(WarningKind::kBlindSpotRight, ego_->at, beside_[1]);
 }
 
 void DrivingAccount::note_beside(const recording::records::TruthState& object) {
@@ -183,12 +186,12 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
   if (taken.stamp.true_time < from_) return;
   note_jitter(taken);
   switch (taken.verdict) {
-    case recording::records::kApplied: ++findings_.applied; break;
-    case recording::records::kNoNewCommand: ++findings_.none_new; break;
-    case recording::records::kInvalidCommand: ++findings_.invalid; break;
-    case recording::records::kLateCommand: ++findings_.late; break;
-    case recording::records::kNothingAsked: ++findings_.nothing_asked; break;
-    case recording::records::kWeakerCommand: ++findings_.weaker; break;
+    case CommandVerdict::kApplied: ++findings_.applied; break;
+    case CommandVerdict::kNoneNew: ++findings_.none_new; break;
+    case CommandVerdict::kInvalid: ++findings_.invalid; break;
+    case CommandVerdict::kLate: ++findings_.late; break;
+    case CommandVerdict::kNothingAsked: ++findings_.nothing_asked; break;
+    case CommandVerdict::kWeaker: ++findings_.weaker; break;
   }
 }
 
@@ -197,7 +200,7 @@ void DrivingAccount::on(const recording::records::CommandTaken& taken) {
 void DrivingAccount::note_jitter(const recording::records::CommandTaken& taken) {
   if (read_ && read_->true_time == taken.stamp.true_time) return;
   const bool is_local = taken.stamp.global.ns == taken.stamp.local.ns;
-  const bool in_global_time = taken.verdict != recording::records::kLateCommand && !(has_own_time_ && is_local);
+  const bool in_global_time = taken.verdict != CommandVerdict::kLate && !(has_own_time_ && is_local);
   has_own_time_ = has_own_time_ || !is_local;
   if (read_ && in_global_time) {
     const Duration by_cluster = taken.stamp.global - read_->global;
@@ -220,7 +223,8 @@ DrivingFindings DrivingAccount::finish() {
   }
   if (jerks_ > 0) findings_.jerk_rms = std::sqrt(jerk_squares_ / static_cast<double>(jerks_));
   for (std::size_t service = 0; service < findings_.warnings.size(); ++service)
-    findings_.warnings[service] = warnings_.finish(service, before_ ? before_->at : TrueTime{});
+    findings_.warnings[service] =
+        warnings_.finish(static_cast<WarningKind>(service), before_ ? before_->at : TrueTime{});
   if (lane_) findings_.lane = lane_->findings();
   findings_.warns_ahead = config_.warns_ahead;
   findings_.watches_blind_spot = config_.blind_spot.has_value();

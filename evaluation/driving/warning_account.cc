@@ -4,6 +4,8 @@
 
 namespace ttf::evaluation::driving {
 
+using recording::records::WarningKind;
+
 WarningFindings together(const WarningFindings& a, const WarningFindings& b) {
   return {a.hazards + b.hazards,
           a.given + b.given,
@@ -15,8 +17,8 @@ WarningFindings together(const WarningFindings& a, const WarningFindings& b) {
           std::max(a.latest, b.latest)};
 }
 
-void WarningAccount::judge(std::size_t service, TrueTime at, bool hazard) {
-  Service& one = services_[service];
+void WarningAccount::judge(WarningKind service, TrueTime at, bool hazard) {
+  Service& one = services_[index_of(service)];
   if (hazard && !one.hazard) one.hazards.push_back({at, at});
   if (hazard) one.hazards.back().to = at;
   one.hazard = hazard;
@@ -46,9 +48,9 @@ void WarningAccount::note_silence(Service& service, TrueTime until) {
 }
 
 void WarningAccount::warn(const recording::records::Warning& warning) {
-  if (warning.service >= services_.size()) return;
+  if (index_of(warning.service) >= services_.size()) return;
   const TrueTime at = warning.stamp.true_time;
-  Service& one = services_[warning.service];
+  Service& one = services_[index_of(warning.service)];
   note_silence(one, at);
   one.warner = warning.stamp.node;
   one.alive = at;
@@ -57,8 +59,8 @@ void WarningAccount::warn(const recording::records::Warning& warning) {
   one.warns = warning.on;
 }
 
-WarningFindings WarningAccount::finish(std::size_t service, TrueTime end) {
-  Service& of = services_[service];
+WarningFindings WarningAccount::finish(WarningKind service, TrueTime end) {
+  Service& of = services_[index_of(service)];
   note_silence(of, end);
   // A truth that leaves the hazard for a moment does not end it.
   std::vector<Span> hazards;

@@ -32,14 +32,14 @@ class WarningAccount {
   explicit WarningAccount(TrueTime from) : from_(from) {}
 
   // Notes whether the truth is a hazard of the service at `at`, which is not before the last one.
-  void judge(std::size_t service, TrueTime at, bool hazard);
+  void judge(recording::records::WarningKind service, TrueTime at, bool hazard);
   // Notes that a node is alive.
   void note_alive(NodeId node, TrueTime at);
   // Notes that a node's supply was switched: it has lost its warnings, and takes none back.
   void note_power(NodeId node, TrueTime at);
   void warn(const recording::records::Warning& warning);
   // Returns a service's findings at the drive's end.
-  WarningFindings finish(std::size_t service, TrueTime end);
+  WarningFindings finish(recording::records::WarningKind service, TrueTime end);
 
  private:
   struct Span {

@@ -8,18 +8,21 @@
 namespace ttf::evaluation::faults {
 namespace {
 
+using recording::records::CanError;
+using recording::records::CanState;
+
 constexpr std::int64_t kBitsToNextFrame = 31;  // behind an error
 
-CanCheck check_of(std::uint8_t error) {
+CanCheck check_of(CanError error) {
   switch (error) {
-    case recording::records::kCanBitError: return CanCheck::kBit;
-    case recording::records::kCanStuffError: return CanCheck::kStuff;
-    case recording::records::kCanFormError: return CanCheck::kForm;
-    case recording::records::kCanCrcError: return CanCheck::kCrc;
-    case recording::records::kCanAcknowledgementError: return CanCheck::kAcknowledgement;
-    default: break;
+    case CanError::kBit: return CanCheck::kBit;
+    case CanError::kStuff: return CanCheck::kStuff;
+    case CanError::kForm: return CanCheck::kForm;
+    case CanError::kCrc: return CanCheck::kCrc;
+    case CanError::kAcknowledgement: return CanCheck::kAcknowledgement;
+    case CanError::kNone: break;
   }
-  TTF_CHECK(false, "CAN error {}", error);
+  TTF_CHECK(false, "CAN error {}", static_cast<int>(error));
 }
 
 }  // namespace
@@ -128,11 +131,11 @@ void CanJudge::sent(NodeId sender) {
   if (sender == settings_.faulty) fails_ = 0;
 }
 
-void CanJudge::fails(std::uint8_t error, TrueTime at) {
+void CanJudge::fails(CanError error, TrueTime at) {
   const bool of_faulty = lowest_ && winner_ == settings_.faulty;
   lowest_.reset();
-  if (!of_faulty || error == recording::records::kCanAcknowledgementError) return;
-  if (++fails_ > kMostErrors && states_[index_of(settings_.faulty)] != recording::records::kCanBusOff)
+  if (!of_faulty || error == CanError::kAcknowledgement) return;
+  if (++fails_ > kMostErrors && states_[index_of(settings_.faulty)] != CanState::kBusOff)
     harm(CanHarm::kUncontained, at, kNoNode, settings_.faulty, 0);
 }
 
@@ -141,8 +144,7 @@ void CanJudge::error_frame(const recording::records::CanErrorFrame& error) {
   const TrueTime at = error.stamp.true_time;
   ++errors_;
   const bool itself = error.stamp.node == settings_.faulty;
-  const bool silent =
-      !error.as_transmitter && states_[index_of(error.stamp.node)] != recording::records::kCanErrorActive;
+  const bool silent = !error.as_transmitter && states_[index_of(error.stamp.node)] != CanState::kActive;
   notice(check_of(error.error), !itself || !silent, itself, at);
   fails(error.error, at);
 }
@@ -152,8 +154,8 @@ void CanJudge::state_changed(const recording::records::CanStateChanged& change) 
   const NodeId node = change.stamp.node;
   const bool itself = node == settings_.faulty;
   states_[index_of(node)] = change.to;
-  if (change.to == recording::records::kCanErrorActive) return came_back(node, at);
-  const bool off = change.to == recording::records::kCanBusOff;
+  if (change.to == CanState::kActive) return came_back(node, at);
+  const bool off = change.to == CanState::kBusOff;
   notice(off ? CanCheck::kBusOff : CanCheck::kPassive, !itself, itself, at);
   if (itself && off) fails_ = 0;
   went_out(node, at);

@@ -63,14 +63,14 @@ class CanJudge : private CanJudgeBase {
   Message* message_of(std::uint32_t identifier);
   bool is_late(const Message& message, const Owed& frame, TrueTime at) const;
   void lose(const Message& message, std::size_t first, std::size_t end, NodeId receiver, TrueTime at);
-  void fails(std::uint8_t error, TrueTime at);
+  void fails(recording::records::CanError error, TrueTime at);
 
   const CanJudgeSettings settings_;
   std::vector<NodeId> receivers_;  // fault-free nodes
   std::vector<Message> messages_;
   Duration cost_of_error_{};
-  std::size_t errors_ = 0;            // error frames
-  std::vector<std::uint8_t> states_;  // by NodeId
+  std::size_t errors_ = 0;                            // error frames
+  std::vector<recording::records::CanState> states_;  // by NodeId
   TrueTime frame_began_{};
   std::optional<std::uint32_t> lowest_;  // among frames that began together; none behind an error frame
   NodeId winner_ = kNoNode;

@@ -49,7 +49,7 @@ inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, H
 std::string_view name_of(Harm harm);
 
 // Calls `seen` with every check in the status of a slot (bus::controller::SlotStatus).
-template <class Seen> void for_each_check(std::uint8_t status, Seen seen) {
+template <class Seen> void for_each_check(bus::controller::SlotStatus status, Seen seen) {
   constexpr std::array<std::pair<bus::controller::SlotStatus, Check>, 6> kOfSlots{
       {{bus::controller::kSyntaxError, Check::kSyntax},
        {bus::controller::kContentError, Check::kContent},

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "bus/poc/poc.h"
 #include "bus/wire/flexray_frame.h"
 #include "evaluation/faults/reach.h"
 #include "schedules/model/wire_times.h"
 
 namespace ttf::evaluation::faults {
 namespace {
+
+using recording::records::PocKind;
 
 Duration macroticks(const schedules::model::GlobalParameters& g, std::int64_t count) {
   return {count * g.gdMacrotick_ps / 1000};
@@ -21,9 +22,8 @@ schedules::model::Channels only(std::uint8_t channel) {
 
 // Returns whether a change leads from start-up back to its beginning, or to an end without success.
 bool falls_back(const recording::records::StateChanged& change) {
-  using bus::poc::PocKind;
-  const auto from = static_cast<PocKind>(change.from);
-  switch (static_cast<PocKind>(change.to)) {
+  const PocKind from = change.from;
+  switch (change.to) {
     case PocKind::kHalt:
     case PocKind::kWakeupDetect:  // another node is on the channel
     case PocKind::kColdstartGap: return true;
@@ -117,34 +117,31 @@ void FaultAccount::on(const recording::records::FaultActivity& activity) {
   }
   FaultSeen& seen = findings_.faults[*place];
   switch (activity.what) {
-    case recording::records::kFaultActs:
+    case recording::records::FaultAct::kActs:
       causes_.acts(activity.fault, activity.at);
       ++seen.acts;
       if (seen.first_act) break;
       seen.first_act = activity.at;
       seen.text = activity.text;
       break;
-    case recording::records::kFaultEnds:
+    case recording::records::FaultAct::kEnds:
       causes_.ends(activity.fault, activity.at);
       seen.ends = activity.at;
       break;
-    default: break;
+    case recording::records::FaultAct::kBegins: break;
   }
 }
 
 void FaultAccount::on(const recording::records::StateChanged& change) {
-  constexpr auto kActive = static_cast<std::uint8_t>(bus::poc::PocKind::kNormalActive);
   const NodeId node = change.stamp.node;
   const TrueTime at = change.stamp.true_time;
   if (!knows(node)) return;
   const Cause cause = causes_.of_node(node, at);
   if (!starts_as_planned(node) || falls_back(change))
     changed(cause, node, change.from_name, change.to_name, change.why, at);
-  if (change.to == static_cast<std::uint8_t>(bus::poc::PocKind::kNormalPassive))
-    notice(cause, Check::kPassive, node, cycle_at(at), at);
-  if (change.to == static_cast<std::uint8_t>(bus::poc::PocKind::kHalt))
-    notice(cause, Check::kHalt, node, cycle_at(at), at);
-  if (change.to != kActive) {
+  if (change.to == PocKind::kNormalPassive) notice(cause, Check::kPassive, node, cycle_at(at), at);
+  if (change.to == PocKind::kHalt) notice(cause, Check::kHalt, node, cycle_at(at), at);
+  if (change.to != PocKind::kNormalActive) {
     left_active(cause, node, at);
     return;
   }
@@ -251,14 +248,14 @@ CanSeen* FaultAccount::can_seen(std::uint8_t bus, const recording::records::Stam
 
 void FaultAccount::on(const recording::records::CanErrorFrame& error) {
   CanSeen* const seen = can_seen(error.bus, error.stamp);
-  if (seen != nullptr && error.error < CanSeen::kErrors) ++seen->errors[error.error];
+  if (seen != nullptr && index_of(error.error) < CanSeen::kErrors) ++seen->errors[index_of(error.error)];
 }
 
 void FaultAccount::on(const recording::records::CanStateChanged& change) {
   CanSeen* const seen = can_seen(change.bus, change.stamp);
   if (seen == nullptr) return;
-  seen->passive += change.to == recording::records::kCanErrorPassive ? 1 : 0;
-  seen->bus_off += change.to == recording::records::kCanBusOff ? 1 : 0;
+  seen->passive += change.to == recording::records::CanState::kPassive ? 1 : 0;
+  seen->bus_off += change.to == recording::records::CanState::kBusOff ? 1 : 0;
 }
 
 CheckSeen& FaultAccount::notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at) {

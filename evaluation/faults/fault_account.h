@@ -88,7 +88,7 @@ struct FaultSeen : FaultEffects {
 struct CanSeen {
   std::uint8_t bus = 0;
   NodeId node = kNoNode;
-  static constexpr std::size_t kErrors = 1 + recording::records::kCanAcknowledgementError;
+  static constexpr std::size_t kErrors = 1 + index_of(recording::records::CanError::kAcknowledgement);
   std::array<std::uint64_t, kErrors> errors{};  // error frames that it began, by error
   std::uint64_t passive = 0, bus_off = 0;       // changes into these states
   TrueTime first{};

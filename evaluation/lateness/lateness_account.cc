@@ -10,13 +10,14 @@
 namespace ttf::evaluation::lateness {
 namespace {
 
-std::uint64_t* counter_of(NodeTiming& timing, std::uint8_t what) {
+std::uint64_t* counter_of(NodeTiming& timing, recording::records::TimingFault what) {
+  using recording::records::TimingFault;
   switch (what) {
-    case recording::records::kLateWakeUp: return &timing.late_wake_ups;
-    case recording::records::kSlotMissed: return &timing.slots_missed;
-    case recording::records::kLateFrame: return &timing.late_frames;
-    case recording::records::kEarlyFrame: return &timing.early_frames;
-    case recording::records::kFramesLost: return &timing.frames_lost;
+    case TimingFault::kLateWakeUp: return &timing.late_wake_ups;
+    case TimingFault::kSlotMissed: return &timing.slots_missed;
+    case TimingFault::kLateFrame: return &timing.late_frames;
+    case TimingFault::kEarlyFrame: return &timing.early_frames;
+    case TimingFault::kFramesLost: return &timing.frames_lost;
   }
   return nullptr;  // from a later version
 }

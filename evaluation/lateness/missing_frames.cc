@@ -69,9 +69,9 @@ std::optional<std::int64_t> MissingFrames::cycles_from(const Turn& earlier, cons
 
 void MissingFrames::add(const recording::records::TimingProblem& problem) {
   const Turn turn{due_ns(problem), problem.cycle};
-  if (problem.what == recording::records::kSlotMissed)
+  if (problem.what == recording::records::TimingFault::kSlotMissed)
     sender_at({problem.slot, problem.channel, problem.stamp.node}).missed.push_back(turn);
-  if (problem.what == recording::records::kFramesLost)
+  if (problem.what == recording::records::TimingFault::kFramesLost)
     lost_.push_back({turn, problem.stamp.node, problem.slot, problem.channel, problem.count});
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 using F = const DriveFigures&;
 using driving::WarningFindings;
+using recording::records::WarningKind;
 
 constexpr Scale kPercent{100.0, "%"}, kPercentOfTime{100.0, "% of time"}, kMilliseconds{1e3, "ms"},
     kDegrees{180.0 / std::numbers::pi, "deg"};
@@ -48,12 +49,12 @@ std::uint64_t lost_lists(F f) {
 // A single clock, or clocks that never ran together, have no precision instead of a perfect one.
 double precision_us(F f) { return f.outcome.precision == Duration{} ? Getter::kNone : in_us(f.outcome.precision); }
 
-const WarningFindings& ahead(F f) { return f.driving->warnings[recording::records::kForwardCollision]; }
-const WarningFindings& braking(F f) { return f.driving->warnings[recording::records::kEmergencyBraking]; }
-const WarningFindings& departure(F f) { return f.driving->warnings[recording::records::kLaneDeparture]; }
+const WarningFindings& ahead(F f) { return f.driving->warnings[index_of(WarningKind::kForwardCollision)]; }
+const WarningFindings& braking(F f) { return f.driving->warnings[index_of(WarningKind::kEmergencyBraking)]; }
+const WarningFindings& departure(F f) { return f.driving->warnings[index_of(WarningKind::kLaneDeparture)]; }
 WarningFindings beside(F f) {  // both sides together
-  return driving::together(f.driving->warnings[recording::records::kBlindSpotLeft],
-                           f.driving->warnings[recording::records::kBlindSpotRight]);
+  return driving::together(f.driving->warnings[index_of(WarningKind::kBlindSpotLeft)],
+                           f.driving->warnings[index_of(WarningKind::kBlindSpotRight)]);
 }
 double late_ms(const WarningFindings& warnings) { return mean_ms(warnings.lateness_sum, warnings.late); }
 double latest_ms(const WarningFindings& warnings) {

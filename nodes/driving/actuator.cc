@@ -3,6 +3,7 @@
 namespace ttf::nodes::driving {
 
 using recording::records::CommandTaken;
+using recording::records::CommandVerdict;
 
 Actuator::Actuator(const schedules::model::Cluster& cluster, const schedules::model::Task& task,
                    const sim::world::vehicle::ActuatorConfig& config)
@@ -18,13 +19,16 @@ CommandTaken Actuator::read(host::StepContext& context, Port& port) {
   if (port.living && port.input.is_old(context, port.living->issued)) port.living.reset();
   CommandInput::Reading reading = port.input.read(context);
   switch (reading.taken.verdict) {
-    case recording::records::kApplied: port.living = reading; break;
-    case recording::records::kInvalidCommand:
+    case CommandVerdict::kApplied: port.living = reading; break;
+    case CommandVerdict::kInvalid:
       port.living.reset();
       // Emergency braking that does not brake says so by an invalid command.
-      if (&port != &*command_) reading.taken.verdict = recording::records::kNothingAsked;
+      if (&port != &*command_) reading.taken.verdict = CommandVerdict::kNothingAsked;
       break;
-    default: break;
+    case CommandVerdict::kNoneNew:
+    case CommandVerdict::kLate:
+    case CommandVerdict::kNothingAsked:
+    case CommandVerdict::kWeaker: break;
   }
   return reading.taken;
 }
@@ -33,11 +37,11 @@ void Actuator::run(host::StepContext& context) {
   Records records = run_longitudinal(context);
   if (lateral_) {
     const CommandTaken taken = lateral_->combine(context);
-    if (taken.verdict != recording::records::kNoNewCommand) records.add(taken);
+    if (taken.verdict != CommandVerdict::kNoneNew) records.add(taken);
   }
   for (std::size_t i = 0; i < records.count; ++i) {
     CommandTaken& taken = records.all[i];
-    if (taken.verdict == recording::records::kApplied) {
+    if (taken.verdict == CommandVerdict::kApplied) {
       taken.acceleration = context.actuation->acceleration;
       taken.steering = context.actuation->steering;
       taken.from = context.actuation->from;
@@ -48,7 +52,7 @@ void Actuator::run(host::StepContext& context) {
 
 Actuator::Records Actuator::run_longitudinal(host::StepContext& context) {
   CommandTaken taken = read(context, *command_);
-  if (taken.verdict == recording::records::kApplied) steering_ = taken.steering;
+  if (taken.verdict == CommandVerdict::kApplied) steering_ = taken.steering;
   std::optional<CommandTaken> emergency;
   if (emergency_) emergency = read(context, *emergency_);
 
@@ -57,24 +61,24 @@ Actuator::Records Actuator::run_longitudinal(host::StepContext& context) {
       (!*counts || emergency_->living->taken.acceleration < (*counts)->taken.acceleration))
     counts = &emergency_->living;
   const auto is_new = [](const CommandTaken& read) {
-    return read.verdict != recording::records::kNoNewCommand && read.verdict != recording::records::kLateCommand;
+    return read.verdict != CommandVerdict::kNoneNew && read.verdict != CommandVerdict::kLate;
   };
   const bool acts = counts->has_value() && (is_new(taken) || (emergency && is_new(*emergency)));
   Records records;
   bool handed_over = false;
   const auto note = [&](CommandTaken read) {
-    if (read.verdict == recording::records::kApplied) {
+    if (read.verdict == CommandVerdict::kApplied) {
       if (read.pdu == (*counts)->taken.pdu) {
         hand_over(context, read);
         handed_over = true;
       } else {
-        read.verdict = recording::records::kWeakerCommand;
+        read.verdict = CommandVerdict::kWeaker;
       }
     }
     records.add(read);
   };
   note(taken);
-  if (emergency && emergency->verdict != recording::records::kNoNewCommand) note(*emergency);
+  if (emergency && emergency->verdict != CommandVerdict::kNoneNew) note(*emergency);
   if (!acts || handed_over) return records;
   CommandTaken earlier = (*counts)->taken;
   earlier.stamp = context.stamp;

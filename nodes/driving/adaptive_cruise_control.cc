@@ -52,7 +52,8 @@ void AdaptiveCruiseControl::run(host::StepContext& context) {
   const double asked = waits ? std::min(wanted, -kHolds) : wanted;
   before_ = control::limited(control::at_speed(config_.limits, view->own_speed), asked, before_, dt);
   record.own_speed = view->own_speed;
-  record.reason = wanted < free ? recording::records::kForGap : recording::records::kForSetSpeed;
+  record.reason =
+      wanted < free ? recording::records::CommandReason::kGap : recording::records::CommandReason::kSetSpeed;
   if (view->ahead) {
     record.track = view->ahead->track;
     record.gap = view->ahead->clearance;

@@ -86,7 +86,7 @@ void WayAhead::note_image(const host::StepContext& context) {
   known_.begin(context.stamp.local);
   for (int i = 0; i < host::element_count(*image.layout, *image.list); ++i) {
     const auto object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
-    if ((object.status & recording::records::kImageConfirmed) != 0) known_.add(object.track);
+    if (has(object.status, recording::records::ImageStatus::kConfirmed)) known_.add(object.track);
   }
   valid_at_.reset();
   if (!context.global_time) return;
@@ -114,7 +114,7 @@ std::optional<ObjectAhead> WayAhead::nearest(const host::Input& image, double cu
   const int count = host::element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i) {
     const recording::records::ImageObject object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
-    if ((object.status & recording::records::kImageConfirmed) == 0 || object.x <= 0.0) continue;
+    if (!has(object.status, recording::records::ImageStatus::kConfirmed) || object.x <= 0.0) continue;
     if (known_.known_for(object.track) < known_for) continue;
     if (std::abs(object.y - 0.5 * curvature * object.x * object.x) > config_.half_width_m) continue;
     const double heading = object.heading - curvature * object.x;  // from the line of travel

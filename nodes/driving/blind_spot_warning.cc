@@ -33,7 +33,7 @@ TrackId BlindSpotWarning::found(const host::Input& image, double side, double ma
   const int count = host::element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i) {
     const recording::records::ImageObject object = fusion::decode_image_object(*image.layout, *image.list, i, signals_);
-    if ((object.status & recording::records::kImageConfirmed) == 0) continue;
+    if (!has(object.status, recording::records::ImageStatus::kConfirmed)) continue;
     const double c = std::abs(std::cos(object.heading)), s = std::abs(std::sin(object.heading));
     const double along = 0.5 * (object.length * c + object.width * s) + margin,
                  across = 0.5 * (object.length * s + object.width * c) + margin;
@@ -47,8 +47,7 @@ TrackId BlindSpotWarning::found(const host::Input& image, double side, double ma
 }
 
 void BlindSpotWarning::run(host::StepContext& context) {
-  using recording::records::kBlindSpotLeft;
-  using recording::records::kBlindSpotRight;
+  using recording::records::WarningKind;
   const host::Input& image = context.inputs[0];
   if (image.fresh) valid_at_ = host::time_stamp(*image.layout, *image.list, context.stamp.global, round_);
   const Duration ahead = valid_at_ - context.stamp.global;
@@ -58,8 +57,9 @@ void BlindSpotWarning::run(host::StepContext& context) {
     const TrackId track = found(image, right == 0 ? 1.0 : -1.0, on ? config_.margin_m : 0.0);
     if ((track != kNoTrack) == on) continue;
     on = !on;
-    context.sink->on(recording::records::Warning{context.stamp, right == 0 ? kBlindSpotLeft : kBlindSpotRight, on,
-                                                 track, std::numeric_limits<double>::infinity()});
+    context.sink->on(recording::records::Warning{
+        context.stamp, right == 0 ? WarningKind::kBlindSpotLeft : WarningKind::kBlindSpotRight, on, track,
+        std::numeric_limits<double>::infinity()});
   }
 }
 

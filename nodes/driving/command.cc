@@ -5,6 +5,7 @@
 namespace ttf::nodes::driving {
 
 using recording::records::CommandTaken;
+using recording::records::CommandVerdict;
 
 CommandSignals bind_command(const schedules::model::Cluster& cluster, const schedules::model::PduLayout& layout) {
   return host::bind_element<3>(cluster, layout, {"valid", "acceleration", "steering"});
@@ -53,7 +54,7 @@ CommandInput::Reading CommandInput::read(host::StepContext& context) const {
   CommandTaken& taken = reading.taken;
   taken.stamp = context.stamp;
   taken.pdu = input.pdu;
-  taken.verdict = recording::records::kNoNewCommand;
+  taken.verdict = CommandVerdict::kNoneNew;
   if (!input.fresh) return reading;
   taken.sequence = input.list->sequence;
   const Command command = decode_command(*input.layout, *input.list, signals_);
@@ -61,10 +62,10 @@ CommandInput::Reading CommandInput::read(host::StepContext& context) const {
   taken.steering = command.steering;
   reading.issued = host::past_time_stamp(*input.layout, *input.list, context.stamp.global, round_);
   if (is_old(context, reading.issued)) {
-    taken.verdict = recording::records::kLateCommand;
+    taken.verdict = CommandVerdict::kLate;
     input.discarded = true;
   } else {
-    taken.verdict = command.valid ? recording::records::kApplied : recording::records::kInvalidCommand;
+    taken.verdict = command.valid ? CommandVerdict::kApplied : CommandVerdict::kInvalid;
   }
   return reading;
 }

@@ -44,7 +44,7 @@ class CommandInput {
   // `input` is the place of the port among the task's.
   CommandInput(const schedules::model::Cluster& cluster, const schedules::model::Task& task, std::size_t input,
                Duration oldest);
-  // Returns the verdict on the port's list: kNoNewCommand, kLateCommand, kInvalidCommand or kApplied.
+  // Returns the verdict on the port's list: kNoneNew, kLate, kInvalid or kApplied.
   Reading read(host::StepContext& context) const;
   bool is_old(const host::StepContext& context, GlobalTime issued) const;
 

@@ -9,6 +9,8 @@
 namespace ttf::nodes::driving {
 namespace {
 
+using recording::records::WarningKind;
+
 constexpr double kNone = std::numeric_limits<double>::infinity();
 // A slower approach than walking pace is no collision course: the sign of a speed near zero is noise.
 constexpr double kSlowestClosing_mps = 0.5;
@@ -37,17 +39,17 @@ EmergencyBraking::EmergencyBraking(const schedules::model::Cluster& cluster, con
                                    const EmergencyConfig& config)
     : config_(config), way_(cluster, task, config.path), out_(cluster, task) {}
 
-void EmergencyBraking::tell(host::StepContext& context, std::uint8_t service, bool on, TrackId track,
+void EmergencyBraking::tell(host::StepContext& context, WarningKind service, bool on, TrackId track,
                             double time_to_collision) {
-  if (on_[service] == on) return;
-  on_[service] = on;
+  if (on_[index_of(service)] == on) return;
+  on_[index_of(service)] = on;
   context.sink->on(recording::records::Warning{context.stamp, service, on, track, time_to_collision});
 }
 
 void EmergencyBraking::run(host::StepContext& context) {
   // A warning goes on with any track: that of the object ahead may be lost and born again meanwhile.
   const std::optional<View> view =
-      way_.look(context, on_[recording::records::kForwardCollision] ? Duration{} : config_.known_for);
+      way_.look(context, on_[index_of(WarningKind::kForwardCollision)] ? Duration{} : config_.known_for);
   recording::records::CommandIssued record;
   record.gap = kNone;
   record.track = kNoTrack;
@@ -61,16 +63,16 @@ void EmergencyBraking::run(host::StepContext& context) {
     record.speed_ahead = view->ahead->speed;
   }
   const bool goes_on =
-      on_[recording::records::kEmergencyBraking] && remaining < kNone && view->own_speed > kStopped_mps;
+      on_[index_of(WarningKind::kEmergencyBraking)] && remaining < kNone && view->own_speed > kStopped_mps;
   // At a standstill the noise of the other vehicle's speed looks like an approach, with no way left. So nothing begins.
-  const auto within = [&](std::uint8_t service, double least_s) {
-    return remaining < least_s && (on_[service] || view->own_speed > kStopped_mps);
+  const auto within = [&](WarningKind service, double least_s) {
+    return remaining < least_s && (on_[index_of(service)] || view->own_speed > kStopped_mps);
   };
-  const bool brakes = within(recording::records::kEmergencyBraking, config_.braking_time_s) || goes_on;
-  const bool warns = brakes || within(recording::records::kForwardCollision, config_.warning_time_s);
-  tell(context, recording::records::kForwardCollision, warns, record.track, remaining);
-  tell(context, recording::records::kEmergencyBraking, brakes, record.track, remaining);
-  if (brakes) record.reason = recording::records::kForEmergency;
+  const bool brakes = within(WarningKind::kEmergencyBraking, config_.braking_time_s) || goes_on;
+  const bool warns = brakes || within(WarningKind::kForwardCollision, config_.warning_time_s);
+  tell(context, WarningKind::kForwardCollision, warns, record.track, remaining);
+  tell(context, WarningKind::kEmergencyBraking, brakes, record.track, remaining);
+  if (brakes) record.reason = recording::records::CommandReason::kEmergency;
   out_.issue(context, {brakes, brakes ? -config_.deceleration : 0.0, 0.0}, record);
 }
 

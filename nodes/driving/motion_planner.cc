@@ -49,7 +49,7 @@ std::optional<MotionPlanner::Chosen> MotionPlanner::most_important(const Place& 
     const double reach = 0.5 * (object.length * std::abs(std::cos(turned)) + object.width * std::abs(std::sin(turned)));
     candidates_.push_back({c * object.x - s * object.y - reach - config_.path.front_m,
                            own.offset + s * object.x + c * object.y,
-                           (object.status & recording::records::kImageConfirmed) != 0});
+                           has(object.status, recording::records::ImageStatus::kConfirmed)});
   }
   const double edge = 0.5 * (config_.lane_width_m + config_.width_m);
   const auto found = control::most_important(candidates_, -edge, edge);

@@ -73,7 +73,7 @@ void VehicleControl::run(host::StepContext& context) {
     return out_.issue(context, {}, record);
   }
   record.own_speed = own->speed;
-  record.reason = recording::records::kForPlan;
+  record.reason = recording::records::CommandReason::kPlan;
   const double acceleration = config_.speed.step(plan.speed - own->speed, dt, integral_);
   out_.issue(context, {true, acceleration, steering(*own)}, record);
 }

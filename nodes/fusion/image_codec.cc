@@ -7,11 +7,15 @@
 namespace ttf::nodes::fusion {
 namespace {
 
+using recording::records::ImageStatus;
+
 double status_of(const ttf::fusion::tracks::TrackView& view) {
-  return (view.confirmed ? recording::records::kImageConfirmed : 0) +
-         (view.coasting ? recording::records::kImageCoasting : 0) +
-         (view.has_length ? recording::records::kImageHasLength : 0) +
-         (view.has_width ? recording::records::kImageHasWidth : 0);
+  ImageStatus status{};
+  if (view.confirmed) status |= ImageStatus::kConfirmed;
+  if (view.coasting) status |= ImageStatus::kCoasting;
+  if (view.has_length) status |= ImageStatus::kHasLength;
+  if (view.has_width) status |= ImageStatus::kHasWidth;
+  return static_cast<double>(status);
 }
 
 }  // namespace
@@ -72,7 +76,7 @@ recording::records::ImageObject decode_image_object(const schedules::model::PduL
                             &object.sigma_width};
   static_assert(std::size(fields) + 2 == kImageSignals.size(), "id, the numbers, status");
   for (std::size_t f = 0; f < std::size(fields); ++f) *fields[f] = value(f + 1);
-  object.status = static_cast<std::uint8_t>(std::lround(value(kImageSignals.size() - 1)));
+  object.status = static_cast<ImageStatus>(std::lround(value(kImageSignals.size() - 1)));
   return object;
 }
 

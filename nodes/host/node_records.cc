@@ -1,6 +1,7 @@
 #include "nodes/host/node_records.h"
 
 #include "bus/wire/pdu_codec.h"
+#include "recording/records/words.h"
 
 namespace ttf::nodes::host {
 
@@ -65,7 +66,7 @@ void NodeRecords::slot_problem(std::int64_t cycle, int slot, schedules::model::C
                                bus::controller::SlotStatus status, Microticks at) {
   ++counts_.slot_problems;
   sink_.on(recording::records::SlotProblem{time_.stamp(at), cycle, static_cast<std::uint16_t>(slot),
-                                           static_cast<std::uint8_t>(channel), static_cast<std::uint8_t>(status)});
+                                           static_cast<std::uint8_t>(channel), status});
 }
 
 void NodeRecords::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
@@ -81,18 +82,18 @@ void NodeRecords::clock_corrected(std::int64_t cycle, const timebase::Correction
 void NodeRecords::symbol_sent(bus::ports::Signal signal, schedules::model::Channel channel, Microticks start,
                               Microticks end) {
   // A collision avoidance symbol comes before there is a schedule; within a schedule the same bits test the medium.
-  const std::uint8_t kind = signal == bus::ports::Signal::kWakeup ? recording::records::kSymbolWakeup
-                            : time_.global() != nullptr           ? recording::records::kSymbolMediaTest
-                                                                  : recording::records::kSymbolCas;
+  using recording::records::Symbol;
+  const Symbol kind = signal == bus::ports::Signal::kWakeup ? Symbol::kWakeup
+                      : time_.global() != nullptr           ? Symbol::kMediaTest
+                                                            : Symbol::kCas;
   sink_.on(
       recording::records::SymbolSent{time_.stamp(start), time_.stamp(end), static_cast<std::uint8_t>(channel), kind});
 }
 
 void NodeRecords::state_changed(bus::poc::PocKind from, const bus::poc::PocStep& step, Microticks at) {
   const bus::poc::PocKind to = step.next.kind;
-  sink_.on(recording::records::StateChanged{time_.stamp(at), static_cast<std::uint8_t>(from),
-                                            static_cast<std::uint8_t>(to), to_text(from), to_text(to),
-                                            to_text(step.reason), to_text(step.consequence)});
+  sink_.on(recording::records::StateChanged{time_.stamp(at), from, to, to_text(from), to_text(to), to_text(step.reason),
+                                            to_text(step.consequence)});
 }
 
 void NodeRecords::hop(const recording::records::Stamp& at, recording::records::Hop what, PduId pdu,

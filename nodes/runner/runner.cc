@@ -61,7 +61,7 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<host::Ste
                         ? nullptr
                         : std::make_unique<PacedCan>(cluster_, b, most, [this] { return executive_->stamp(last_); }));
     ports.push_back(cans_.back().get());
-    can_states_.push_back(recording::records::kCanErrorActive);
+    can_states_.push_back(recording::records::CanState::kActive);
   }
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
     sensor_can_.push_back(schedules::model::can_of_lines(cluster_, static_cast<SensorId>(s)));
@@ -158,12 +158,12 @@ void Runner::tell_errors(const bus::ports::LiveArrival& arrival) {
   const auto can_bus = static_cast<std::uint8_t>(arrival.can_bus);
   const recording::records::Stamp stamp = executive_->stamp(ticks(config_.clock.drive_time(arrival.at)));
   can_reported_ = true;
-  if (report.error != 0) {
+  if (report.error != recording::records::CanError::kNone) {
     ++can_errors_;
     watch_->out->on(recording::records::CanErrorFrame{stamp, can_bus, report.error, report.as_transmitter,
                                                       report.transmit_errors, report.receive_errors});
   }
-  std::uint8_t& state = can_states_[arrival.can_bus];
+  recording::records::CanState& state = can_states_[arrival.can_bus];
   if (!report.state || *report.state == state) return;
   watch_->out->on(recording::records::CanStateChanged{stamp, can_bus, state, *report.state, report.transmit_errors,
                                                       report.receive_errors});

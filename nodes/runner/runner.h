@@ -65,10 +65,10 @@ struct Health {
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
   Duration largest_offset{};               // the largest correction by clock synchronisation, either sign
   std::optional<bus::poc::PocKind> state;  // the controller's; none off FlexRay
-  // Its interfaces to private CANs report error frames, and their controllers' states (recording::records::kCanBusOff and so
-  // on). The worst present state is unknown before the first report.
+  // Its interfaces to private CANs report error frames, and their controllers' states. The
+  // worst present state is unknown before the first report.
   std::uint64_t can_errors = 0;
-  std::optional<std::uint8_t> can_state;
+  std::optional<recording::records::CanState> can_state;
   std::optional<vehicle::Counts> vehicle;  // its line's
 
   // Counts each frame once that this process or its medium has found to be lost. timing.frames_lost counts gaps:
@@ -140,8 +140,8 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   TimingAccount account_;
   ArrivalWindow arrival_window_;
   LiveFlexRay flexray_;
-  std::vector<std::unique_ptr<PacedCan>> cans_;  // by CAN, null where the node is not on it
-  std::vector<std::uint8_t> can_states_;         // by CAN: of the own controller, as its interface reports it
+  std::vector<std::unique_ptr<PacedCan>> cans_;           // by CAN, null where the node is not on it
+  std::vector<recording::records::CanState> can_states_;  // by CAN: of the own controller, as its interface reports it
   std::uint64_t can_errors_ = 0;
   bool can_reported_ = false;
   std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines

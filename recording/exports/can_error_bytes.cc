@@ -30,17 +30,17 @@ CanErrorBytes with_counters(std::uint32_t classes, unsigned transmit_errors, uns
 }  // namespace
 
 CanErrorBytes error_bytes_of(const records::CanErrorFrame& error) {
-  const bool unanswered = error.error == records::kCanAcknowledgementError;
+  const bool unanswered = error.error == records::CanError::kAcknowledgement;
   CanErrorBytes bytes = with_counters(kProtocol | kBusError | (unanswered ? kAcknowledgement : 0),
                                       error.transmit_errors, error.receive_errors);
   unsigned kind = error.as_transmitter ? kInTransmission : 0, place = 0;
   switch (error.error) {
-    case records::kCanBitError: kind |= kBit; break;
-    case records::kCanStuffError: kind |= kStuff; break;
-    case records::kCanFormError: kind |= kForm; break;
-    case records::kCanCrcError: place = kCrcSequence; break;
-    case records::kCanAcknowledgementError: place = kAcknowledgementSlot; break;
-    default: break;
+    case records::CanError::kBit: kind |= kBit; break;
+    case records::CanError::kStuff: kind |= kStuff; break;
+    case records::CanError::kForm: kind |= kForm; break;
+    case records::CanError::kCrc: place = kCrcSequence; break;
+    case records::CanError::kAcknowledgement: place = kAcknowledgementSlot; break;
+    case records::CanError::kNone: break;
   }
   bytes.data[kKindByte] = byte_of(kind);
   bytes.data[kPlaceByte] = byte_of(place);
@@ -48,13 +48,14 @@ CanErrorBytes error_bytes_of(const records::CanErrorFrame& error) {
 }
 
 CanErrorBytes error_bytes_of(const records::CanStateChanged& change) {
-  if (change.to == records::kCanBusOff) return with_counters(kBusOff, change.transmit_errors, change.receive_errors);
-  const bool restarted = change.from == records::kCanBusOff;
+  if (change.to == records::CanState::kBusOff)
+    return with_counters(kBusOff, change.transmit_errors, change.receive_errors);
+  const bool restarted = change.from == records::CanState::kBusOff;
   CanErrorBytes bytes =
       with_counters(restarted ? kRestarted : kController, change.transmit_errors, change.receive_errors);
   if (restarted) return bytes;
   const unsigned passive = change.transmit_errors >= kErrorPassiveFrom ? kTransmitPassive : kReceivePassive;
-  bytes.data[kControllerByte] = byte_of(change.to == records::kCanErrorPassive ? passive : kActive);
+  bytes.data[kControllerByte] = byte_of(change.to == records::CanState::kPassive ? passive : kActive);
   return bytes;
 }
 

@@ -7,6 +7,7 @@
 
 #include "recording/capture/packet.h"
 #include "recording/exports/pcapng_writer.h"
+#include "recording/records/words.h"
 
 namespace ttf::recording::exports {
 namespace {
@@ -32,10 +33,10 @@ void put_hex(std::string& out, std::span<const std::byte> bytes) {
 
 // Checks a frame's bytes anew; errors of coding and of the frame's end come from the log.
 capture::CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const std::byte> bytes) {
-  if ((frame.state & records::kChannelCoding) == 0) return capture::check_flexray_frame(channel_of(frame), bytes);
+  if (!has(frame.state, records::ChannelState::kCoding)) return capture::check_flexray_frame(channel_of(frame), bytes);
   capture::CheckedFlexRayFrame broken = capture::check_broken_frame(channel_of(frame), bytes);
   broken.errors |= capture::kCodingError;
-  if ((frame.state & records::kChannelCut) != 0) broken.errors |= capture::kFrameEndError;
+  if (has(frame.state, records::ChannelState::kCut)) broken.errors |= capture::kFrameEndError;
   return broken;
 }
 
@@ -62,8 +63,8 @@ std::int64_t bits_of(const LoggedFrame& symbol, const LogNames& names) {
 }
 
 std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
-  if (frame.symbol != 0)
-    return fmt::format("{} of {}, {:.1f} us", name_of_symbol(frame.symbol).words, names.node(frame.sender),
+  if (frame.symbol)
+    return fmt::format("{} of {}, {:.1f} us", to_text(*frame.symbol), names.node(frame.sender),
                        static_cast<double>(frame.duration_ns) * 1e-3);
   const std::string origin = origin_of(frame, names), list = list_of(frame, names);
   return origin + (origin.empty() || list.empty() ? "" : "; ") + list;
@@ -87,6 +88,15 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+std::string_view flag_of(records::Symbol symbol) {
+  switch (symbol) {
+    case records::Symbol::kCas: return "cas";
+    case records::Symbol::kWakeup: return "wakeup";
+    case records::Symbol::kMediaTest: return "media_test";
+  }
+  return "";
+}
+
 std::string flexray_flags(const capture::CheckedFlexRayFrame& frame) {
   const std::pair<bool, const char*> flags[] = {{frame.header.sync, "sync"},
                                                 {frame.header.startup, "startup"},
@@ -102,7 +112,7 @@ std::string flexray_flags(const capture::CheckedFlexRayFrame& frame) {
 }
 
 std::string flexray_kind(const LoggedFrame& frame) {
-  if (!frame.of_controller && (frame.state & records::kChannelCoding) != 0) return "noise";
+  if (!frame.of_controller && has(frame.state, records::ChannelState::kCoding)) return "noise";
   return frame.null_frame ? "null" : "frame";
 }
 
@@ -130,7 +140,7 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
   std::string packet;
   for (const LoggedFrame& frame : frames) {
     packet.clear();
-    if (frame.symbol != 0)
+    if (frame.symbol)
       capture::put_symbol_packet(packet, channel_of(frame), bits_of(frame, names));
     else if (frame.flexray)
       put_flexray_packet(packet, channel_of(frame), checked(frame, collector.data(frame)));
@@ -160,9 +170,9 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
 }
 
 std::string csv_fields(const FrameCollector& collector, const LoggedFrame& frame, const LogNames& names) {
-  if (frame.symbol != 0)
+  if (frame.symbol)
     return fmt::format("{},{},,,{},symbol,{},,,,,", kFlexRayName, letter(channel_of(frame)),
-                       quoted(names.node(frame.sender)), name_of_symbol(frame.symbol).flag);
+                       quoted(names.node(frame.sender)), flag_of(*frame.symbol));
   const bool list = frame.pdu != kNoPdu;
   std::string out, flags;
   std::span<const std::byte> payload = collector.data(frame);

@@ -35,15 +35,6 @@ std::string LogNames::measurement(const LoggedFrame& frame) const {
   return fmt::format("{} {}", sensor(frame.sensor), frame.sequence);
 }
 
-SymbolName name_of_symbol(std::uint8_t symbol) {
-  switch (symbol) {
-    case records::kSymbolCas: return {"cas", "collision avoidance symbol"};
-    case records::kSymbolWakeup: return {"wakeup", "wake-up pattern"};
-    case records::kSymbolMediaTest: return {"media_test", "media access test symbol"};
-    default: return {"", "symbol"};  // from a damaged log
-  }
-}
-
 void FrameCollector::on(const records::SlotFrameSent& record) {
   LoggedFrame frame;
   frame.time_ns = record.stamp.true_time.ns;
@@ -101,7 +92,7 @@ void FrameCollector::on(const records::ChannelFrame& record) {
     frame.null_frame = header->null_frame;
   }
   frame = with_data(frame, record.bytes);
-  const bool nothing = (record.state & records::kChannelNothing) != 0;
+  const bool nothing = has(record.state, records::ChannelState::kNothing);
   if (frame.of_controller)
     on_channel_.push_back({record.sent.ns, record.sender, std::uint8_t{record.sent_channel != 0}, nothing, frame});
   else if (!nothing)
@@ -116,7 +107,7 @@ void FrameCollector::on(const records::SymbolSent& record) {
   symbol.sender = record.stamp.node;
   symbol.symbol = record.kind;
   symbol.duration_ns = record.end.true_time.ns - record.stamp.true_time.ns;
-  if (record.kind != 0) frames_.push_back(symbol);
+  frames_.push_back(symbol);
 }
 
 LoggedFrame FrameCollector::with_data(LoggedFrame frame, std::span<const std::byte> data) {
@@ -134,7 +125,7 @@ std::vector<LoggedFrame> FrameCollector::in_order() const {
   std::vector<LoggedFrame> frames;
   frames.reserve(frames_.size());
   for (const LoggedFrame& frame : frames_) {
-    const bool sent = frame.flexray && frame.symbol == 0 && frame.of_controller;
+    const bool sent = frame.flexray && !frame.symbol && frame.of_controller;
     const auto found = sent ? became.find({frame.time_ns, frame.channel, frame.sender}) : became.end();
     if (found == became.end()) {
       frames.push_back(frame);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,13 +28,11 @@ struct LoggedFrame {
   SensorId sensor = kNoSensor;  // with `sequence`, the measurement that the frame carries
   std::uint32_t sequence = 0;
   std::uint8_t fragment = 0;
-  bool as_sent = true;           // FlexRay: sent by a controller, and unchanged on the channel
-  bool of_controller = true;     // FlexRay: if false, `cycle` is unknown, and `id` is that of the frame's
-                                 // header
-  std::uint8_t state = 0;        // FlexRay: state of the records::ChannelFrame; never kChannelNothing
-  std::uint8_t symbol = 0;       // FlexRay: records::kSymbolCas, ...: a symbol, with time, channel and sender
-                                 // only
-  std::int64_t duration_ns = 0;  // of a symbol
+  bool as_sent = true;            // FlexRay: sent by a controller, and unchanged on the channel
+  bool of_controller = true;      // FlexRay: if false, `cycle` is unknown, and `id` is that of the frame's header
+  records::ChannelState state{};  // FlexRay: of the records::ChannelFrame; never kNothing
+  std::optional<records::Symbol> symbol;      // FlexRay: a symbol, with time, channel and sender only
+  std::int64_t duration_ns = 0;               // of a symbol
   std::size_t data_begin = 0, data_size = 0;  // FlexRay: header, payload and trailer, as far as they were there
 };
 
@@ -55,12 +54,6 @@ class LogNames {
  private:
   log::LogManifest manifest_;
 };
-
-struct SymbolName {
-  const char* flag;
-  const char* words;
-};
-SymbolName name_of_symbol(std::uint8_t symbol);  // records::kSymbolCas, ...
 
 // Collects frames while a log is read. FlexRay frames are as they were on the channel: without those that
 // reached no receiver, and with noise. Symbols are as sent; a log has no more about them.

@@ -14,8 +14,9 @@ bool is_of_another_process(const records::BinnedDurations& newer, const records:
 }  // namespace
 
 void LatenessSums::on(const records::LatenessHistogram& record) {
-  if (record.of < 1 || record.of > kKinds) return;  // from a later version
-  Told& told = told_[record.stamp.node][record.of - 1u];
+  const std::size_t of = index_of(record.of);
+  if (of < 1 || of > kKinds) return;  // from a later version
+  Told& told = told_[record.stamp.node][of - 1];
   const records::BinnedDurations newest(record.counts, record.longest);
   if (record.stamp.local < told.at || is_of_another_process(newest, told.newest)) told.before.add(told.newest);
   told.newest = newest;
@@ -23,16 +24,17 @@ void LatenessSums::on(const records::LatenessHistogram& record) {
 }
 
 std::map<NodeId, NodeLateness> LatenessSums::nodes() const {
+  using records::LatenessOf;
   std::map<NodeId, NodeLateness> nodes;
   for (const auto& [node, told] : told_) {
-    const auto sum = [&kinds = told](std::uint8_t of) {
-      records::BinnedDurations all = kinds[of - 1u].before;
-      all.add(kinds[of - 1u].newest);
+    const auto sum = [&kinds = told](LatenessOf of) {
+      const Told& one = kinds[index_of(of) - 1];
+      records::BinnedDurations all = one.before;
+      all.add(one.newest);
       return all;
     };
-    nodes[node] = {sum(records::kLatenessOfWakeUps), sum(records::kLatenessOfFloor),
-                   sum(records::kLatenessOfDepartures), sum(records::kLatenessOfArrivals),
-                   sum(records::kLatenessOfTransits)};
+    nodes[node] = {sum(LatenessOf::kWakeUps), sum(LatenessOf::kFloor), sum(LatenessOf::kDepartures),
+                   sum(LatenessOf::kArrivals), sum(LatenessOf::kTransits)};
   }
   return nodes;
 }

@@ -33,7 +33,7 @@ class LatenessSums final : public records::Sink {
   void on(const records::LatenessHistogram&) override;
 
  private:
-  static constexpr std::size_t kKinds = records::kLatenessOfTransits;
+  static constexpr std::size_t kKinds = index_of(records::LatenessOf::kTransits);
   struct Told {
     records::BinnedDurations before;  // from the node's former processes
     records::BinnedDurations newest;  // from its present process

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "recording/exports/slot_status.h"
+#include "recording/records/words.h"
 
 namespace ttf::recording::exports {
 namespace {
@@ -22,44 +22,6 @@ TrueTime shown(TrueTime at) { return {std::clamp<std::int64_t>(at.ns, 0, kTraceR
 
 std::string channel_lane(std::uint8_t channel) { return channel == 0 ? "channel A" : "channel B"; }
 std::string microseconds(Duration time) { return fmt::format("{:.1f} us", static_cast<double>(time.ns) * 1e-3); }
-
-// Names the bits of records::ChannelFrame.
-std::string channel_state_words(unsigned state) {
-  static constexpr std::pair<unsigned, const char*> kWords[] = {{records::kChannelHeaderCrc, "header CRC error"},
-                                                                {records::kChannelFrameCrc, "frame CRC error"},
-                                                                {records::kChannelCoding, "coding error"},
-                                                                {records::kChannelCut, "cut"},
-                                                                {records::kChannelNothing, "reached no receiver"}};
-  std::string words;
-  for (const auto& [bit, word] : kWords)
-    if ((state & bit) != 0) words += (words.empty() ? "" : ", ") + std::string(word);
-  return words;
-}
-
-const char* words_of_loss(records::Hop hop) {
-  switch (hop) {
-    case records::Hop::kTorn: return "torn";
-    case records::Hop::kOverwritten: return "overwritten";
-    case records::Hop::kStale: return "fragment came too late";
-    case records::Hop::kDiscarded: return "discarded";
-    case records::Hop::kWritten:
-    case records::Hop::kSent:
-    case records::Hop::kReceived:
-    case records::Hop::kRead: break;
-  }
-  return nullptr;
-}
-
-const char* words_of_problem(std::uint8_t what) {
-  switch (what) {
-    case records::kLateWakeUp: return "woken up late";
-    case records::kSlotMissed: return "slot missed";
-    case records::kLateFrame: return "frame came late";
-    case records::kEarlyFrame: return "frame came early";
-    case records::kFramesLost: return "frames lost";
-    default: return "timing problem";
-  }
-}
 
 WayMark passed(const TraceMark& mark) { return {mark.at, mark.serial}; }
 std::int64_t whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
@@ -184,12 +146,12 @@ void PerfettoExport::on(const records::SlotFrameSent& r) {
 
 void PerfettoExport::on(const records::SymbolSent& r) {
   const TrueTime start = come_to(r.stamp.true_time);
-  timeline_.slice(kFlexRayGroup, channel_lane(r.channel), start, shown(r.end.true_time), name_of_symbol(r.kind).words,
+  timeline_.slice(kFlexRayGroup, channel_lane(r.channel), start, shown(r.end.true_time), std::string(to_text(r.kind)),
                   {{"sender", names_.node(r.stamp.node)}});
 }
 
 void PerfettoExport::on(const records::ChannelFrame& r) {
-  const std::string state = channel_state_words(r.state);
+  const std::string state = to_text(r.state);
   const std::string whose = r.slot != 0 ? fmt::format("slot {} of {}", r.slot, names_.node(r.sender))
                             : r.sender != kNoNode
                                 ? fmt::format("the controller of {} did not send it", names_.node(r.sender))
@@ -204,14 +166,14 @@ void PerfettoExport::on(const records::GuardianIntervention& r) {
 }
 
 void PerfettoExport::on(const records::SlotProblem& r) {
-  node_instant(r.stamp.node, "slot problems", r.stamp.true_time, slot_status_words(r.status),
+  node_instant(r.stamp.node, "slot problems", r.stamp.true_time, to_text(r.status),
                {{"slot", std::int64_t{r.slot}}, {"cycle", r.cycle}, {"channel", channel_lane(r.channel)}});
 }
 
 void PerfettoExport::on(const records::ListHop& r) {
   using Deed = MeasurementWays::Deed;
   const MeasurementId id{r.sensor, r.sequence};
-  if (const char* loss = words_of_loss(r.hop)) {
+  if (const std::string_view loss = loss_text(r.hop); !loss.empty()) {
     const TraceMark mark = node_instant(r.stamp.node, "lost lists", r.stamp.true_time,
                                         fmt::format("{} {} {}", names_.pdu(r.pdu), r.sequence, loss), {});
     if (r.sensor != kNoSensor && r.hop != records::Hop::kStale)
@@ -322,9 +284,9 @@ void PerfettoExport::on(const records::FaultActivity& r) {
   come_to(r.at);
   const std::string lane = fmt::format("fault {}: {}", r.fault, r.kind), text(r.text);
   switch (r.what) {
-    case records::kFaultBegins: timeline_.begin(kFaultGroup, lane, shown(r.at), text, {}); break;
-    case records::kFaultEnds: timeline_.end(kFaultGroup, lane, shown(r.at)); break;
-    default: timeline_.instant(kFaultGroup, lane, shown(r.at), text, {}); break;
+    case records::FaultAct::kBegins: timeline_.begin(kFaultGroup, lane, shown(r.at), text, {}); break;
+    case records::FaultAct::kEnds: timeline_.end(kFaultGroup, lane, shown(r.at)); break;
+    case records::FaultAct::kActs: timeline_.instant(kFaultGroup, lane, shown(r.at), text, {}); break;
   }
 }
 
@@ -336,7 +298,7 @@ void PerfettoExport::on(const records::TimingProblem& r) {
     notes.push_back({"channel", channel_lane(r.channel)});
   }
   if (r.count > 1) notes.push_back({"times", std::int64_t{r.count}});
-  node_instant(r.stamp.node, "timing problems", r.stamp.true_time, words_of_problem(r.what), std::move(notes));
+  node_instant(r.stamp.node, "timing problems", r.stamp.true_time, std::string(to_text(r.what)), std::move(notes));
 }
 
 }  // namespace ttf::recording::exports

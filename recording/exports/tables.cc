@@ -114,11 +114,12 @@ void TableExport::on(const records::TrackState& r) {
 void TableExport::on(const records::ImageWritten& r) {
   const std::string newest = r.newest.empty() ? "" : seconds(r.stamp, r.newest_measurement);
   for (const records::ImageObject& o : r.objects) {
-    const auto bit = [&](std::uint8_t mask) { return (o.status & mask) != 0 ? 1 : 0; };
+    const auto bit = [&](records::ImageStatus mask) { return has(o.status, mask) ? 1 : 0; };
     row(Table::kImages,
         fmt::format("{},{},{},{},{},{},{},{},{}{}", seconds(r.stamp.true_time), r.sequence,
-                    seconds(r.stamp, r.valid_at), newest, index_of(o.track), bit(records::kImageConfirmed),
-                    bit(records::kImageCoasting), bit(records::kImageHasLength), bit(records::kImageHasWidth),
+                    seconds(r.stamp, r.valid_at), newest, index_of(o.track), bit(records::ImageStatus::kConfirmed),
+                    bit(records::ImageStatus::kCoasting), bit(records::ImageStatus::kHasLength),
+                    bit(records::ImageStatus::kHasWidth),
                     numbers(std::array{o.x, o.y, o.heading, o.speed, o.acceleration, o.length, o.width, o.sigma_x,
                                        o.sigma_y, o.correlation_xy, o.sigma_heading, o.sigma_speed,
                                        o.sigma_acceleration, o.sigma_length, o.sigma_width})));

@@ -64,7 +64,7 @@ RecordPlace place_of(const records::PrecisionSample& r) { return of_drive(r, r.a
 RecordPlace place_of(const records::ReferenceFix& r) { return of_drive(r, r.measured_true, index_of(r.object)); }
 RecordPlace place_of(const records::FaultActivity& r) {
   return of_drive(r, TrueTime{std::max(r.at.ns, kEarliest + kMicroticks_ns) - kMicroticks_ns},
-                  std::uint64_t{r.fault} << 8 | r.what);
+                  std::uint64_t{r.fault} << 8 | index_of(r.what));
 }
 RecordPlace place_of(const records::GuardianIntervention& r) {
   return of_drive(r, r.at, std::uint64_t{r.channel} << 8 | index_of(r.branch));

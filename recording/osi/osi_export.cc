@@ -168,7 +168,7 @@ void OsiExport::image(TrueTime valid_at, const records::ImageWritten& image) {
     if (!scene::drawable(track)) continue;
     osi3::DetectedMovingObject& object = *message.add_moving_object();
     object.mutable_header()->mutable_tracking_id()->set_value(index_of(track.track));
-    object.mutable_header()->set_measurement_state((track.status & records::kImageCoasting) != 0
+    object.mutable_header()->set_measurement_state(has(track.status, records::ImageStatus::kCoasting)
                                                        ? osi3::DetectedItemHeader::MEASUREMENT_STATE_PREDICTED
                                                        : osi3::DetectedItemHeader::MEASUREMENT_STATE_MEASURED);
     set_base(*object.mutable_base(), box_of(track));

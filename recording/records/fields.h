@@ -116,7 +116,7 @@ constexpr auto describe(Is<ImageObject>) {
                  field(11, "correlation_xy", &R::correlation_xy), field(12, "sigma_heading", &R::sigma_heading),
                  field(13, "sigma_speed", &R::sigma_speed), field(14, "sigma_acceleration", &R::sigma_acceleration),
                  field(15, "sigma_length", &R::sigma_length), field(16, "sigma_width", &R::sigma_width),
-                 field(17, "status", &R::status, std::uint8_t{0}, std::uint8_t{15}));
+                 field(17, "status", &R::status, ImageStatus{0}, ImageStatus{15}));
 }
 
 constexpr auto describe(Is<Measured>) {
@@ -240,7 +240,7 @@ constexpr auto describe(Is<StateChanged>) {
 constexpr auto describe(Is<SymbolSent>) {
   using R = SymbolSent;
   return message("Symbol", &R::stamp, field(1, "stamp", &R::stamp), field(2, "end", &R::end),
-                 field(3, "channel", &R::channel), field(4, "kind", &R::kind, kSymbolCas, kSymbolMediaTest));
+                 field(3, "channel", &R::channel), field(4, "kind", &R::kind, Symbol::kCas, Symbol::kMediaTest));
 }
 constexpr auto describe(Is<PowerChanged>) {
   using R = PowerChanged;
@@ -249,35 +249,36 @@ constexpr auto describe(Is<PowerChanged>) {
 constexpr auto describe(Is<FaultActivity>) {
   using R = FaultActivity;
   return message("Fault", At{&R::at}, field(1, "at", &R::at), field(2, "fault", &R::fault),
-                 field(3, "what", &R::what, kFaultBegins, kFaultEnds), field(4, "node", &R::node),
+                 field(3, "what", &R::what, FaultAct::kBegins, FaultAct::kEnds), field(4, "node", &R::node),
                  field(5, "kind", &R::kind), field(6, "text", &R::text));
 }
 constexpr auto describe(Is<GuardianIntervention>) {
   using R = GuardianIntervention;
   return message("Guardian", At{&R::at}, field(1, "at", &R::at), field(2, "branch", &R::branch),
                  field(3, "channel", &R::channel, std::uint8_t{0}, std::uint8_t{1}),
-                 field(4, "signal", &R::signal, kSignalFrame, kSignalUndecodable), field(5, "reason", &R::reason),
-                 field(6, "cut", &R::cut), field(7, "until", &R::until), field(8, "why", &R::why));
+                 field(4, "signal", &R::signal, GuardedSignal::kFrame, GuardedSignal::kUndecodable),
+                 field(5, "reason", &R::reason), field(6, "cut", &R::cut), field(7, "until", &R::until),
+                 field(8, "why", &R::why));
 }
 constexpr auto describe(Is<ChannelFrame>) {
   using R = ChannelFrame;
   return message("ChannelFrame", At{&R::start}, field(1, "start", &R::start), field(2, "end", &R::end),
                  field(3, "sender", &R::sender), field(4, "channel", &R::channel),
-                 field(5, "state", &R::state, std::uint8_t{0}, std::uint8_t{31}), field(6, "slot", &R::slot),
+                 field(5, "state", &R::state, ChannelState{0}, ChannelState{31}), field(6, "slot", &R::slot),
                  field(7, "cycle_counter", &R::cycle_counter), field(8, "sent", &R::sent),
                  field(9, "sent_channel", &R::sent_channel), field(10, "bytes", &R::bytes));
 }
 constexpr auto describe(Is<TimingProblem>) {
   using R = TimingProblem;
   return message("TimingProblem", &R::stamp, field(1, "stamp", &R::stamp),
-                 field(2, "what", &R::what, kLateWakeUp, kFramesLost), field(3, "late", &R::late),
-                 field(4, "cycle", &R::cycle), field(5, "slot", &R::slot),
+                 field(2, "what", &R::what, TimingFault::kLateWakeUp, TimingFault::kFramesLost),
+                 field(3, "late", &R::late), field(4, "cycle", &R::cycle), field(5, "slot", &R::slot),
                  field(6, "channel", &R::channel, std::uint8_t{0}, std::uint8_t{1}), field(7, "count", &R::count));
 }
 constexpr auto describe(Is<LatenessHistogram>) {
   using R = LatenessHistogram;
   return message("Lateness", &R::stamp, field(1, "stamp", &R::stamp),
-                 field(2, "of", &R::of, kLatenessOfWakeUps, kLatenessOfTransits), field(3, "longest", &R::longest),
+                 field(2, "of", &R::of, LatenessOf::kWakeUps, LatenessOf::kTransits), field(3, "longest", &R::longest),
                  field(4, "counts", &R::counts, std::size_t{0}, kLatenessBins));
 }
 constexpr auto describe(Is<MediumCounts>) {
@@ -290,16 +291,16 @@ constexpr auto describe(Is<MediumCounts>) {
 constexpr auto describe(Is<CanErrorFrame>) {
   using R = CanErrorFrame;
   return message("CanError", &R::stamp, field(1, "stamp", &R::stamp), field(2, "bus", &R::bus),
-                 field(3, "error", &R::error, kCanBitError, kCanAcknowledgementError),
+                 field(3, "error", &R::error, CanError::kBit, CanError::kAcknowledgement),
                  field(4, "as_transmitter", &R::as_transmitter), field(5, "transmit_errors", &R::transmit_errors),
                  field(6, "receive_errors", &R::receive_errors));
 }
 constexpr auto describe(Is<CanStateChanged>) {
   using R = CanStateChanged;
   return message("CanState", &R::stamp, field(1, "stamp", &R::stamp), field(2, "bus", &R::bus),
-                 field(3, "from", &R::from, kCanErrorActive, kCanBusOff),
-                 field(4, "to", &R::to, kCanErrorActive, kCanBusOff), field(5, "transmit_errors", &R::transmit_errors),
-                 field(6, "receive_errors", &R::receive_errors));
+                 field(3, "from", &R::from, CanState::kActive, CanState::kBusOff),
+                 field(4, "to", &R::to, CanState::kActive, CanState::kBusOff),
+                 field(5, "transmit_errors", &R::transmit_errors), field(6, "receive_errors", &R::receive_errors));
 }
 constexpr auto describe(Is<OdometryTaken>) {
   using R = OdometryTaken;

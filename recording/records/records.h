@@ -15,6 +15,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "recording/records/bits.h"
 
 namespace ttf::recording::records {
 
@@ -62,27 +63,28 @@ struct CanFrameSent {
 
 // A controller on a private CAN detected an error, and its error flag is the first of an error frame. The frame is
 // sent again.
-inline constexpr std::uint8_t kCanBitError = 1;
-inline constexpr std::uint8_t kCanStuffError = 2;
-inline constexpr std::uint8_t kCanFormError = 3;
-inline constexpr std::uint8_t kCanCrcError = 4;
-inline constexpr std::uint8_t kCanAcknowledgementError = 5;
+enum class CanError : std::uint8_t {
+  kNone = 0,  // in no record
+  kBit = 1,
+  kStuff = 2,
+  kForm = 3,
+  kCrc = 4,
+  kAcknowledgement = 5
+};
 struct CanErrorFrame {
   Stamp stamp;           // the end of the bit with the error
   std::uint8_t bus = 0;  // index in Cluster::can_buses
-  std::uint8_t error = kCanBitError;
+  CanError error = CanError::kBit;
   bool as_transmitter = false;
   std::uint16_t transmit_errors = 0, receive_errors = 0;  // its counters behind it
 };
 
 // A controller on a private CAN changed its state of error confinement.
-inline constexpr std::uint8_t kCanErrorActive = 0;
-inline constexpr std::uint8_t kCanErrorPassive = 1;
-inline constexpr std::uint8_t kCanBusOff = 2;
+enum class CanState : std::uint8_t { kActive = 0, kPassive = 1, kBusOff = 2 };
 struct CanStateChanged {
   Stamp stamp;
   std::uint8_t bus = 0;
-  std::uint8_t from = kCanErrorActive, to = kCanErrorActive;
+  CanState from = CanState::kActive, to = CanState::kActive;
   std::uint16_t transmit_errors = 0, receive_errors = 0;
 };
 
@@ -105,17 +107,21 @@ struct SlotFrameSent {
 // sent, such as noise. The record holds the frame of the best-placed receiver; an error of a single receiver is
 // a SlotProblem of that receiver instead. The record is written once the frame has arrived everywhere, or can
 // arrive nowhere any more, which may be before its sender records it. Symbols have no such record.
-inline constexpr std::uint8_t kChannelHeaderCrc = 1;  // the header CRC fails
-inline constexpr std::uint8_t kChannelFrameCrc = 2;   // the frame CRC fails, or the length differs from the header's
-inline constexpr std::uint8_t kChannelCoding = 4;     // undecodable for every receiver, wholly or beyond `bytes`
-inline constexpr std::uint8_t kChannelCut = 8;        // the frame ends early, after `bytes`; a missing CRC is not wrong
-inline constexpr std::uint8_t kChannelNothing = 16;   // no receiver got any of it; excludes the other bits
+enum class ChannelState : std::uint8_t {
+  kSound = 0,
+  kHeaderCrc = 1,  // the header CRC fails
+  kFrameCrc = 2,   // the frame CRC fails, or the length differs from the header's
+  kCoding = 4,     // undecodable for every receiver, wholly or beyond `bytes`
+  kCut = 8,        // the frame ends early, after `bytes`; a missing CRC is not wrong
+  kNothing = 16    // no receiver got any of it; excludes the other bits
+};
+template <> inline constexpr bool kIsBits<ChannelState> = true;
 struct ChannelFrame {
   TrueTime start{};  // first and last bit, as they left the sender, or where they appeared
   TrueTime end{};
   NodeId sender = kNoNode;   // kNoNode: noise, without a sender
   std::uint8_t channel = 0;  // 0 A, 1 B
-  std::uint8_t state = 0;    // bits as above, by our own decoder; 0: a sound frame
+  ChannelState state{};      // by our own decoder
   std::uint16_t slot = 0;    // slot of transmission; 0: no controller sent it, and the next three are 0, too
   std::uint8_t cycle_counter = 0;
   TrueTime sent{};                   // the stamp of its SlotFrameSent, which has the same sender
@@ -123,15 +129,25 @@ struct ChannelFrame {
   std::span<const std::byte> bytes;  // header, payload and trailer as on the wire; empty if undecodable
 };
 
-// Status of a slot on one channel as one receiver saw it. Recorded if the slot had an error, or if the frame that
-// is expected there did not come. An unexpected frame is valid. Bits: 1 syntax error, 2 content error, 4 boundary
-// violation, 8 transmission conflict, 16 no frame, 32 unexpected frame.
+// Status of a slot on one channel as one receiver saw it (FlexRay 2.1A vSS): bits, and at the end the host's view of a
+// valid frame. Recorded if the slot had an error, or if the frame that is expected there did not come.
+enum SlotStatus : std::uint8_t {
+  kValidFrame = 0,
+  kSyntaxError = 1,
+  kContentError = 2,
+  kBoundaryViolation = 4,
+  kTransmissionConflict = 8,
+  kNoFrame = 16,
+  // A valid frame that is not in the schedule's slot, cycle and channel. Or its message id, its length or its payload
+  // is not that of the slot's list.
+  kUnexpectedFrame = 32
+};
 struct SlotProblem {
   Stamp stamp;
   std::int64_t cycle = 0;
   std::uint16_t slot = 0;
   std::uint8_t channel = 0;
-  std::uint8_t status = 0;
+  SlotStatus status = kValidFrame;
 };
 
 // A list of a PDU on its way: each hop is one record, so that a diagram can draw the arrows.
@@ -173,25 +189,43 @@ struct ClockCorrected {
   bool offset_missing = false, rate_missing = false, offset_limited = false, rate_limited = false;
 };
 
-// A controller's protocol operation control changed its state. Numbers are those of E-Ray's CCSV.POCS, words
-// those of bus/poc/text.cc. A node that begins integrated records no change.
+// A controller's protocol operation control changed its state. Numbers are those of E-Ray's CCSV.POCS; a later
+// version may record others. A node that begins integrated records no change.
+enum class PocKind : std::uint8_t {
+  kDefaultConfig = 0x00,
+  kReady = 0x01,
+  kNormalActive = 0x02,
+  kNormalPassive = 0x03,
+  kHalt = 0x04,
+  kConfig = 0x0F,
+  kWakeupListen = 0x11,
+  kWakeupSend = 0x12,
+  kWakeupDetect = 0x13,
+  kColdstartListen = 0x21,
+  kColdstartCollisionResolution = 0x22,
+  kColdstartConsistencyCheck = 0x23,
+  kColdstartGap = 0x24,
+  kColdstartJoin = 0x25,
+  kIntegrationColdstartCheck = 0x26,
+  kIntegrationListen = 0x27,
+  kIntegrationConsistencyCheck = 0x28,
+  kInitialiseSchedule = 0x29
+};
 struct StateChanged {
   Stamp stamp;  // global time as the node has it in the new state
-  std::uint8_t from = 0, to = 0;
+  PocKind from{}, to{};
   std::string_view from_name, to_name;
   std::string_view why;          // one sentence without the final stop
   std::string_view consequence;  // why start-up took this branch; empty if only one exists
 };
 
 // A symbol on one channel, as its sender sent it.
-inline constexpr std::uint8_t kSymbolCas = 1;        // collision avoidance symbol
-inline constexpr std::uint8_t kSymbolWakeup = 2;     // a wake-up pattern
-inline constexpr std::uint8_t kSymbolMediaTest = 3;  // media access test symbol
+enum class Symbol : std::uint8_t { kCas = 1, kWakeup = 2, kMediaTest = 3 };
 struct SymbolSent {
   Stamp stamp;  // start of transmission
   Stamp end{};
   std::uint8_t channel = 0;  // 0 A, 1 B
-  std::uint8_t kind = kSymbolCas;
+  Symbol kind = Symbol::kCas;
 };
 
 // A node's supply was switched on or off. A node keeps no state while it is off.
@@ -202,13 +236,11 @@ struct PowerChanged {
 
 // An activity of a fault of the fault plan. Only the injector knows it, no node does. A fault acts once or many
 // times, between its begin and its end.
-inline constexpr std::uint8_t kFaultBegins = 1;
-inline constexpr std::uint8_t kFaultActs = 2;
-inline constexpr std::uint8_t kFaultEnds = 3;
+enum class FaultAct : std::uint8_t { kBegins = 1, kActs = 2, kEnds = 3 };
 struct FaultActivity {
   TrueTime at{};
   std::uint32_t fault = 0;  // index in the plan
-  std::uint8_t what = kFaultBegins;
+  FaultAct what = FaultAct::kBegins;
   NodeId node = kNoNode;  // the faulty node; kNoNode for a fault of the medium
   std::string_view kind;  // as the plan names it, "babbling_idiot"
   std::string_view text;  // one sentence
@@ -216,15 +248,17 @@ struct FaultActivity {
 
 // A bus signal that the central guardian of one channel blocked, or cut at `until`. The guardian has no clock
 // of a node: true time only.
-inline constexpr std::uint8_t kSignalFrame = 1;
-inline constexpr std::uint8_t kSignalCas = 2;     // collision avoidance or media access test symbol
-inline constexpr std::uint8_t kSignalWakeup = 3;  // a wake-up pattern
-inline constexpr std::uint8_t kSignalUndecodable = 4;
+enum class GuardedSignal : std::uint8_t {
+  kFrame = 1,
+  kCas = 2,     // collision avoidance or media access test symbol
+  kWakeup = 3,  // a wake-up pattern
+  kUndecodable = 4
+};
 struct GuardianIntervention {
   TrueTime at{};             // the bus signal begins at the coupler
   NodeId branch = kNoNode;   // the branch of this node
   std::uint8_t channel = 0;  // 0 A, 1 B
-  std::uint8_t signal = kSignalFrame;
+  GuardedSignal signal = GuardedSignal::kFrame;
   std::uint8_t reason = 0;  // as bus::GuardianReason; 0 if cut
   bool cut = false;         // else blocked
   TrueTime until{};         // cut: the bus signal went through until then; blocked: `at`
@@ -318,17 +352,20 @@ struct ObservationSeen {
 };
 
 // One object of the real-time image as decoded from the bus, in the sensor car's frame: velocities are relative
-// to that car. Status is the sum of the bits below. Length and width are typical of vehicles unless measured.
-inline constexpr std::uint8_t kImageConfirmed = 1;  // else tentative
-inline constexpr std::uint8_t kImageCoasting = 2;   // not observed of late: predicted only
-inline constexpr std::uint8_t kImageHasLength = 4;  // length was measured
-inline constexpr std::uint8_t kImageHasWidth = 8;
+// to that car. Length and width are typical of vehicles unless measured.
+enum class ImageStatus : std::uint8_t {
+  kConfirmed = 1,  // else tentative
+  kCoasting = 2,   // not observed of late: predicted only
+  kHasLength = 4,  // length was measured
+  kHasWidth = 8
+};
+template <> inline constexpr bool kIsBits<ImageStatus> = true;
 struct ImageObject {
   TrackId track{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, length = 0, width = 0;
   double sigma_x = 0, sigma_y = 0, correlation_xy = 0, sigma_heading = 0, sigma_speed = 0, sigma_acceleration = 0,
          sigma_length = 0, sigma_width = 0;
-  std::uint8_t status = 0;
+  ImageStatus status{};
 };
 struct ImageWritten {
   Stamp stamp;
@@ -357,12 +394,17 @@ struct FeatureUsed {
 
 // A service's warning begins or ends. The time to collision is infinite without an approach; the track is kNoTrack
 // without an object. Each side of the vehicle has a blind spot of its own.
-inline constexpr std::uint8_t kForwardCollision = 0, kEmergencyBraking = 1, kLaneDeparture = 2, kBlindSpotLeft = 3,
-                              kBlindSpotRight = 4;
+enum class WarningKind : std::uint8_t {
+  kForwardCollision = 0,
+  kEmergencyBraking = 1,
+  kLaneDeparture = 2,
+  kBlindSpotLeft = 3,
+  kBlindSpotRight = 4
+};
 inline constexpr std::size_t kWarningKinds = 5;
 struct Warning {
   Stamp stamp;
-  std::uint8_t service = kForwardCollision;
+  WarningKind service = WarningKind::kForwardCollision;
   bool on = false;
   TrackId track{};
   double time_to_collision_s = 0;
@@ -370,14 +412,13 @@ struct Warning {
 
 // A command of a service to the actuator: acceleration [m/s^2] and angle of the front wheels [rad]. An invalid one asks for
 // nothing. The gap [m] and the object's speed [m/s] are those that it rests on; the gap is infinite without an object ahead.
-inline constexpr std::uint8_t kForNothing = 0, kForSetSpeed = 1, kForGap = 2, kForEmergency = 3, kForPlan = 4,
-                              kForLane = 5;
+enum class CommandReason : std::uint8_t { kNothing = 0, kSetSpeed = 1, kGap = 2, kEmergency = 3, kPlan = 4, kLane = 5 };
 struct CommandIssued {
   Stamp stamp;
   PduId pdu{};
   std::uint32_t sequence = 0;
   bool valid = false;
-  std::uint8_t reason = kForNothing;
+  CommandReason reason = CommandReason::kNothing;
   double acceleration = 0, steering = 0;
   double own_speed = 0, gap = 0, speed_ahead = 0;
   TrackId track{};  // the object ahead, if there is one
@@ -386,14 +427,19 @@ struct CommandIssued {
 // An actuator's reading of a command: it is applied from the instant `from` on, or not. A reading has a record for the
 // list of adaptive cruise control, and one for each new list of another service. An earlier command that counts on has
 // one of its own. An applied one has the actuation that was handed over. Several of one reading have the same.
-inline constexpr std::uint8_t kApplied = 0, kNoNewCommand = 1, kInvalidCommand = 2, kLateCommand = 3;
-// A service other than cruise control asks for nothing; a service asks for less than another one.
-inline constexpr std::uint8_t kNothingAsked = 4, kWeakerCommand = 5;
+enum class CommandVerdict : std::uint8_t {
+  kApplied = 0,
+  kNoneNew = 1,
+  kInvalid = 2,
+  kLate = 3,
+  kNothingAsked = 4,  // by a service other than cruise control
+  kWeaker = 5         // the service asks for less than another one
+};
 struct CommandTaken {
   Stamp stamp;
   PduId pdu{};
   std::uint32_t sequence = 0;
-  std::uint8_t verdict = kApplied;
+  CommandVerdict verdict = CommandVerdict::kApplied;
   double acceleration = 0, steering = 0;
   TrueTime from{};
 };
@@ -473,15 +519,16 @@ struct EgoTruth {
 
 // A missed instant in real time, where an ordinary kernel keeps the schedule: the node's process was late, or a
 // frame was. Loss and lateness are separate kinds.
-inline constexpr std::uint8_t kLateWakeUp = 1;  // an act was due for longer than the arrival window allows
-inline constexpr std::uint8_t kSlotMissed = 2;  // too late to send in an own slot
-inline constexpr std::uint8_t kLateFrame = 3;   // a frame came after its arrival window and was not used
-inline constexpr std::uint8_t kEarlyFrame = 4;  // a frame came before its arrival window and was not used
-inline constexpr std::uint8_t kFramesLost = 5;  // `count` frames of a slot never came, as the cycle of the next one
-                                                // shows
+enum class TimingFault : std::uint8_t {
+  kLateWakeUp = 1,  // an act was due for longer than the arrival window allows
+  kSlotMissed = 2,  // too late to send in an own slot
+  kLateFrame = 3,   // a frame came after its arrival window and was not used
+  kEarlyFrame = 4,  // a frame came before its arrival window and was not used
+  kFramesLost = 5   // `count` frames of a slot never came, as the cycle of the next one shows
+};
 struct TimingProblem {
   Stamp stamp;  // true time: when it was noticed; local and global: when it was due
-  std::uint8_t what = kLateWakeUp;
+  TimingFault what = TimingFault::kLateWakeUp;
   Duration late{};  // in real time; negative: early; for lost frames: how late the loss was noticed
   std::int64_t cycle = 0;
   std::uint16_t slot = 0;    // 0: none
@@ -491,15 +538,16 @@ struct TimingProblem {
 
 // How often a process was late, by bins of recording/records/lateness_bins.h, since it began. Recorded at its
 // end, and now and then before.
-inline constexpr std::uint8_t kLatenessOfWakeUps = 1;     // the acts of the node's process
-inline constexpr std::uint8_t kLatenessOfFloor = 2;       // a plain periodic thread beside it: the machine's own
-inline constexpr std::uint8_t kLatenessOfDepartures = 3;  // its frames, behind their action points
-inline constexpr std::uint8_t kLatenessOfArrivals = 4;    // others' frames, behind their action points on its
-                                                          // clock
-inline constexpr std::uint8_t kLatenessOfTransits = 5;    // from sender to process, for frames of the same machine
+enum class LatenessOf : std::uint8_t {
+  kWakeUps = 1,     // the acts of the node's process
+  kFloor = 2,       // a plain periodic thread beside it: the machine's own
+  kDepartures = 3,  // its frames, behind their action points
+  kArrivals = 4,    // others' frames, behind their action points on its clock
+  kTransits = 5     // from sender to process, for frames of the same machine
+};
 struct LatenessHistogram {
   Stamp stamp;
-  std::uint8_t of = kLatenessOfWakeUps;
+  LatenessOf of = LatenessOf::kWakeUps;
   Duration longest{};
   std::span<const std::uint64_t> counts;  // by bin, up to the last that is not empty
 };

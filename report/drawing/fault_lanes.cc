@@ -14,7 +14,7 @@ constexpr std::string_view kFaultSpan = "#f2b8a0";
 FaultLanes::FaultLanes(const std::vector<FaultEvent>& events, const Names& names, TrueTime from, TrueTime to)
     : from_(from), to_(to) {
   for (const FaultEvent& f : events) {
-    if (f.what == recording::records::kFaultBegins)
+    if (f.what == recording::records::FaultAct::kBegins)
       lanes_.try_emplace(f.fault, Lane{f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names.node(f.node)),
                                        f.text,
                                        f.at,
@@ -23,11 +23,11 @@ FaultLanes::FaultLanes(const std::vector<FaultEvent>& events, const Names& names
                                        {}});
     const auto lane = lanes_.find(f.fault);
     if (lane == lanes_.end()) continue;  // its begin is missing from the log
-    if (f.what == recording::records::kFaultEnds) {
+    if (f.what == recording::records::FaultAct::kEnds) {
       lane->second.end = f.at;
       lane->second.ends = true;
     }
-    if (f.what == recording::records::kFaultActs && f.at >= from && f.at < to) lane->second.acts.push_back(&f);
+    if (f.what == recording::records::FaultAct::kActs && f.at >= from && f.at < to) lane->second.acts.push_back(&f);
   }
   std::erase_if(lanes_, [&](const auto& one) {
     return one.second.acts.empty() && (one.second.start >= to || one.second.end < from);

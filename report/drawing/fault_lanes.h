@@ -26,7 +26,7 @@ struct FaultEvent {
 
   TrueTime at;
   std::uint32_t fault;
-  std::uint8_t what;
+  recording::records::FaultAct what;
   NodeId node;
   std::string kind, text;
 };

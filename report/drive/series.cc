@@ -127,9 +127,9 @@ void DriveSeriesSink::on(const recording::records::FaultActivity& r) {
     fault.text = r.text;
   }
   const double at = seconds_of(r.at);
-  if (r.what == recording::records::kFaultBegins) fault.begins_s = at;
-  if (r.what == recording::records::kFaultEnds) fault.ends_s = at;
-  if (r.what != recording::records::kFaultActs) return;
+  if (r.what == recording::records::FaultAct::kBegins) fault.begins_s = at;
+  if (r.what == recording::records::FaultAct::kEnds) fault.ends_s = at;
+  if (r.what != recording::records::FaultAct::kActs) return;
   if (fault.acts++ > 0) return;
   fault.first_act_s = at;
   fault.text = r.text;

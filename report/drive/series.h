@@ -34,11 +34,11 @@ struct DriveSeries {
   std::vector<TimedValue> velocity_error;  // [m/s]
   std::vector<TimedValue> newest_age;      // [ms] of the newest measurement in an image, at its use
   std::vector<TimedValue> oldest_age;      // [ms] of the sensor with the oldest list in the image
-  std::map<SensorId, std::vector<double>> age_fused, age_used;                // [ms]
-  std::vector<TimedValue> precision;                                          // [us]
-  std::map<NodeId, std::vector<TimedValue>> offset_corrections;               // microticks
-  std::map<NodeId, std::map<std::uint8_t, std::uint64_t>> slot_problems;      // count by the bits of their status
-  std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;  // by task
+  std::map<SensorId, std::vector<double>> age_fused, age_used;                              // [ms]
+  std::vector<TimedValue> precision;                                                        // [us]
+  std::map<NodeId, std::vector<TimedValue>> offset_corrections;                             // microticks
+  std::map<NodeId, std::map<recording::records::SlotStatus, std::uint64_t>> slot_problems;  // count by status
+  std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;                // by task
   std::map<std::uint32_t, FaultTold> faults;
   std::map<std::string, std::uint64_t> guardian;  // interventions of central guardians by reason
   std::uint64_t missed = 0, spurious = 0, matched = 0;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "recording/exports/slot_status.h"
+#include "recording/records/words.h"
 #include "report/drawing/names.h"
 #include "report/drive/tables.h"
 
@@ -30,7 +30,7 @@ std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
       label + ": slots without exactly one valid frame, by receiver", {"receiver", "status", "times"}, {}};
   for (const auto& [node, by_status] : series.slot_problems)
     for (const auto& [status, times] : by_status)
-      slots.rows.push_back({names.node(node), recording::exports::slot_status_words(status), std::to_string(times)});
+      slots.rows.push_back({names.node(node), to_text(status), std::to_string(times)});
   page::PageTable guardian{label + ": interventions of central guardians", {"why", "times"}, {}};
   for (const auto& [why, times] : series.guardian) guardian.rows.push_back({why, std::to_string(times)});
   page::PageTable deadlines{label + ": deadlines missed", {"task", "times"}, {}};

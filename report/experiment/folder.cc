@@ -228,8 +228,11 @@ ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
   for (std::size_t e = 0; e < expectations.size(); ++e) {
     const std::string place = fmt::format("expectations[{}].", e);
     ExperimentExpectation one{
-        reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), "", {}, {}};
-    if (expectations[e].contains("outcome")) one.outcome = reader.text(expectations[e], place, "outcome");
+        reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), {}, {}, {}};
+    if (expectations[e].contains("outcome")) {
+      one.outcome = experiments::results::outcome_of(reader.text(expectations[e], place, "outcome"));
+      if (!one.outcome) reader.refuse(place + "outcome", "must be holds, does not hold or cannot tell");
+    }
     const auto texts = [&](const char* key, std::vector<std::string>& into) {
       for (const Json& entry : reader.list(expectations[e], key))
         into.push_back(entry.is_string() ? entry.get<std::string>() : entry.dump());

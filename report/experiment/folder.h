@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/results/outcome.h"
 #include "experiments/results/ratio.h"
 #include "experiments/results/statistics.h"
 #include "experiments/results/store.h"
@@ -39,9 +40,9 @@ struct ExperimentCrossing {
 struct ExperimentExpectation {
   std::string expected;
   bool holds = false;
-  std::string outcome;                 // "cannot tell"; "" in an older answer.json
-  std::vector<std::string> where_not;  // points
-  std::vector<std::string> why_not;    // the same points' reasons; none in an older answer.json
+  std::optional<experiments::results::Outcome> outcome;  // none in an older answer.json
+  std::vector<std::string> where_not;                    // points
+  std::vector<std::string> why_not;                      // the same points' reasons; none in an older answer.json
 };
 
 // A change in the measure's unit, or in per cent; an interval that is not there is not a number.

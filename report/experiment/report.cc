@@ -176,10 +176,10 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
 
 std::string expectation_sentence(const ExperimentExpectation& one) {
   std::string text = fmt::format("Expected: {}. ", one.expected);
-  if (one.outcome == "cannot tell")
+  if (one.outcome == experiments::results::Outcome::kCannotTell)
     text += "The drives cannot tell";
   else
-    text += one.holds ? "It holds" : one.outcome.empty() ? "It does not hold for certain" : "It does not hold";
+    text += one.holds ? "It holds" : !one.outcome ? "It does not hold for certain" : "It does not hold";
   for (std::size_t p = 0; p < one.where_not.size() && !one.holds; ++p) {
     text += fmt::format("{}{}", p == 0 ? " at " : "; ", one.where_not[p]);
     if (p < one.why_not.size()) text += fmt::format(" ({})", one.why_not[p]);

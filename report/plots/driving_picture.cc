@@ -106,8 +106,8 @@ void DrivingPicture::on(const recording::records::TruthState& object) {
 void DrivingPicture::on(const recording::records::CommandIssued& command) {
   const TrueTime at = command.stamp.true_time;
   // Emergency braking sees the same as cruise control, and lane keeping sees no gap.
-  if (!shown(at) || !command.valid || command.reason == recording::records::kForEmergency ||
-      command.reason == recording::records::kForLane)
+  if (!shown(at) || !command.valid || command.reason == recording::records::CommandReason::kEmergency ||
+      command.reason == recording::records::CommandReason::kLane)
     return;
   seen_speed_.push_back({seconds(at), command.own_speed});
   if (!std::isfinite(command.gap)) return;
@@ -116,7 +116,7 @@ void DrivingPicture::on(const recording::records::CommandIssued& command) {
 }
 
 void DrivingPicture::on(const recording::records::CommandTaken& taken) {
-  if (shown(taken.stamp.true_time) && taken.verdict == recording::records::kApplied)
+  if (shown(taken.stamp.true_time) && taken.verdict == recording::records::CommandVerdict::kApplied)
     asked_.push_back({seconds(taken.from), taken.acceleration});
 }
 
@@ -135,8 +135,8 @@ void DrivingPicture::on(const recording::records::SequencePlanned& planned) {
 }
 
 void DrivingPicture::on(const recording::records::Warning& warning) {
-  if (warning.on && warning.service < kWarningStyles.size() && shown(warning.stamp.true_time))
-    warnings_.emplace_back(seconds(warning.stamp.true_time), warning.service);
+  if (warning.on && index_of(warning.service) < kWarningStyles.size() && shown(warning.stamp.true_time))
+    warnings_.emplace_back(seconds(warning.stamp.true_time), index_of(warning.service));
 }
 
 std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
@@ -165,7 +165,7 @@ std::string DrivingPicture::svg(const drawing::Sheet& sheet) const {
       {Kind::kMarker, "object's speed, as seen", std::string(drawing::kOrange), drawing::Marker::kCircle, true},
       {Kind::kMarker, "acceleration asked for", std::string(drawing::kGreen), drawing::Marker::kCircle, true}};
   for (std::size_t service = 0; service < kWarningStyles.size(); ++service) {
-    if (std::ranges::find(warnings_, service, &std::pair<double, std::uint8_t>::second) == warnings_.end()) continue;
+    if (std::ranges::find(warnings_, service, &std::pair<double, std::size_t>::second) == warnings_.end()) continue;
     const WarningStyle& style = kWarningStyles[service];
     legend.push_back(
         {Kind::kLine, std::string(style.words), std::string(style.colour), {}, false, std::string(style.dash)});

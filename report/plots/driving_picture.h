@@ -49,12 +49,12 @@ class DrivingPicture final : public recording::records::Sink {
   void end_moment();
 
   DrivingOptions options_;
-  Points gap_, speed_, speed_ahead_, acceleration_;        // the truth
-  Points offset_, heading_;                                // likewise; degrees
-  Points seen_gap_, seen_speed_, seen_ahead_, asked_;      // by services and actuator
-  Points sequence_, bound_;                                // lengths of sequences of detections, and their bounds
-  std::optional<TrueTime> planned_at_;                     // the newest sequence
-  std::vector<std::pair<double, std::uint8_t>> warnings_;  // their begins, with the service
+  Points gap_, speed_, speed_ahead_, acceleration_;       // the truth
+  Points offset_, heading_;                               // likewise; degrees
+  Points seen_gap_, seen_speed_, seen_ahead_, asked_;     // by services and actuator
+  Points sequence_, bound_;                               // lengths of sequences of detections, and their bounds
+  std::optional<TrueTime> planned_at_;                    // the newest sequence
+  std::vector<std::pair<double, std::size_t>> warnings_;  // their begins, with the service
   std::optional<recording::records::EgoTruth> ego_;
   std::optional<double> collided_at_;    // [s]; no gap is shown behind it
   std::optional<drawing::Point> ahead_;  // gap and speed of the nearest object in the way

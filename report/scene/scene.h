@@ -11,6 +11,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "recording/records/records.h"
 #include "recording/scene/moments.h"
 #include "recording/scene/viewed.h"
 
@@ -29,7 +30,7 @@ struct ShownTrack {
   TrackId id{};
   float x = 0, y = 0, heading = 0, speed = 0, length = 0, width = 0;
   float sigma_x = 0, sigma_y = 0, correlation = 0;
-  std::uint8_t status = 0;  // bits of records::ImageObject
+  recording::records::ImageStatus status{};
 };
 // The feature service warns of a track. Infinite times are none.
 struct Warning {

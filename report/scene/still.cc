@@ -73,7 +73,9 @@ std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const d
         fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s; arrow: its way in one second{}",
                     named ? "its id, " : "", scene.own.empty() ? "" : ", as the vehicle sees it"),
         kTrack);
-    const auto coasts = [](const ShownTrack& one) { return (one.status & recording::records::kImageCoasting) != 0; };
+    const auto coasts = [](const ShownTrack& one) {
+      return has(one.status, recording::records::ImageStatus::kCoasting);
+    };
     if (std::ranges::any_of(view.tracks, coasts)) add(LegendEntry::Kind::kBox, "dashed: not observed of late", kTrack);
   }
   if (!view.warnings.empty()) add(LegendEntry::Kind::kBox, "warning", kWarning);
@@ -113,7 +115,7 @@ class Painter {
     if (trail.size() > 1) outline(trail, {.stroke = kTrack, .width = 1.0, .opacity = 0.6}, {}, "trail", false);
     const std::vector<Point> around = recording::scene::ellipse(image_of(one));
     if (!around.empty()) outline(around, {.stroke = kTrack, .width = 0.8}, {}, "ellipse");
-    const bool coasting = (one.status & recording::records::kImageCoasting) != 0;
+    const bool coasting = has(one.status, recording::records::ImageStatus::kCoasting);
     outline(corners(one), {.stroke = kTrack, .width = 1.6, .dash = coasting ? "4 3" : ""},
             fmt::format("track {}: {:.1f} m/s", index_of(one.id), one.speed), "track");
     const Place after_a_second = moved_on(view, one, 1.0);

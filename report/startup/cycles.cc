@@ -8,11 +8,14 @@
 namespace ttf::report::startup {
 namespace {
 
+using recording::records::PocKind;
+using recording::records::Symbol;
+
 // Returns the end of the node's last symbol that ended before `before`.
 std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> node, TrueTime before) {
   std::optional<TrueTime> end;
   for (const auto& s : data.symbols)
-    if (s.kind == recording::records::kSymbolCas && (!node || s.node == *node) && s.end <= before)
+    if (s.kind == Symbol::kCas && (!node || s.node == *node) && s.end <= before)
       end = end ? std::max(*end, s.end) : s.end;
   return end;
 }
@@ -21,11 +24,11 @@ std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> 
 
 std::optional<LeadingNode> leading_node(const StartupData& data) {
   for (const auto& c : data.changes)
-    if (c.from == kStateConsistencyCheck && c.to == kStateNormalActive)
+    if (c.from == PocKind::kColdstartConsistencyCheck && c.to == PocKind::kNormalActive)
       if (const auto cas = last_cas(data, c.node, c.at)) return LeadingNode{c.node, *cas};
   std::optional<LeadingNode> last;
   for (const auto& s : data.symbols)
-    if (s.kind == recording::records::kSymbolCas && (!last || s.end > last->cas)) last = LeadingNode{s.node, s.end};
+    if (s.kind == Symbol::kCas && (!last || s.end > last->cas)) last = LeadingNode{s.node, s.end};
   return last;
 }
 

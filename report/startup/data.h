@@ -7,6 +7,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "recording/records/records.h"
 #include "report/drawing/fault_lanes.h"
 
 namespace ttf::report::startup {
@@ -15,7 +16,7 @@ struct StartupData {
   struct Change {
     TrueTime at;
     NodeId node;
-    std::uint8_t from, to;  // E-Ray CCSV.POCS
+    recording::records::PocKind from, to;
     std::string from_name, to_name, why, consequence;
   };
   struct Power {
@@ -26,7 +27,8 @@ struct StartupData {
   struct Symbol {
     TrueTime start, end;
     NodeId node;
-    std::uint8_t channel, kind;
+    std::uint8_t channel;
+    recording::records::Symbol kind;
   };
   struct Frame {
     TrueTime start, end;
@@ -43,14 +45,5 @@ struct StartupData {
   std::vector<Symbol> symbols;              // up to the window's end: the cycles count from one of them
   std::vector<Frame> frames;                // likewise
 };
-
-// States that the picture and the leading node's cycles depend on.
-inline constexpr std::uint8_t kStateDefaultConfig = 0x00, kStateReady = 0x01, kStateNormalActive = 0x02,
-                              kStateNormalPassive = 0x03, kStateHalt = 0x04, kStateConfig = 0x0F,
-                              kStateWakeupListen = 0x11, kStateWakeupSend = 0x12, kStateWakeupDetect = 0x13,
-                              kStateColdstartListen = 0x21, kStateCollisionResolution = 0x22,
-                              kStateConsistencyCheck = 0x23, kStateColdstartGap = 0x24, kStateColdstartJoin = 0x25,
-                              kStateIntegrationColdstartCheck = 0x26, kStateIntegrationListen = 0x27,
-                              kStateIntegrationConsistencyCheck = 0x28, kStateInitialiseSchedule = 0x29;
 
 }  // namespace ttf::report::startup

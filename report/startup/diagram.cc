@@ -10,6 +10,8 @@
 
 namespace ttf::report::startup {
 
+using recording::records::PocKind;
+
 StartupDiagram::StartupDiagram(drawing::Names names, Duration cycle, TrueTime from, TrueTime to)
     : names_(std::move(names)), cycle_(cycle <= drawing::kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
 
@@ -51,9 +53,9 @@ void StartupExtent::see(TrueTime at, bool starts) {
   last_ = last_ ? std::max(*last_, at) : at;
 }
 void StartupExtent::on(const recording::records::StateChanged& r) {
-  see(r.stamp.true_time, r.from == kStateDefaultConfig);
+  see(r.stamp.true_time, r.from == PocKind::kDefaultConfig);
   const std::size_t node = index_of(r.stamp.node);
-  if (r.to != kStateNormalActive || active_[node] || !drawing::possible(r.stamp.true_time)) return;
+  if (r.to != PocKind::kNormalActive || active_[node] || !drawing::possible(r.stamp.true_time)) return;
   active_[node] = true;
   last_active_ = last_active_ ? std::max(*last_active_, r.stamp.true_time) : r.stamp.true_time;
 }

@@ -8,16 +8,16 @@
 #include <optional>
 #include <set>
 
-#include "recording/records/records.h"
+#include "recording/records/words.h"
 #include "report/startup/cycles.h"
 
 namespace ttf::report::startup {
 namespace {
 
-std::string_view symbol_name(std::uint8_t kind) {
-  return kind == recording::records::kSymbolCas      ? "CAS"
-         : kind == recording::records::kSymbolWakeup ? "wake-up pattern"
-                                                     : "media test symbol";
+// A picture has little room for these words.
+std::string_view symbol_name(recording::records::Symbol symbol) {
+  using recording::records::Symbol;
+  return symbol == Symbol::kCas ? "CAS" : symbol == Symbol::kMediaTest ? "media test symbol" : to_text(symbol);
 }
 
 // Everything needed to draw one picture; lives for one call of svg().

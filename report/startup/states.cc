@@ -11,6 +11,8 @@
 namespace ttf::report::startup {
 namespace {
 
+using recording::records::PocKind;
+
 std::string sentence(const StartupData::Change& c) {
   return c.consequence.empty() ? c.why : c.why + "; " + c.consequence;
 }
@@ -38,7 +40,8 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
   std::vector<StateSpan> spans;
   std::map<NodeId, StateSpan> now;
   for (const NodeId node : active_from_the_start(data))
-    now[node] = {node, kStateNormalActive, begin, end, "normal active", "integrated from the beginning of the drive"};
+    now[node] = {node, PocKind::kNormalActive, begin,
+                 end,  "normal active",        "integrated from the beginning of the drive"};
   const auto leave = [&](NodeId node, TrueTime at) {
     const auto found = now.find(node);
     if (found == now.end()) return;
@@ -55,7 +58,7 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
   std::map<NodeId, bool> seen;
   for (const StartupData::Change& c : data.changes) {
     supply_until(c.at);
-    if (!seen[c.node] && c.from != kStateDefaultConfig) now[c.node] = {c.node, c.from, begin, end, c.from_name, ""};
+    if (!seen[c.node] && c.from != PocKind::kDefaultConfig) now[c.node] = {c.node, c.from, begin, end, c.from_name, ""};
     seen[c.node] = true;
     leave(c.node, c.at);
     now[c.node] = {c.node, c.to, c.at, end, c.to_name, sentence(c)};
@@ -67,46 +70,52 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
   return spans;
 }
 
-StatePhase phase_of(std::uint8_t state) {
+StatePhase phase_of(PocKind state) {
   switch (state) {
-    case kStateDefaultConfig:
-    case kStateConfig:
-    case kStateReady: return {"is configured", "#e2e2e2"};
-    case kStateWakeupListen:
-    case kStateWakeupSend:
-    case kStateWakeupDetect: return {"wakes the cluster", drawing::tint(drawing::kPurple, 0.35)};
-    case kStateColdstartListen:
-    case kStateIntegrationListen: return {"listens", drawing::tint(drawing::kSkyBlue, 0.6)};
-    case kStateCollisionResolution:
-    case kStateConsistencyCheck:
-    case kStateColdstartGap: return {"leads", drawing::tint(drawing::kOrange, 0.35)};
-    case kStateInitialiseSchedule:
-    case kStateIntegrationColdstartCheck:
-    case kStateColdstartJoin:
-    case kStateIntegrationConsistencyCheck: return {"joins", drawing::tint(drawing::kYellow, 0.35)};
-    case kStateNormalActive: return {"normal active", drawing::tint(drawing::kGreen, 0.45)};
-    case kStateNormalPassive: return {"normal passive", drawing::tint(drawing::kBlue, 0.45)};
-    case kStateHalt: return {"halt", drawing::tint(drawing::kVermilion, 0.25)};
-    default: return {"other state", "#ffffff"};
+    case PocKind::kDefaultConfig:
+    case PocKind::kConfig:
+    case PocKind::kReady: return {"is configured", "#e2e2e2"};
+    case PocKind::kWakeupListen:
+    case PocKind::kWakeupSend:
+    case PocKind::kWakeupDetect: return {"wakes the cluster", drawing::tint(drawing::kPurple, 0.35)};
+    case PocKind::kColdstartListen:
+    case PocKind::kIntegrationListen: return {"listens", drawing::tint(drawing::kSkyBlue, 0.6)};
+    case PocKind::kColdstartCollisionResolution:
+    case PocKind::kColdstartConsistencyCheck:
+    case PocKind::kColdstartGap: return {"leads", drawing::tint(drawing::kOrange, 0.35)};
+    case PocKind::kInitialiseSchedule:
+    case PocKind::kIntegrationColdstartCheck:
+    case PocKind::kColdstartJoin:
+    case PocKind::kIntegrationConsistencyCheck: return {"joins", drawing::tint(drawing::kYellow, 0.35)};
+    case PocKind::kNormalActive: return {"normal active", drawing::tint(drawing::kGreen, 0.45)};
+    case PocKind::kNormalPassive: return {"normal passive", drawing::tint(drawing::kBlue, 0.45)};
+    case PocKind::kHalt: return {"halt", drawing::tint(drawing::kVermilion, 0.25)};
   }
+  return {"other state", "#ffffff"};
 }
 
-std::string_view short_name(std::uint8_t state) {
+std::string_view short_name(PocKind state) {
   switch (state) {
-    case kStateWakeupListen:
-    case kStateColdstartListen:
-    case kStateIntegrationListen: return "listen";
-    case kStateCollisionResolution: return "resolution";
-    case kStateConsistencyCheck:
-    case kStateIntegrationColdstartCheck:
-    case kStateIntegrationConsistencyCheck: return "check";
-    case kStateColdstartGap: return "gap";
-    case kStateColdstartJoin: return "join";
-    case kStateInitialiseSchedule: return "initialise";
-    case kStateNormalActive: return "active";
-    case kStateNormalPassive: return "passive";
-    default: return "";
+    case PocKind::kWakeupListen:
+    case PocKind::kColdstartListen:
+    case PocKind::kIntegrationListen: return "listen";
+    case PocKind::kColdstartCollisionResolution: return "resolution";
+    case PocKind::kColdstartConsistencyCheck:
+    case PocKind::kIntegrationColdstartCheck:
+    case PocKind::kIntegrationConsistencyCheck: return "check";
+    case PocKind::kColdstartGap: return "gap";
+    case PocKind::kColdstartJoin: return "join";
+    case PocKind::kInitialiseSchedule: return "initialise";
+    case PocKind::kNormalActive: return "active";
+    case PocKind::kNormalPassive: return "passive";
+    case PocKind::kDefaultConfig:
+    case PocKind::kConfig:
+    case PocKind::kReady:
+    case PocKind::kWakeupSend:
+    case PocKind::kWakeupDetect:
+    case PocKind::kHalt: break;
   }
+  return "";
 }
 
 }  // namespace ttf::report::startup

@@ -13,7 +13,7 @@ namespace ttf::report::startup {
 
 struct StateSpan {
   NodeId node{};
-  std::uint8_t state = 0;
+  recording::records::PocKind state{};
   TrueTime start{}, end{};
   std::string name;  // as in the log
   std::string why;   // the cause of its entry; empty if the log has no cause
@@ -34,8 +34,8 @@ struct StatePhase {
   std::string_view words;  // for the legend
   std::string colour;
 };
-StatePhase phase_of(std::uint8_t state);
+StatePhase phase_of(recording::records::PocKind state);
 // Returns a name for narrow bars, or "" if the state has no short name.
-std::string_view short_name(std::uint8_t state);
+std::string_view short_name(recording::records::PocKind state);
 
 }  // namespace ttf::report::startup

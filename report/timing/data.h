@@ -81,7 +81,8 @@ struct TimingData {
   struct OnChannel {  // recording::records::ChannelFrame
     TrueTime start, end;
     NodeId sender;
-    std::uint8_t channel, state;
+    std::uint8_t channel;
+    recording::records::ChannelState state;
     std::uint16_t slot;
     TrueTime sent;
     std::uint8_t sent_channel;
@@ -89,7 +90,7 @@ struct TimingData {
   struct Problem {  // recording::records::TimingProblem
     TrueTime at;
     NodeId node;
-    std::uint8_t what;
+    recording::records::TimingFault what;
     Duration late;
     std::int64_t cycle;
     std::uint16_t slot;

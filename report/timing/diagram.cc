@@ -61,7 +61,7 @@ void TimingDiagram::on(const recording::records::FeatureUsed& r) {
 
 void TimingDiagram::on(const recording::records::FaultActivity& r) {
   // An old fault may still last.
-  if (drawing::possible(r.at) && r.at <= to_ && (r.what != recording::records::kFaultActs || r.at >= from_))
+  if (drawing::possible(r.at) && r.at <= to_ && (r.what != recording::records::FaultAct::kActs || r.at >= from_))
     data_.faults.push_back(r);
 }
 void TimingDiagram::on(const recording::records::ChannelFrame& r) {

@@ -4,30 +4,11 @@
 
 #include <algorithm>
 
-#include "recording/records/records.h"
+#include "recording/records/words.h"
 
 namespace ttf::report::timing {
-namespace {
-
-std::string state_words(std::uint8_t state) {
-  struct Word {
-    std::uint8_t bit;
-    const char* words;
-  };
-  static constexpr Word kWords[] = {{recording::records::kChannelHeaderCrc, "header CRC wrong"},
-                                    {recording::records::kChannelFrameCrc, "frame CRC wrong"},
-                                    {recording::records::kChannelCoding, "undecodable"},
-                                    {recording::records::kChannelCut, "cut off"}};
-  std::string text;
-  for (const Word& one : kWords)
-    if ((state & one.bit) != 0) text += fmt::format("{}{}", text.empty() ? "" : ", ", one.words);
-  return text.empty() ? "sound" : text;
-}
-
-}  // namespace
-
 ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& names) {
-  ChannelMark mark{r.start, r.end, r.channel, (r.state & recording::records::kChannelNothing) != 0, {}};
+  ChannelMark mark{r.start, r.end, r.channel, has(r.state, recording::records::ChannelState::kNothing), {}};
   if (mark.missing) {
     mark.start = r.sent;
     mark.end = r.sent + std::max(r.end - r.start, Duration{});
@@ -38,8 +19,8 @@ ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& n
     whose = fmt::format("slot {} of {}", r.slot, names.node(r.sender));
   else if (r.sender != kNoNode)
     whose = fmt::format("{}, but its controller did not send it", names.node(r.sender));
-  mark.words = mark.missing ? fmt::format("{}: it reached no receiver", whose)
-                            : fmt::format("{}: {}", whose, state_words(r.state));
+  const std::string state = mark.missing ? "it reached no receiver" : to_text(r.state);
+  mark.words = fmt::format("{}: {}", whose, state.empty() ? "sound" : state);
   return mark;
 }
 

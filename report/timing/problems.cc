@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
-#include "recording/records/records.h"
+#include "recording/records/words.h"
 
 namespace ttf::report::timing {
 namespace {
@@ -19,22 +20,11 @@ std::optional<LaneKey> lane_of(const TimingData::Problem& p, const std::vector<L
 }
 
 std::string words_of(const TimingData::Problem& p, const drawing::Names& names) {
-  const std::string by = drawing::number(static_cast<double>(p.late.ns) * 1e-3);
-  const std::string slot = fmt::format("slot {} of cycle {}", p.slot, p.cycle);
-  switch (p.what) {
-    case recording::records::kLateWakeUp: return fmt::format("{}: woken up {} us late", names.node(p.node), by);
-    case recording::records::kSlotMissed:
-      return fmt::format("{}: missed its {}, {} us late", names.node(p.node), slot, by);
-    case recording::records::kLateFrame:
-      return fmt::format("{}: the frame of {} came {} us late", names.node(p.node), slot, by);
-    case recording::records::kEarlyFrame:
-      return fmt::format("{}: the frame of {} came {} us early", names.node(p.node), slot,
-                         drawing::number(static_cast<double>(p.late.ns) * -1e-3));
-    case recording::records::kFramesLost:
-      return fmt::format("{}: {} of slot {} never came", names.node(p.node),
-                         p.count == 1 ? "a frame" : fmt::format("{} frames", p.count), p.slot);
-  }
-  return names.node(p.node);
+  std::string words = fmt::format("{}: {}", names.node(p.node), to_text(p.what));
+  if (p.what == recording::records::TimingFault::kFramesLost)
+    return words + fmt::format(", {} of slot {}", p.count, p.slot);
+  if (p.slot != 0) words += fmt::format(", slot {} of cycle {}", p.slot, p.cycle);
+  return words + fmt::format(", by {} us", drawing::number(std::abs(static_cast<double>(p.late.ns) * 1e-3)));
 }
 
 }  // namespace

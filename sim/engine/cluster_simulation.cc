@@ -19,12 +19,13 @@ std::size_t most_pending(const schedules::model::Cluster& cluster) {
   return pending;
 }
 
-std::uint8_t signal_of(bus::ports::Signal signal) {
+recording::records::GuardedSignal signal_of(bus::ports::Signal signal) {
+  using recording::records::GuardedSignal;
   switch (signal) {
-    case bus::ports::Signal::kFrame: return recording::records::kSignalFrame;
-    case bus::ports::Signal::kCas: return recording::records::kSignalCas;
-    case bus::ports::Signal::kWakeup: return recording::records::kSignalWakeup;
-    case bus::ports::Signal::kUndecodable: return recording::records::kSignalUndecodable;
+    case bus::ports::Signal::kFrame: return GuardedSignal::kFrame;
+    case bus::ports::Signal::kCas: return GuardedSignal::kCas;
+    case bus::ports::Signal::kWakeup: return GuardedSignal::kWakeup;
+    case bus::ports::Signal::kUndecodable: return GuardedSignal::kUndecodable;
   }
   TTF_CHECK(false, "signal {}", static_cast<int>(signal));
 }

@@ -63,20 +63,9 @@ class NodeBursts : public Bursts {
   // Takes its time even without a wire or a supply.
   TrueTime send(TrueTime now, Channel channel, Signal signal, TrueTime end, std::span<const std::byte> bytes) {
     if (!can_send(channel)) return end;
-    acted("{} sends {} on {}, outside its schedule", name(fault().node), text(signal), letter(channel));
+    acted("{} sends {} on {}, outside its schedule", name(fault().node), to_text(signal), letter(channel));
     emit({fault().node, channel, signal, now, end, bytes}, fault().node);
     return end;
-  }
-
- private:
-  static std::string_view text(Signal signal) {
-    switch (signal) {
-      case Signal::kFrame: return "a frame";
-      case Signal::kCas: return "a collision avoidance symbol";
-      case Signal::kWakeup: return "a wake-up pattern";
-      case Signal::kUndecodable: return "noise";
-    }
-    return "";
   }
 };
 

@@ -84,7 +84,7 @@ void Injector::act(TrueTime now) {
     if (entry.fault->next() <= now) entry.fault->act(now);
     if (entry.ends <= now) {
       entry.ends = kNever<TrueTime>;
-      report(i, recording::records::kFaultEnds, now, "it ends");
+      report(i, recording::records::FaultAct::kEnds, now, "it ends");
     }
   }
   plan_next();
@@ -92,7 +92,7 @@ void Injector::act(TrueTime now) {
 
 void Injector::begin(std::size_t fault, TrueTime at) {
   entries_[fault].begins = kNever<TrueTime>;
-  report(fault, recording::records::kFaultBegins, at, "it begins");
+  report(fault, recording::records::FaultAct::kBegins, at, "it begins");
   for (const Foreseen& one : foreseen_)
     if (one.fault == fault) acted(one.fault, at, {one.text.data(), one.size});
   std::erase_if(foreseen_, [&](const Foreseen& one) { return one.fault == fault; });
@@ -113,12 +113,12 @@ void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
   Activation& activation = activations_[fault];
   if (activation.times++ == 0) activation.first = at;
   activation.last = at;
-  report(fault, recording::records::kFaultActs, at, text);
+  report(fault, recording::records::FaultAct::kActs, at, text);
 }
 
 void Injector::emit(const medium::Leaving& signal, std::optional<NodeId> source) { plant_.emit(signal, source); }
 
-void Injector::report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text) {
+void Injector::report(std::size_t fault, recording::records::FaultAct what, TrueTime at, std::string_view text) {
   const ttf::faults::Fault& one = plan_.faults[fault];
   sink_.on(recording::records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node,
                                              ttf::faults::name_of(one.kind), text});

@@ -70,7 +70,7 @@ class Injector final : public medium::Disturbance, private FaultLog {
   static constexpr std::size_t kForeseen = 64;  // room for some signals of one propagation delay
   void acted(std::uint32_t fault, TrueTime at, std::string_view text) override;
   void emit(const medium::Leaving& signal, std::optional<NodeId> source) override;
-  void report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text);
+  void report(std::size_t fault, recording::records::FaultAct what, TrueTime at, std::string_view text);
   void begin(std::size_t fault, TrueTime at);
   void plan_next();
 

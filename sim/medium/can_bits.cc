@@ -96,7 +96,7 @@ void CanMedium::start_frames(TrueTime now) {
              });
     };
     if (frame == nullptr || std::any_of(members_.begin(), members_.end(), sends_it)) continue;
-    const bool passive = line_[m].confinement().state == bus::can::ErrorState::kPassive;
+    const bool passive = line_[m].confinement().state == bus::can::CanState::kPassive;
     frame_bits_ = bus::can::FrameBits(can().flexible_data_rate, frame->identifier, pool_.bytes(frame->frame), passive);
     line_.start(m, frame_bits_, now);
     members_[m].sends = frame->order;
@@ -220,7 +220,7 @@ void CanMedium::report_error(std::size_t member, const bus::can::Protocol::Broug
   error.stamp.true_time = now;
   error.stamp.node = members_[member].node;
   error.bus = static_cast<std::uint8_t>(bus_);
-  error.error = static_cast<std::uint8_t>(brought.error);
+  error.error = brought.error;
   error.as_transmitter = brought.as_transmitter;
   error.transmit_errors = static_cast<std::uint16_t>(line_[member].confinement().transmit_errors);
   error.receive_errors = static_cast<std::uint16_t>(line_[member].confinement().receive_errors);
@@ -229,14 +229,14 @@ void CanMedium::report_error(std::size_t member, const bus::can::Protocol::Broug
 
 void CanMedium::report_state(std::size_t member, TrueTime now) {
   const bus::can::Confinement& confinement = line_[member].confinement();
-  bus::can::ErrorState& before = members_[member].state;
+  bus::can::CanState& before = members_[member].state;
   if (confinement.state == before) return;
   recording::records::CanStateChanged change;
   change.stamp.true_time = now;
   change.stamp.node = members_[member].node;
   change.bus = static_cast<std::uint8_t>(bus_);
-  change.from = static_cast<std::uint8_t>(before);
-  change.to = static_cast<std::uint8_t>(confinement.state);
+  change.from = before;
+  change.to = confinement.state;
   change.transmit_errors = static_cast<std::uint16_t>(confinement.transmit_errors);
   change.receive_errors = static_cast<std::uint16_t>(confinement.receive_errors);
   before = confinement.state;

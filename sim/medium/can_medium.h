@@ -107,7 +107,7 @@ class CanMedium {
     std::size_t room = 0, waiting = 0;   // frames
     std::optional<std::uint64_t> sends;  // this frame
     TrueTime began{};                    // its frame
-    bus::can::ErrorState state{};        // as reported
+    bus::can::CanState state{};          // as reported
   };
   static bool goes_before(const Pending& a, const Pending& b);
   const schedules::model::CanBus& can() const { return cluster_.can_buses[bus_]; }

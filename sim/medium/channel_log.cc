@@ -8,15 +8,16 @@ namespace ttf::sim::medium {
 namespace {
 
 using bus::ports::Signal;
+using recording::records::ChannelState;
 
 // Every byte is sent with the two bits of its byte start sequence, and the frame start sequence is one bit
 // (FlexRay 2.1A, 3.2.1.1).
 constexpr std::int64_t kBitsPerByte = 10;
 constexpr std::int64_t kFrameStartBits = 1;
 
-std::uint8_t crc_state(const bus::wire::FrameCrcs& crcs) {
-  return static_cast<std::uint8_t>((crcs.header_holds ? 0 : recording::records::kChannelHeaderCrc) |
-                                   (crcs.frame_holds ? 0 : recording::records::kChannelFrameCrc));
+ChannelState crc_state(const bus::wire::FrameCrcs& crcs) {
+  return (crcs.header_holds ? ChannelState::kSound : ChannelState::kHeaderCrc) |
+         (crcs.frame_holds ? ChannelState::kSound : ChannelState::kFrameCrc);
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ void ChannelLog::changed(Id id, std::span<const std::byte> bytes) {
 void ChannelLog::withheld(Id id) {
   if (id == kNone) return;
   Way& way = ways_[id];
-  way.record.state = recording::records::kChannelNothing;
+  way.record.state = ChannelState::kNothing;
   // A signal without a controller and without receivers was nowhere.
   if (way.record.slot != 0) sink_.on(way.record);
   way.used = false;
@@ -166,11 +167,11 @@ void ChannelLog::report(Way& way) {
   if (!way.altered && !broken_off && !out_of_reach) return;
   record.end = std::min(record.end, way.breaks_off);
   if (record.end <= record.start) {
-    record.state = recording::records::kChannelNothing;
+    record.state = ChannelState::kNothing;
     record.end = record.start;
     if (record.slot == 0) return;
   } else if (out_of_reach) {
-    record.state = recording::records::kChannelCoding;
+    record.state = ChannelState::kCoding;
   } else {
     record.bytes = way.bytes.all().first(broken_off ? bytes_until_break(way) : way.bytes.size);
     bus::wire::FrameCrcs crcs =
@@ -179,7 +180,7 @@ void ChannelLog::report(Way& way) {
     crcs.header_holds |= broken_off && record.bytes.size() < bus::wire::kHeaderBytes;
     crcs.frame_holds |= broken_off && record.bytes.size() < way.bytes.size;
     record.state = crc_state(crcs);
-    if (broken_off) record.state |= recording::records::kChannelCoding | recording::records::kChannelCut;
+    if (broken_off) record.state |= ChannelState::kCoding | ChannelState::kCut;
   }
   sink_.on(record);
 }

@@ -30,7 +30,7 @@ geometry_msgs_msg_dds__Pose_ pose_of(double x, double y, double heading) {
 
 ttfusion_msgs_msg_dds__ImageObject_ message_of(const recording::records::ImageObject& object) {
   return {.track_id = static_cast<std::uint16_t>(object.track),
-          .status = object.status,
+          .status = static_cast<std::uint8_t>(object.status),
           .x = object.x,
           .y = object.y,
           .heading = object.heading,
@@ -50,7 +50,7 @@ ttfusion_msgs_msg_dds__ImageObject_ message_of(const recording::records::ImageOb
 
 vision_msgs_msg_dds__ObjectHypothesisWithPose_ hypothesis_of(const recording::records::ImageObject& object) {
   vision_msgs_msg_dds__ObjectHypothesisWithPose_ hypothesis{};
-  const bool confirmed = (object.status & recording::records::kImageConfirmed) != 0;
+  const bool confirmed = has(object.status, recording::records::ImageStatus::kConfirmed);
   hypothesis.hypothesis = {.class_id = text_of(confirmed ? "confirmed" : "tentative"), .score = 1};
   hypothesis.pose.pose = pose_of(object.x, object.y, object.heading);
   double(&covariance)[36] = hypothesis.pose.covariance;  // row-major, of x, y, z and the rotations about X, Y, Z

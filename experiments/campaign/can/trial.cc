@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
 
-#include "bus/can/confinement.h"
 #include "bus/cni/can_controller.h"
 #include "core/random.h"
 #include "evaluation/faults/can_judge.h"
 #include "experiments/campaign/full_list.h"
 #include "experiments/campaign/judged.h"
+#include "recording/records/words.h"
 #include "sim/engine/can_simulation.h"
 #include "sim/faults/injector.h"
 
@@ -22,8 +21,6 @@ namespace {
 
 using evaluation::faults::CanJudge;
 using evaluation::faults::CanJudgement;
-
-constexpr std::array<std::string_view, 6> kErrorNames{"", "bit", "stuff", "form", "CRC", "acknowledgement"};
 
 evaluation::faults::CanJudgeSettings judge_settings(const Setting& setting, const faults::Fault& fault) {
   const TrueTime from = TrueTime{} + fault.from;
@@ -130,24 +127,23 @@ class Trial final : public sim::engine::CanHosts, public recording::records::Sin
       story_->say(error.stamp.true_time,
                   fmt::format("{} begins an error frame as {}: {} error; it has {} transmit and {} receive errors",
                               name(error.stamp.node), error.as_transmitter ? "transmitter" : "receiver",
-                              kErrorNames[error.error], error.transmit_errors, error.receive_errors),
+                              to_text(error.error), error.transmit_errors, error.receive_errors),
                   Story::Of::kErrorFrames);
   }
   void on(const recording::records::CanStateChanged& change) override {
     judge_.state_changed(change);
     const NodeId node = change.stamp.node;
-    if (change.to == recording::records::kCanBusOff && variant_.recovery == sim::medium::CanRecovery::kByHost)
+    if (change.to == recording::records::CanState::kBusOff && variant_.recovery == sim::medium::CanRecovery::kByHost)
       restart_at_[index_of(node)] = change.stamp.true_time + variant_.restart_after;
     if (story_ == nullptr) return;
-    const auto state = [](std::uint8_t one) { return bus::can::text(static_cast<bus::can::ErrorState>(one)); };
     story_->say(change.stamp.true_time,
-                fmt::format("{}: {} -> {}; {} transmit and {} receive errors", name(node), state(change.from),
-                            state(change.to), change.transmit_errors, change.receive_errors));
+                fmt::format("{}: {} -> {}; {} transmit and {} receive errors", name(node), to_text(change.from),
+                            to_text(change.to), change.transmit_errors, change.receive_errors));
   }
   void on(const recording::records::FaultActivity& activity) override {
     if (story_ == nullptr) return;
     story_->say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text),
-                activity.what == recording::records::kFaultActs ? Story::Of::kFault : Story::Of::kOthers);
+                activity.what == recording::records::FaultAct::kActs ? Story::Of::kFault : Story::Of::kOthers);
   }
 
   const Setting& setting_;

@@ -4,39 +4,25 @@
 
 #include "bus/poc/reason.h"
 #include "experiments/campaign/judged.h"
+#include "recording/records/words.h"
 
 namespace ttf::experiments::campaign::flexray {
-namespace {
-
-std::string_view text(bus::ports::Signal signal) {
-  switch (signal) {
-    case bus::ports::Signal::kFrame: return "a frame";
-    case bus::ports::Signal::kCas: return "a collision avoidance symbol";
-    case bus::ports::Signal::kWakeup: return "a wake-up pattern";
-    case bus::ports::Signal::kUndecodable: return "something undecodable";
-  }
-  return "";
-}
-
-}  // namespace
-
 void StoryInWords::state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) {
-  const std::string_view consequence = bus::poc::to_text(step.consequence);
-  story_.say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::poc::to_text(from),
-                             bus::poc::to_text(step.next.kind), bus::poc::to_text(step.reason),
-                             consequence.empty() ? "" : "; ", consequence));
+  const std::string_view consequence = to_text(step.consequence);
+  story_.say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, to_text(from), to_text(step.next.kind),
+                             to_text(step.reason), consequence.empty() ? "" : "; ", consequence));
 }
 
 void StoryInWords::fault_acts(const recording::records::FaultActivity& activity) {
   story_.say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text),
-             activity.what == recording::records::kFaultActs ? Story::Of::kFault : Story::Of::kOthers);
+             activity.what == recording::records::FaultAct::kActs ? Story::Of::kFault : Story::Of::kOthers);
 }
 
 void StoryInWords::guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) {
   const bool cut = intervention.reason == bus::guardian::GuardianReason::kForwarded;
   story_.say(intervention.at,
              fmt::format("guardian of {} {} {} of {}{}{}", letter(intervention.channel), cut ? "cuts off" : "blocks",
-                         text(intervention.signal),
+                         to_text(intervention.signal),
                          intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
                          cut ? "" : ": ", cut ? "" : bus::guardian::to_text(intervention.reason)),
              Story::Of::kGuardians);

@@ -113,15 +113,6 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
 
 }  // namespace
 
-std::string_view words(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kHolds: return "holds";
-    case Outcome::kFails: return "does not hold";
-    case Outcome::kCannotTell: break;
-  }
-  return "cannot tell";
-}
-
 bool SweepAnswer::holds() const {
   return std::all_of(expectations.begin(), expectations.end(),
                      [](const ExpectationAnswer& one) { return one.holds(); });

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "experiments/results/outcome.h"
 #include "experiments/results/ratio.h"
 #include "experiments/results/statistics.h"
 #include "experiments/results/store.h"
@@ -57,8 +57,7 @@ struct InteractionAnswer {
   std::vector<InteractionPoint> points;  // by the other axes' values
 };
 
-enum class Outcome : std::uint8_t { kHolds, kFails, kCannotTell };
-std::string_view words(Outcome outcome);  // "holds"
+using results::Outcome;
 
 // A point at which an expectation is not certain, with a sentence about the reason.
 struct Unmet {

@@ -123,7 +123,7 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
   text += measure_table(sweep, answer) + '\n' + family_lines(sweep, answer);
   if (answer.failed > 0) text += fmt::format("{} failed: see `status` in runs.csv\n", counted(answer.failed, "run"));
   for (const ExpectationAnswer& expectation : answer.expectations) {
-    text += fmt::format("expected: {}: {}\n", expectation.text, words(expectation.outcome));
+    text += fmt::format("expected: {}: {}\n", expectation.text, to_text(expectation.outcome));
     for (const Unmet& unmet : expectation.unmet) text += fmt::format("  {}: {}\n", unmet.point, unmet.why);
   }
   return text;

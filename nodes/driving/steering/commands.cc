@@ -26,7 +26,7 @@ CommandTaken LateralCommands::combine(host::StepContext& context) {
   pull_.execute(now);
   wheels_.execute(now);
   const CommandTaken taken = input_.read(context).taken;
-  const bool steers = taken.verdict == recording::records::kApplied;
+  const bool steers = taken.verdict == recording::records::CommandVerdict::kApplied;
   if (context.actuation) pull_.accept(context.actuation->acceleration, now);
   if (steers) wheels_.accept(taken.steering, now);
   if (!context.actuation && !steers) return taken;

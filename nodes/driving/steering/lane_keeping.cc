@@ -55,12 +55,12 @@ void LaneKeeping::run(host::StepContext& context) {
   const std::optional<Lane> lane = lane_.look(context);
   if (!lane) return out_.issue(context, {}, record);
   record.own_speed = lane->speed;
-  record.reason = recording::records::kForLane;
+  record.reason = recording::records::CommandReason::kLane;
   const double offset = seen_from(lane->middle, config_.wheelbase_m).offset;
   const bool departs = 0.5 * (lane->width - config_.width_m) - std::abs(offset) < config_.departure_m;
   if (departs != departs_)
-    context.sink->on(
-        recording::records::Warning{context.stamp, recording::records::kLaneDeparture, departs, kNoTrack, kNoObject});
+    context.sink->on(recording::records::Warning{context.stamp, recording::records::WarningKind::kLaneDeparture,
+                                                 departs, kNoTrack, kNoObject});
   departs_ = departs;
   out_.issue(context, {true, 0.0, steering_for(*lane)}, record);
 }

@@ -38,8 +38,8 @@ std::string words_of(const records::FeatureObject& object) {
 }
 
 const char* status_of(const records::ImageObject& object) {
-  if ((object.status & records::kImageCoasting) != 0) return "coasting";
-  return (object.status & records::kImageConfirmed) != 0 ? "confirmed" : "tentative";
+  if (has(object.status, records::ImageStatus::kCoasting)) return "coasting";
+  return has(object.status, records::ImageStatus::kConfirmed) ? "confirmed" : "tentative";
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ void FoxgloveExport::image(TrueTime at, const records::ImageWritten& r) {
   const scene::OwnMotion own = own_motion().value_or(scene::OwnMotion{});
   for (const records::ImageObject& object : r.objects) {
     if (!drawable(object)) continue;
-    const bool coasting = (object.status & records::kImageCoasting) != 0;
+    const bool coasting = has(object.status, records::ImageStatus::kCoasting);
     const std::string id = std::to_string(index_of(object.track));
     ::foxglove::SceneEntity& entity = add_entity(update, at, kVehicle, "track " + id, kObjectLife);
     add_box(entity, place_of(object), object.length, object.width,

@@ -74,7 +74,7 @@ void PaintedWindows::on(const recording::records::ChannelFrame& r) { pass(r, r.s
 void PaintedWindows::on(const recording::records::TimingProblem& r) { pass(r, r.stamp.true_time, r.stamp.true_time); }
 
 void PaintedWindows::on(const recording::records::FaultActivity& r) {
-  if (r.what == recording::records::kFaultActs) return pass(r, r.at, r.at);
+  if (r.what == recording::records::FaultAct::kActs) return pass(r, r.at, r.at);
   for (auto& [window, diagram] : open_) diagram.on(r);
   faults_.push_back(r);
 }

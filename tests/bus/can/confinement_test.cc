@@ -9,7 +9,7 @@ namespace ttf::bus::can {
 namespace {
 
 using E = ConfinementEvent;
-using S = ErrorState;
+using S = CanState;
 
 Confinement with(int transmit_errors, int receive_errors) {
   const bool passive = transmit_errors >= 128 || receive_errors >= 128;

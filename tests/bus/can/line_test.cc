@@ -99,7 +99,7 @@ TEST(CanLine, ALoneTransmitterMissesTheAcknowledgement) {
     ASSERT_EQ(bench.transmit_errors(0), 8 * time);
   }
   EXPECT_EQ(bench.done.back(), (Done{"acknowledgement", 0, 45}));
-  EXPECT_EQ(bench.line[0].confinement().state, ErrorState::kPassive);
+  EXPECT_EQ(bench.line[0].confinement().state, CanState::kPassive);
   // From now on its flags are recessive, and it counts no further: it never goes bus off.
   for (int time = 0; time < 50; ++time) {
     bench.levels.clear();
@@ -197,7 +197,7 @@ TEST(CanLine, AnErrorPassiveTransmitterIsSuspended) {
   EXPECT_EQ(bench.line[0].phase(), Phase::kIdle);  // error active again
   bench.start(0, frame());
   bench.until_idle(0, 25);  // passive once more
-  ASSERT_EQ(bench.line[0].confinement().state, ErrorState::kPassive);
+  ASSERT_EQ(bench.line[0].confinement().state, CanState::kPassive);
   bench.levels.clear();
   bench.start(0, frame());
   bench.until_idle(1, 25);
@@ -211,7 +211,7 @@ TEST(CanLine, AnErrorPassiveTransmitterIsSuspended) {
 TEST(CanLine, ThirtyTwoFailuresAreBusOffAndSilenceEndsIt) {
   Bench bench(2);
   int attempts = 0;
-  while (bench.line[0].confinement().state != ErrorState::kBusOff) {
+  while (bench.line[0].confinement().state != CanState::kBusOff) {
     bench.start(0, frame());
     bench.until_idle(0, 25);
     ASSERT_LE(++attempts, 40);
@@ -246,7 +246,7 @@ TEST(CanLine, AStuckLineMakesReceiversErrorPassiveOnly) {
   EXPECT_EQ(errors_behind(27), 25);
   EXPECT_EQ(errors_behind(19 + 8 * 14 - 1), 121);
   EXPECT_EQ(errors_behind(19 + 8 * 14), 129);
-  EXPECT_EQ(bench.line[0].confinement().state, ErrorState::kPassive);
+  EXPECT_EQ(bench.line[0].confinement().state, CanState::kPassive);
   EXPECT_EQ(errors_behind(10'000), kMostReceiveErrors);
   EXPECT_TRUE(bench.line.endures_dominance());
   // It is free again: the delimiter and the intermission, and they are idle.
@@ -269,7 +269,7 @@ TEST(CanLine, AStuckLineTakesATransmitterOffTheBus) {
   EXPECT_EQ(errors_behind(39), 16);
   EXPECT_EQ(errors_behind(47), 24);
   EXPECT_EQ(errors_behind(39 + 8 * 30 - 1), 248);
-  EXPECT_EQ(bench.line[0].confinement().state, ErrorState::kPassive);
+  EXPECT_EQ(bench.line[0].confinement().state, CanState::kPassive);
   EXPECT_EQ(errors_behind(39 + 8 * 30), 256);
   EXPECT_EQ(bench.line[0].phase(), Phase::kBusOff);
 }

@@ -162,7 +162,7 @@ TEST(NetworkManagement, IsOfNormalOperation) {
   for (int step = 1; step < 200; ++step) {
     rig.run_until(Rig::kStart + Duration::microseconds(250) * step);
     for (std::size_t n = 0; n < 4; ++n) {
-      if (!in_startup(rig.controller(n).state().kind)) continue;
+      if (!poc::in_startup(rig.controller(n).state().kind)) continue;
       in_startup_zero &= copy(rig.controller(n).network_management_vector()) == bytes({0, 0, 0});
       for (std::size_t other = 0; other < 4; ++other)
         someone_earlier |= copy(rig.controller(other).network_management_vector()) != bytes({0, 0, 0});

@@ -26,19 +26,19 @@ TEST(ErrorReport, ErrorsHaveTheirKind) {
   const auto error = [](unsigned kind, unsigned location = 0) {
     return error_report_of(error_frame(CAN_ERR_PROT | CAN_ERR_BUSERROR, {{2, kind}, {3, location}})).value().error;
   };
-  EXPECT_EQ(error(CAN_ERR_PROT_BIT), kCanBitError);
-  EXPECT_EQ(error(CAN_ERR_PROT_BIT0), kCanBitError);
-  EXPECT_EQ(error(CAN_ERR_PROT_BIT1), kCanBitError);
-  EXPECT_EQ(error(CAN_ERR_PROT_STUFF), kCanStuffError);
-  EXPECT_EQ(error(CAN_ERR_PROT_FORM), kCanFormError);
-  EXPECT_EQ(error(0, CAN_ERR_PROT_LOC_CRC_SEQ), kCanCrcError);
-  EXPECT_EQ(error(0, CAN_ERR_PROT_LOC_ACK), kCanAcknowledgementError);
+  EXPECT_EQ(error(CAN_ERR_PROT_BIT), CanError::kBit);
+  EXPECT_EQ(error(CAN_ERR_PROT_BIT0), CanError::kBit);
+  EXPECT_EQ(error(CAN_ERR_PROT_BIT1), CanError::kBit);
+  EXPECT_EQ(error(CAN_ERR_PROT_STUFF), CanError::kStuff);
+  EXPECT_EQ(error(CAN_ERR_PROT_FORM), CanError::kForm);
+  EXPECT_EQ(error(0, CAN_ERR_PROT_LOC_CRC_SEQ), CanError::kCrc);
+  EXPECT_EQ(error(0, CAN_ERR_PROT_LOC_ACK), CanError::kAcknowledgement);
   const auto sent = error_report_of(error_frame(CAN_ERR_PROT, {{2, CAN_ERR_PROT_BIT | CAN_ERR_PROT_TX}}));
   EXPECT_TRUE(sent && sent->as_transmitter && !sent->state);
   const auto heard = error_report_of(error_frame(CAN_ERR_PROT, {{2, CAN_ERR_PROT_BIT}}));
   EXPECT_TRUE(heard && !heard->as_transmitter);
   const auto alone = error_report_of(error_frame(CAN_ERR_ACK));
-  EXPECT_TRUE(alone && alone->error == kCanAcknowledgementError && alone->as_transmitter);
+  EXPECT_TRUE(alone && alone->error == CanError::kAcknowledgement && alone->as_transmitter);
 }
 
 TEST(ErrorReport, StatesAreThoseOfErrorConfinement) {
@@ -46,12 +46,12 @@ TEST(ErrorReport, StatesAreThoseOfErrorConfinement) {
     const auto report = error_report_of(error_frame(classes, {{1, controller}}));
     return report ? report->state : std::nullopt;
   };
-  EXPECT_EQ(state(CAN_ERR_BUSOFF), kCanBusOff);
-  EXPECT_EQ(state(CAN_ERR_RESTARTED), kCanErrorActive);
-  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE), kCanErrorPassive);
-  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE), kCanErrorPassive);
-  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING), kCanErrorActive);
-  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE), kCanErrorActive);
+  EXPECT_EQ(state(CAN_ERR_BUSOFF), CanState::kBusOff);
+  EXPECT_EQ(state(CAN_ERR_RESTARTED), CanState::kActive);
+  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE), CanState::kPassive);
+  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE), CanState::kPassive);
+  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING), CanState::kActive);
+  EXPECT_EQ(state(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE), CanState::kActive);
 }
 
 TEST(ErrorReport, CountersAreThereIfTheFrameSaysSo) {

@@ -208,7 +208,7 @@ TEST_F(LiveOnVcan, ForeignFramesAreCountedAndNotHandedOver) {
   const auto report = next(medium);
   ASSERT_TRUE(report && report->kind == LiveArrival::Kind::kCanReport);
   EXPECT_EQ(report->can_bus, 0u);
-  EXPECT_EQ(report->report.state, recording::records::kCanBusOff);
+  EXPECT_EQ(report->report.state, recording::records::CanState::kBusOff);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   EXPECT_FALSE(medium.receive());
   EXPECT_EQ(medium.counts().foreign, 5u + 3u);

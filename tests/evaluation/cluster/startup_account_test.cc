@@ -16,15 +16,18 @@ recording::records::Stamp at(std::int64_t true_ns, int node, std::int64_t global
 TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
   StartupAccount account(Duration{5 * kMs});
   account.on(recording::records::PowerChanged{at(3 * kMs, 1, 3 * kMs), true});
-  account.on(recording::records::StateChanged{at(3 * kMs, 1, 3 * kMs), 0x01, 0x21, "ready", "coldstart listen", "RUN",
-                                              "it may lead"});
-  account.on(recording::records::StateChanged{at(52 * kMs, 1, 35 * kMs - 3'000), 0x25, 0x02, "coldstart join",
-                                              "normal active", "joined", ""});
+  account.on(recording::records::StateChanged{at(3 * kMs, 1, 3 * kMs), recording::records::PocKind::kReady,
+                                              recording::records::PocKind::kColdstartListen, "ready",
+                                              "coldstart listen", "RUN", "it may lead"});
+  account.on(recording::records::StateChanged{
+      at(52 * kMs, 1, 35 * kMs - 3'000), recording::records::PocKind::kColdstartJoin,
+      recording::records::PocKind::kNormalActive, "coldstart join", "normal active", "joined", ""});
   account.on(recording::records::PowerChanged{at(90 * kMs, 1, 73 * kMs), false});
   ASSERT_EQ(account.nodes().size(), 1u);
   EXPECT_EQ(account.nodes()[0].state, "off");
   account.on(recording::records::PowerChanged{at(95 * kMs, 1, 95 * kMs), true});
-  account.on(recording::records::StateChanged{at(190 * kMs, 1, 105 * kMs), 0x25, 0x02, "coldstart join",
+  account.on(recording::records::StateChanged{at(190 * kMs, 1, 105 * kMs), recording::records::PocKind::kColdstartJoin,
+                                              recording::records::PocKind::kNormalActive, "coldstart join",
                                               "normal active", "again", "so be it"});
   const NodeStartup node = account.nodes()[0];
   EXPECT_EQ(node.powered, TrueTime{3 * kMs});
@@ -39,8 +42,9 @@ TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
 
 TEST(StartupAccount, ANodeThatNeverBecameActiveStatesWhatItWaitsFor) {
   StartupAccount account(Duration{5 * kMs});
-  account.on(recording::records::StateChanged{at(3 * kMs, 2, 3 * kMs), 0x01, 0x27, "ready", "integration listen",
-                                              "the host commanded RUN",
+  account.on(recording::records::StateChanged{at(3 * kMs, 2, 3 * kMs), recording::records::PocKind::kReady,
+                                              recording::records::PocKind::kIntegrationListen, "ready",
+                                              "integration listen", "the host commanded RUN",
                                               "it is not a coldstart node and waits for a running schedule"});
   const NodeStartup node = account.nodes()[0];
   EXPECT_FALSE(node.active.has_value());

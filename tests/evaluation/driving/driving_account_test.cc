@@ -39,7 +39,7 @@ struct Drive {
   void warn(std::int64_t ms, bool on) {
     Warning warning;
     warning.stamp.true_time = at_ms(ms);
-    warning.service = kForwardCollision;
+    warning.service = WarningKind::kForwardCollision;
     warning.on = on;
     account.on(warning);
   }
@@ -50,11 +50,11 @@ struct Drive {
     objects[0].length = 4.0;
     objects[0].width = 1.8;
     objects[0].speed = speed;
-    objects[0].status = kImageConfirmed;
+    objects[0].status = ImageStatus::kConfirmed;
     objects[1] = objects[0];
     objects[1].x -= 5.0;
     objects[1].speed = 0.0;
-    objects[1].status = 0;
+    objects[1].status = {};
     ImageWritten written;
     written.stamp.true_time = at_ms(ms);
     written.objects = objects;
@@ -242,8 +242,9 @@ TEST(DrivingAccount, AStandstillHasNoJerk) {
 
 TEST(DrivingAccount, EveryVerdictOfTheActuatorIsCounted) {
   Drive drive;
-  for (const std::uint8_t verdict :
-       {kApplied, kNoNewCommand, kInvalidCommand, kLateCommand, kLateCommand, kNothingAsked, kWeakerCommand}) {
+  for (const CommandVerdict verdict :
+       {CommandVerdict::kApplied, CommandVerdict::kNoneNew, CommandVerdict::kInvalid, CommandVerdict::kLate,
+        CommandVerdict::kLate, CommandVerdict::kNothingAsked, CommandVerdict::kWeaker}) {
     CommandTaken taken;
     taken.verdict = verdict;
     drive.account.on(taken);
@@ -284,7 +285,7 @@ TEST(DrivingAccount, WarningsAreRightWrongMissedOrLate) {
   drive.warn(4500, false);
   drive.warn(9800, true);  // early, and right; it goes on
   for (std::int64_t ms = 9820; ms <= 10'600; ms += 40) drive.command(ms);
-  const WarningFindings found = drive.account.finish().warnings[kForwardCollision];
+  const WarningFindings found = drive.account.finish().warnings[index_of(WarningKind::kForwardCollision)];
   EXPECT_EQ(found.hazards, 3u);
   EXPECT_EQ(found.given, 3u);
   EXPECT_EQ(found.right, 2u);
@@ -303,7 +304,7 @@ TEST(DrivingAccount, ADeadServiceWarnsNoLonger) {
     }
     drive.warn(1000, true);
     for (std::int64_t ms = 1040; ms <= (dies ? 1400 : 5600); ms += 40) drive.command(ms);
-    const WarningFindings found = drive.account.finish().warnings[kForwardCollision];
+    const WarningFindings found = drive.account.finish().warnings[index_of(WarningKind::kForwardCollision)];
     EXPECT_EQ(found.right, 1u);
     EXPECT_EQ(found.missed, dies ? 1u : 0u);
   }
@@ -330,7 +331,7 @@ TEST(DrivingAccount, ANodeThatLosesItsSupplyForgetsItsWarning) {
     power.on = false;
     drive.account.on(power);
   }
-  const WarningFindings found = drive.account.finish().warnings[kForwardCollision];
+  const WarningFindings found = drive.account.finish().warnings[index_of(WarningKind::kForwardCollision)];
   EXPECT_EQ(found.given, 1u);
   EXPECT_EQ(found.right, 1u);
   EXPECT_EQ(found.missed, 1u) << "nobody warned of the second hazard";
@@ -396,7 +397,7 @@ TEST(DrivingAccount, AnObjectBesideTheVehicleIsAHazardOfThatSide) {
   for (std::int64_t ms = 3000; ms < 4000; ms += 20) car_at(ms, 0.0, -3.5);
   Warning warning;
   warning.stamp.true_time = at_ms(1200);
-  warning.service = kBlindSpotLeft;
+  warning.service = WarningKind::kBlindSpotLeft;
   warning.on = true;
   account.on(warning);
   TaskRun run;  // the service's node lives
@@ -409,11 +410,14 @@ TEST(DrivingAccount, AnObjectBesideTheVehicleIsAHazardOfThatSide) {
   account.on(warning);
   const DrivingFindings found = account.finish();
   EXPECT_TRUE(found.watches_blind_spot);
-  EXPECT_EQ(found.warnings[kBlindSpotLeft].hazards, 1u);
-  EXPECT_EQ(found.warnings[kBlindSpotLeft].right, 1u);
-  EXPECT_EQ(found.warnings[kBlindSpotLeft].latest, Duration::milliseconds(200));
-  EXPECT_EQ(found.warnings[kBlindSpotRight].missed, 1u);
-  EXPECT_EQ(together(found.warnings[kBlindSpotLeft], found.warnings[kBlindSpotRight]).hazards, 2u);
+  EXPECT_EQ(found.warnings[index_of(WarningKind::kBlindSpotLeft)].hazards, 1u);
+  EXPECT_EQ(found.warnings[index_of(WarningKind::kBlindSpotLeft)].right, 1u);
+  EXPECT_EQ(found.warnings[index_of(WarningKind::kBlindSpotLeft)].latest, Duration::milliseconds(200));
+  EXPECT_EQ(found.warnings[index_of(WarningKind::kBlindSpotRight)].missed, 1u);
+  EXPECT_EQ(together(found.warnings[index_of(WarningKind::kBlindSpotLeft)],
+                     found.warnings[index_of(WarningKind::kBlindSpotRight)])
+                .hazards,
+            2u);
 }
 
 // Readings are 40 ms of global time apart. One is 300 us late, so the next one is early by that; a refused one is no
@@ -424,7 +428,7 @@ TEST(DrivingAccount, TheJitterOfReadingsIsAgainstTheClustersTime) {
     CommandTaken taken;
     taken.stamp.global = GlobalTime{} + Duration::milliseconds(40 * k);
     taken.stamp.true_time = at_ms(1000 + 40 * k) + Duration::microseconds(k == 3 ? 300 : k == 7 ? 5000 : 0);
-    taken.verdict = k == 7 ? kLateCommand : kApplied;
+    taken.verdict = k == 7 ? CommandVerdict::kLate : CommandVerdict::kApplied;
     drive.account.on(taken);
   }
   const BinnedDurations jitter = drive.account.finish().reading_jitter;
@@ -442,7 +446,7 @@ TEST(DrivingAccount, ALossOfGlobalTimeIsNoJitter) {
     taken.stamp.true_time = at_ms(ms) + Duration::microseconds(ms / 10);
     taken.stamp.local = LocalTime{} + Duration::milliseconds(ms - 17);
     taken.stamp.global = GlobalTime{} + Duration::milliseconds(global_ms);
-    taken.verdict = kNoNewCommand;
+    taken.verdict = CommandVerdict::kNoneNew;
     account.on(taken);
   };
   for (std::int64_t ms = 0; ms <= 400; ms += 40) read(ms, ms);

@@ -51,7 +51,7 @@ class Judged : public testing::Test {
     frame.identifier = identifier;
     judge_.begun(frame);
   }
-  void error(NodeId node, std::int64_t us, std::uint8_t kind = recording::records::kCanBitError) {
+  void error(NodeId node, std::int64_t us, recording::records::CanError kind = recording::records::CanError::kBit) {
     recording::records::CanErrorFrame error;
     error.stamp.true_time = at_us(us);
     error.stamp.node = node;
@@ -59,7 +59,7 @@ class Judged : public testing::Test {
     error.as_transmitter = true;
     judge_.error_frame(error);
   }
-  void state(NodeId node, std::uint8_t to, std::int64_t us) {
+  void state(NodeId node, recording::records::CanState to, std::int64_t us) {
     recording::records::CanStateChanged change;
     change.stamp.true_time = at_us(us);
     change.stamp.node = node;
@@ -163,7 +163,7 @@ TEST_F(Judged, TheFaultyNodeAndTheTimeBeforeDoNotCount) {
 TEST_F(Judged, ANodeThatFailsForeverIsUncontained) {
   for (int i = 0; i < 100; ++i) {
     attempt(kFaulty, kOfFaulty, 2'000 + 10 * i);
-    error(kFaulty, 2'005 + 10 * i, recording::records::kCanAcknowledgementError);
+    error(kFaulty, 2'005 + 10 * i, recording::records::CanError::kAcknowledgement);
   }
   for (int i = 0; i < 32; ++i) {
     attempt(kFaulty, kOfFaulty, 4'000 + 10 * i);
@@ -188,15 +188,15 @@ TEST_F(Judged, SuccessAndBusOffEndARowOfFailures) {
     if (round % 2 == 0)
       judge_.sent(kFaulty);
     else
-      state(kFaulty, recording::records::kCanBusOff, 2'900 + 1'000 * round);
+      state(kFaulty, recording::records::CanState::kBusOff, 2'900 + 1'000 * round);
   }
   EXPECT_FALSE(harmed(CanHarm::kUncontained));
 }
 
 TEST_F(Judged, StatesAndTheirEnds) {
-  state(kReceiver, recording::records::kCanErrorPassive, 2'000);
-  state(kFaulty, recording::records::kCanBusOff, 3'000);
-  state(kReceiver, recording::records::kCanErrorActive, 6'000);
+  state(kReceiver, recording::records::CanState::kPassive, 2'000);
+  state(kFaulty, recording::records::CanState::kBusOff, 3'000);
+  state(kReceiver, recording::records::CanState::kActive, 6'000);
   const CanJudgement& judgement = judge_.finish(at_us(90'000));
   EXPECT_EQ(judgement.seen_by_others[static_cast<std::size_t>(CanCheck::kPassive)], at_us(2'000));
   EXPECT_EQ(judgement.seen_by_itself[static_cast<std::size_t>(CanCheck::kBusOff)], at_us(3'000));

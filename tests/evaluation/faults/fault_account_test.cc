@@ -52,7 +52,7 @@ struct Reported {
     return ttf::faults::resolve(plan, cluster);
   }
   NodeId node(const char* name) const { return *cluster.find_node(name); }
-  void says(std::uint8_t what, TrueTime at, NodeId faulty, const char* text) {
+  void says(recording::records::FaultAct what, TrueTime at, NodeId faulty, const char* text) {
     recording::records::FaultActivity activity;
     activity.at = at;
     activity.what = what;
@@ -63,8 +63,8 @@ struct Reported {
   }
   void begins(double at, NodeId faulty = kNoNode) {
     drive.run_to(at);
-    says(recording::records::kFaultBegins, sim::drives::at_s(at), faulty, "");
-    says(recording::records::kFaultActs, sim::drives::at_s(at), faulty, "it acts");
+    says(recording::records::FaultAct::kBegins, sim::drives::at_s(at), faulty, "");
+    says(recording::records::FaultAct::kActs, sim::drives::at_s(at), faulty, "it acts");
   }
   const FaultSeen& fault() const { return report.findings().faults.at(0); }
   const FaultEffects& unattributed() const { return report.findings().unattributed; }
@@ -114,7 +114,7 @@ TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
     deaf.channels = both ? std::vector{Channel::kA, Channel::kB} : std::vector{Channel::kB};
     deaf.from = sim::drives::at_s(0.5) + Duration::milliseconds(1);
     deaf.to = deaf.from + Duration::milliseconds(100);
-    deaf.acted = [&](TrueTime at) { run.says(recording::records::kFaultActs, at, kNoNode, "it acts"); };
+    deaf.acted = [&](TrueTime at) { run.says(recording::records::FaultAct::kActs, at, kNoNode, "it acts"); };
     run.drive.simulation->set_disturbance(&deaf);
     run.begins(0.5);
     run.drive.run_to(1.5);
@@ -162,7 +162,7 @@ TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
     deaf.channels = {Channel::kA, Channel::kB};
     deaf.from = sim::engine::kFirstCycle + run.cluster.cycle() * 200 - Duration::microseconds(100);
     deaf.to = deaf.from + Duration::milliseconds(100);
-    deaf.acted = [&](TrueTime at) { run.says(recording::records::kFaultActs, at, kNoNode, "it acts"); };
+    deaf.acted = [&](TrueTime at) { run.says(recording::records::FaultAct::kActs, at, kNoNode, "it acts"); };
     run.drive.simulation->set_disturbance(&deaf);
     run.begins(0.5);
     const TrueTime end =
@@ -256,10 +256,10 @@ TEST(FaultAccount, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
   forged.from = sim::engine::kFirstCycle + drive.drive.cluster.cycle() * 100;
   forged.until = forged.from + drive.drive.cluster.cycle();
   drive.simulation->run_until(forged.from);
-  recording::records::FaultActivity activity{forged.from,    0, recording::records::kFaultBegins, fault.node,
+  recording::records::FaultActivity activity{forged.from,    0, recording::records::FaultAct::kBegins, fault.node,
                                              "masquerading", ""};
   report.on(activity);
-  activity.what = recording::records::kFaultActs;
+  activity.what = recording::records::FaultAct::kActs;
   for (int us = 0; us < 5'000; us += 50) {
     activity.at = forged.from + Duration::microseconds(us);
     report.on(activity);

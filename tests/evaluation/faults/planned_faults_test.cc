@@ -205,7 +205,7 @@ TEST(FaultAccount, WhatGuardiansBlockIsTold) {
   for (const auto& one : interventions.seen) {
     EXPECT_EQ(one.branch, run.node("feature"));
     EXPECT_EQ(one.channel, 1);
-    EXPECT_EQ(one.signal, recording::records::kSignalUndecodable);
+    EXPECT_EQ(one.signal, recording::records::GuardedSignal::kUndecodable);
     EXPECT_FALSE(one.cut);
     EXPECT_EQ(one.until, one.at);
   }
@@ -263,7 +263,7 @@ TEST(FaultAccount, WhatGuardiansCutIsTold) {
     if (!one.cut) continue;
     channels.insert(one.channel);
     EXPECT_EQ(one.branch, endless.sender);
-    EXPECT_EQ(one.signal, recording::records::kSignalFrame);
+    EXPECT_EQ(one.signal, recording::records::GuardedSignal::kFrame);
     EXPECT_EQ(one.reason, 0);
     EXPECT_GT(one.until, one.at);
     EXPECT_LT(one.until, one.at + Duration::microseconds(100)) << "a frame of 28 words lasts 66 us";

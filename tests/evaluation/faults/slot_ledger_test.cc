@@ -36,7 +36,7 @@ class Ledger : public testing::Test {
     problem.cycle = cycle;
     problem.slot = 2;
     problem.channel = channel;
-    problem.status = 16;
+    problem.status = recording::records::kNoFrame;
     ledger_.on(problem);
   }
   void cycle(int cycle, bool lost) {

@@ -153,7 +153,7 @@ schedules::model::Cluster three_nodes() {
   return cluster;
 }
 
-recording::records::TimingProblem problem(int node, std::uint8_t what, std::uint32_t count = 1) {
+recording::records::TimingProblem problem(int node, recording::records::TimingFault what, std::uint32_t count = 1) {
   recording::records::TimingProblem one;
   one.stamp.node = NodeId{static_cast<std::uint8_t>(node)};
   one.what = what;
@@ -174,15 +174,15 @@ TEST(LatenessAccount, InVirtualTimeThereIsNothingToTell) {
 TEST(LatenessAccount, CountsWhatWasNotInItsTimeByNodeAndKind) {
   const schedules::model::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
-  account.on(problem(0, recording::records::kLateWakeUp));
-  account.on(problem(0, recording::records::kLateWakeUp));
-  account.on(problem(0, recording::records::kSlotMissed));
-  account.on(problem(1, recording::records::kLateFrame));
-  account.on(problem(1, recording::records::kEarlyFrame, 3));
-  account.on(problem(1, recording::records::kFramesLost, 7));
-  account.on(problem(2, recording::records::kFramesLost, 2));
-  account.on(problem(2, 200, 9));                               // from a later version
-  account.on(problem(77, recording::records::kFramesLost, 9));  // from another cluster
+  account.on(problem(0, recording::records::TimingFault::kLateWakeUp));
+  account.on(problem(0, recording::records::TimingFault::kLateWakeUp));
+  account.on(problem(0, recording::records::TimingFault::kSlotMissed));
+  account.on(problem(1, recording::records::TimingFault::kLateFrame));
+  account.on(problem(1, recording::records::TimingFault::kEarlyFrame, 3));
+  account.on(problem(1, recording::records::TimingFault::kFramesLost, 7));
+  account.on(problem(2, recording::records::TimingFault::kFramesLost, 2));
+  account.on(problem(2, recording::records::TimingFault{200}, 9));           // from a later version
+  account.on(problem(77, recording::records::TimingFault::kFramesLost, 9));  // from another cluster
   const auto found = account.finish();
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->timing.size(), 3u);
@@ -242,7 +242,8 @@ TEST(LatenessAccount, WithheldFramesAreCountedApart) {
   frame.sender = NodeId{0};
   cluster.frames.push_back(frame);
   LatenessAccount account(cluster, {});
-  auto missed = problem(0, recording::records::kSlotMissed), lost = problem(1, recording::records::kFramesLost, 2);
+  auto missed = problem(0, recording::records::TimingFault::kSlotMissed),
+       lost = problem(1, recording::records::TimingFault::kFramesLost, 2);
   missed.slot = lost.slot = 4;
   missed.cycle = 10;
   missed.stamp.true_time = accuracy::at(50);
@@ -262,7 +263,7 @@ TEST(LatenessAccount, TheLargestCorrectionIsBySizeAndInRealTime) {
   const schedules::model::Cluster cluster = three_nodes();
   for (const auto& [ppm, expected_ns] : {std::pair(1'000'000, 10'000), std::pair(20'000'000, 200'000)}) {
     LatenessAccount account(cluster, {ppm, {}});
-    account.on(problem(0, recording::records::kLateWakeUp));
+    account.on(problem(0, recording::records::TimingFault::kLateWakeUp));
     for (const std::int32_t microticks : {12, -400, 399}) account.on(corrected({{}, {}, {}, NodeId{1}}, microticks));
     account.on(corrected({{}, {}, {}, NodeId{2}}, 0));
     const auto found = account.finish();
@@ -277,7 +278,7 @@ TEST(LatenessAccount, ClocksAreComparedOnTheirOwnHostOnly) {
       {NodeId{0}, always(0)}, {NodeId{1}, always(9'000'000)}, {NodeId{2}, always(3'000)}};
   const auto precision_on = [&](const std::map<NodeId, std::string>& hosts) {
     LatenessAccount account(cluster, {1'000'000, hosts});
-    account.on(problem(0, recording::records::kLateWakeUp));
+    account.on(problem(0, recording::records::TimingFault::kLateWakeUp));
     for (const recording::records::Stamp& stamp : stamps_of(clocks, 20)) account.on(corrected(stamp, 1));
     return account.finish()->precision;
   };
@@ -331,10 +332,10 @@ TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
       counts[10u + n] = static_cast<std::uint64_t>(k);
       counts[recording::records::lateness_bin(Duration::microseconds(100))] = 1;
       log.on(recording::records::LatenessHistogram{stamp(2 * kCycleNs * k + 500'000),
-                                                   recording::records::kLatenessOfWakeUps, Duration::microseconds(100),
-                                                   counts});
+                                                   recording::records::LatenessOf::kWakeUps,
+                                                   Duration::microseconds(100), counts});
     }
-    auto lost = problem(n, recording::records::kFramesLost, n);
+    auto lost = problem(n, recording::records::TimingFault::kFramesLost, n);
     lost.stamp = stamp(70'000'000);
     if (n > 0) log.on(lost);
     log.close();

@@ -39,8 +39,8 @@ schedules::model::Cluster cluster_of_two_slots() {
 
 class MissingFramesTest : public testing::Test {
  protected:
-  static recording::records::TimingProblem of(NodeId node, std::uint8_t what, int slot, std::int64_t cycle,
-                                              std::int64_t at_cycle) {
+  static recording::records::TimingProblem of(NodeId node, recording::records::TimingFault what, int slot,
+                                              std::int64_t cycle, std::int64_t at_cycle) {
     recording::records::TimingProblem problem;
     problem.stamp.true_time = TrueTime{at_cycle * kTurnNs + slot * 50'000};
     problem.stamp.node = node;
@@ -51,7 +51,7 @@ class MissingFramesTest : public testing::Test {
   }
   // In cycle `at` of true time, which the node counts as `at + ahead`.
   void missed(std::int64_t at, std::int64_t ahead = 0, int slot = 1, NodeId sender = kTalker, int channel = 0) {
-    auto problem = of(sender, recording::records::kSlotMissed, slot, at + ahead, at);
+    auto problem = of(sender, recording::records::TimingFault::kSlotMissed, slot, at + ahead, at);
     problem.channel = static_cast<std::uint8_t>(channel);
     // Noticed when it was 700 us late in real time.
     problem.late = Duration::microseconds(700);
@@ -60,7 +60,7 @@ class MissingFramesTest : public testing::Test {
   }
   void lost(std::int64_t at, std::uint32_t count, std::int64_t ahead = 0, int slot = 1, int channel = 0,
             NodeId receiver = kListener) {
-    auto problem = of(receiver, recording::records::kFramesLost, slot, at + ahead, at);
+    auto problem = of(receiver, recording::records::TimingFault::kFramesLost, slot, at + ahead, at);
     problem.channel = static_cast<std::uint8_t>(channel);
     problem.count = count;
     told_.push_back(problem);
@@ -318,8 +318,8 @@ TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
 TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
   constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t far : {-kFar - 1, std::int64_t{-1}, kFar}) {
-    auto miss = of(kTalker, recording::records::kSlotMissed, 1, far, 0);
-    auto loss = of(kListener, recording::records::kFramesLost, 1, ~far, 0);  // -far - 1
+    auto miss = of(kTalker, recording::records::TimingFault::kSlotMissed, 1, far, 0);
+    auto loss = of(kListener, recording::records::TimingFault::kFramesLost, 1, ~far, 0);  // -far - 1
     loss.count = std::numeric_limits<std::uint32_t>::max();
     for (const std::int64_t late : {-kFar - 1, kFar}) {
       miss.stamp.true_time.ns = far;
@@ -336,8 +336,8 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
     EXPECT_LE(withheld(), 6u * 6u);  // at most the missed ones for each loss
     EXPECT_LE(away(), 6 * std::uint64_t{std::numeric_limits<std::uint32_t>::max()});
   }
-  told_ = {of(kTalker, recording::records::kSlotMissed, 7, 1, 1),
-           of(kListener, recording::records::kFramesLost, 7, 2, 2)};
+  told_ = {of(kTalker, recording::records::TimingFault::kSlotMissed, 7, 1, 1),
+           of(kListener, recording::records::TimingFault::kFramesLost, 7, 2, 2)};
   EXPECT_EQ(withheld(), 0u) << "a slot that nobody has";
   const schedules::model::Cluster nothing;
   MissingFrames frames(nothing, 1'000'000);

@@ -90,7 +90,7 @@ TEST(MeasureTable, APartThatADrivenVehicleHasNotIsNullOrAbsent) {
     EXPECT_FALSE(json["driving"].contains(part)) << part;
 
   driving.warns_ahead = true;
-  driving.warnings[recording::records::kForwardCollision].missed = 2;
+  driving.warnings[index_of(recording::records::WarningKind::kForwardCollision)].missed = 2;
   driving.collision = driving::DrivingFindings::Collision{TrueTime{}, 3.5};
   nlohmann::ordered_json more;
   add_to(more, measures(), figures);

@@ -36,7 +36,7 @@ struct ByHand final : Sink {
   std::vector<host::Input> inputs;
   bool global_time = true;
   std::optional<CommandTaken> taken;
-  std::vector<std::uint8_t> verdicts;  // in the last reading
+  std::vector<CommandVerdict> verdicts;  // in the last reading
   std::optional<host::Actuation> actuation;
 
   ByHand() {
@@ -83,10 +83,10 @@ TEST(Actuator, HandsACommandOverAfterItsDeadTime) {
   EXPECT_EQ(loop.actuation->from, TrueTime{} + Duration::milliseconds(95) + Duration{5});
   EXPECT_NEAR(loop.actuation->acceleration, -1.5, 1e-9);
   EXPECT_NEAR(loop.actuation->steering, 0.01, 1e-9);
-  EXPECT_EQ(loop.taken->verdict, kApplied);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kApplied);
   loop.run(at_ms(85));
   EXPECT_FALSE(loop.actuation);
-  EXPECT_EQ(loop.taken->verdict, kNoNewCommand);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kNoneNew);
 }
 
 TEST(Actuator, RefusesOldFutureAndInvalidCommands) {
@@ -94,27 +94,27 @@ TEST(Actuator, RefusesOldFutureAndInvalidCommands) {
   const Duration oldest = sim::world::vehicle::ActuatorConfig{}.oldest;
   loop.receive(0, {true, -1.0, 0.0}, at_ms(40));
   loop.run(at_ms(40) + oldest);
-  EXPECT_EQ(loop.taken->verdict, kApplied);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kApplied);
   loop.receive(0, {true, -1.0, 0.0}, at_ms(40));
   loop.run(at_ms(40) + oldest + Duration{1});
-  EXPECT_EQ(loop.taken->verdict, kLateCommand);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kLate);
   EXPECT_FALSE(loop.actuation);
   EXPECT_TRUE(loop.inputs[0].discarded);
   // A round has 320 ms, so that 250 ms before the reading is the same place in it as 70 ms after.
   loop.receive(0, {true, -1.0, 0.0}, at_ms(40));
   loop.run(at_ms(290));
-  EXPECT_EQ(loop.taken->verdict, kLateCommand);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kLate);
   loop.receive(0, {true, -1.0, 0.0}, at_ms(155));
   loop.run(at_ms(40));
-  EXPECT_EQ(loop.taken->verdict, kLateCommand);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kLate);
   loop.receive(0, {false, -1.0, 0.0}, at_ms(40));
   loop.run(at_ms(45));
-  EXPECT_EQ(loop.taken->verdict, kInvalidCommand);
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kInvalid);
   EXPECT_FALSE(loop.actuation);
   loop.global_time = false;
   loop.receive(0, {true, -1.0, 0.0}, at_ms(40));
   loop.run(at_ms(45));
-  EXPECT_EQ(loop.taken->verdict, kLateCommand) << "without global time no age is known";
+  EXPECT_EQ(loop.taken->verdict, CommandVerdict::kLate) << "without global time no age is known";
 }
 
 TEST(Actuator, TheStrongerDecelerationCounts) {
@@ -144,7 +144,7 @@ TEST(Actuator, AnAcceptedCommandOutlivesTheLossOfTheNextList) {
   loop.run(at_ms(85));
   EXPECT_NEAR(loop.actuation->acceleration, -8.0, 1e-9);
   EXPECT_NEAR(loop.actuation->steering, 0.01, 1e-9);
-  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kWeakerCommand, kApplied}));
+  EXPECT_EQ(loop.verdicts, (std::vector<CommandVerdict>{CommandVerdict::kWeaker, CommandVerdict::kApplied}));
   loop.receive(0, {true, -3.5, 0.0}, at_ms(140));
   loop.run(at_ms(145));
   EXPECT_NEAR(loop.actuation->acceleration, -3.5, 1e-9) << "105 ms are too old";
@@ -153,7 +153,8 @@ TEST(Actuator, AnAcceptedCommandOutlivesTheLossOfTheNextList) {
   loop.receive(1, {false, 0.0, 0.0}, at_ms(180));
   loop.run(at_ms(185));
   EXPECT_NEAR(loop.actuation->acceleration, -3.5, 1e-9) << "emergency braking ends while the other list is lost";
-  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kNoNewCommand, kNothingAsked, kApplied}));
+  EXPECT_EQ(loop.verdicts, (std::vector<CommandVerdict>{CommandVerdict::kNoneNew, CommandVerdict::kNothingAsked,
+                                                        CommandVerdict::kApplied}));
 }
 
 TEST(Actuator, TheFateOfEachListOfEmergencyBrakingIsOnRecord) {
@@ -162,11 +163,11 @@ TEST(Actuator, TheFateOfEachListOfEmergencyBrakingIsOnRecord) {
   loop.receive(1, {true, -8.0, 0.0}, at_ms(40));
   loop.run(at_ms(205));
   EXPECT_NEAR(loop.actuation->acceleration, -1.0, 1e-9);
-  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kApplied, kLateCommand}));
+  EXPECT_EQ(loop.verdicts, (std::vector<CommandVerdict>{CommandVerdict::kApplied, CommandVerdict::kLate}));
   loop.receive(0, {true, -1.0, 0.0}, at_ms(240));
   loop.receive(1, {false, 0.0, 0.0}, at_ms(240));
   loop.run(at_ms(245));
-  EXPECT_EQ(loop.verdicts, (std::vector<std::uint8_t>{kApplied, kNothingAsked}));
+  EXPECT_EQ(loop.verdicts, (std::vector<CommandVerdict>{CommandVerdict::kApplied, CommandVerdict::kNothingAsked}));
 }
 
 // A service with images and odometry by hand.
@@ -240,12 +241,12 @@ TEST(EmergencyBraking, WarnsThenBrakesAndEndsWhenNothingIsApproached) {
   EXPECT_LT(clearance, 60.0 - 3.4);
   braking.look(60.0 - clearance + 26.0, 10.0, 20.0);  // 2.6 s
   ASSERT_EQ(braking.warnings.size(), 1u);
-  EXPECT_EQ(braking.warnings[0].service, kForwardCollision);
+  EXPECT_EQ(braking.warnings[0].service, WarningKind::kForwardCollision);
   EXPECT_NEAR(braking.warnings[0].time_to_collision_s, 2.6, 0.01);
   EXPECT_FALSE(braking.issued->valid);
   braking.look(60.0 - clearance + 15.0, 10.0, 20.0);  // 1.5 s
   ASSERT_EQ(braking.warnings.size(), 2u);
-  EXPECT_EQ(braking.warnings[1].service, kEmergencyBraking);
+  EXPECT_EQ(braking.warnings[1].service, WarningKind::kEmergencyBraking);
   EXPECT_TRUE(braking.issued->valid);
   EXPECT_NEAR(braking.issued->acceleration, -8.0, 1e-9);
   braking.look(60.0 - clearance + 12.0, 10.0, 12.0);  // 6 s: it goes on
@@ -271,14 +272,14 @@ TEST(AdaptiveCruiseControl, FollowsTheLawWithinItsLimits) {
   Cruising cruising;
   cruising.look(200.0, 20.0, 20.0);
   EXPECT_TRUE(cruising.issued->valid);
-  EXPECT_EQ(cruising.issued->reason, kForSetSpeed);
+  EXPECT_EQ(cruising.issued->reason, CommandReason::kSetSpeed);
   EXPECT_NEAR(cruising.issued->acceleration, 0.0, 1e-9) << "nothing goes before the first execution";
   cruising.look(200.0, 20.0, 20.0);
   EXPECT_NEAR(cruising.issued->acceleration, 0.1, 2e-3);
   for (int i = 0; i < 60; ++i) cruising.look(200.0, 20.0, 20.0);
   EXPECT_NEAR(cruising.issued->acceleration, 2.0, 2e-3) << "0.4 * (30 - 20) is beyond the limit";
   for (int i = 0; i < 60; ++i) cruising.look(45.0, 18.0, 20.0);
-  EXPECT_EQ(cruising.issued->reason, kForGap);
+  EXPECT_EQ(cruising.issued->reason, CommandReason::kGap);
   const double law = 0.23 * (cruising.issued->gap - 2.0 - 1.5 * 20.0) + 0.74 * (18.0 - 20.0);
   ASSERT_GT(law, -3.5);
   EXPECT_NEAR(cruising.issued->acceleration, law, 0.02);

@@ -100,7 +100,7 @@ TEST(EmergencyBraking, WarnsByAPredictedCar) {
   EXPECT_TRUE(service.warnings.empty());
   service.drive();
   ASSERT_EQ(service.warnings.size(), 1u);
-  EXPECT_EQ(service.warnings[0].service, kForwardCollision);
+  EXPECT_EQ(service.warnings[0].service, WarningKind::kForwardCollision);
   EXPECT_NEAR(service.warnings[0].time_to_collision_s, (40.0 - 2.0 * 2.56 * 2.56) / (4.0 * 2.56), 0.01);
 }
 

@@ -218,7 +218,7 @@ TEST(VehicleControl, TurnsAPlannedSpeedIntoAnAccelerationWithinLimits) {
   Controlling control;
   control.follow(29.4, 29.0);
   EXPECT_TRUE(control.command->valid);
-  EXPECT_EQ(control.command->reason, kForPlan);
+  EXPECT_EQ(control.command->reason, CommandReason::kPlan);
   EXPECT_NEAR(control.command->acceleration, 2.5 * 0.4, 0.002);
   control.follow(29.4, 29.0);
   EXPECT_NEAR(control.command->acceleration, 2.5 * 0.4 + 0.4 * 0.0, 0.006) << "the first step took no time";

@@ -50,7 +50,7 @@ TEST(LaneKeeping, SteersTowardsTheMiddle) {
   Lanes lanes;
   lanes.see(0.0);
   ASSERT_TRUE(lanes.issued && lanes.issued->valid);
-  EXPECT_EQ(lanes.issued->reason, kForLane);
+  EXPECT_EQ(lanes.issued->reason, CommandReason::kLane);
   EXPECT_NEAR(lanes.issued->steering, 0.0, 1e-3);
   for (const double side : {1.0, -1.0}) {
     Lanes aside;
@@ -93,7 +93,7 @@ TEST(LaneKeeping, WarnsOfALaneThatIsLeft) {
   EXPECT_TRUE(lanes.warnings.empty());
   for (int list = 0; list < 12; ++list) lanes.see(1.0);
   ASSERT_EQ(lanes.warnings.size(), 1u);
-  EXPECT_EQ(lanes.warnings[0].service, kLaneDeparture);
+  EXPECT_EQ(lanes.warnings[0].service, WarningKind::kLaneDeparture);
   for (int list = 0; list < 12; ++list) lanes.see(0.8);
   ASSERT_EQ(lanes.warnings.size(), 2u);
   EXPECT_FALSE(lanes.warnings[1].on);
@@ -118,7 +118,7 @@ TEST(BlindSpotWarning, WarnsOfACarInTheNextLaneAlone) {
   EXPECT_TRUE(sides.warnings.empty());
   sides.see(-6.0, 3.5);
   ASSERT_EQ(sides.warnings.size(), 1u);
-  EXPECT_EQ(sides.warnings[0].service, kBlindSpotLeft);
+  EXPECT_EQ(sides.warnings[0].service, WarningKind::kBlindSpotLeft);
   EXPECT_EQ(sides.warnings[0].track, TrackId{7});
   sides.see(3.7, 3.5);  // its rear is 0.1 m ahead of the eyes: within the margin
   EXPECT_EQ(sides.warnings.size(), 1u);
@@ -127,7 +127,7 @@ TEST(BlindSpotWarning, WarnsOfACarInTheNextLaneAlone) {
   EXPECT_FALSE(sides.warnings[1].on);
   sides.see(0.0, -3.5);
   ASSERT_EQ(sides.warnings.size(), 3u);
-  EXPECT_EQ(sides.warnings[2].service, kBlindSpotRight);
+  EXPECT_EQ(sides.warnings[2].service, WarningKind::kBlindSpotRight);
 }
 
 TEST(BlindSpotWarning, KeepsItsWarningsWithoutAnImage) {
@@ -161,14 +161,14 @@ TEST(ActuatorWithLateral, EachAxisFollowsItsOwnCommands) {
   EXPECT_NEAR(both->acceleration, -1.0, 1e-9);
   EXPECT_NEAR(both->steering, 0.02, 1e-9);
   ASSERT_EQ(wheels.taken.size(), 2u);
-  EXPECT_EQ(wheels.taken[1].verdict, kApplied);
+  EXPECT_EQ(wheels.taken[1].verdict, CommandVerdict::kApplied);
   wheels.command("emergency", -8.0, 0.3);
   const auto brakes = wheels.run(wheels.step);
   ASSERT_TRUE(brakes);
   EXPECT_NEAR(brakes->acceleration, -8.0, 1e-9);
   EXPECT_NEAR(brakes->steering, 0.02, 1e-9) << "the wheels stay";
   ASSERT_EQ(wheels.taken.size(), 2u) << "the list of cruise control that is not there, and the one that came";
-  EXPECT_EQ(wheels.taken[0].verdict, kNoNewCommand);
+  EXPECT_EQ(wheels.taken[0].verdict, CommandVerdict::kNoneNew);
   EXPECT_NEAR(wheels.taken[1].steering, 0.02, 1e-9) << "a record has what was handed over";
   wheels.command("lateral", 0.0, 0.03);
   const auto steers = wheels.run(wheels.step);
@@ -236,7 +236,7 @@ TEST(ActuatorWithLateral, EachAppliedRecordHasWhatWasHandedOver) {
       const auto actuation = wheels.run(wheels.step);
       bool told = false;
       for (const CommandTaken& taken : wheels.taken) {
-        if (taken.verdict != kApplied) continue;
+        if (taken.verdict != CommandVerdict::kApplied) continue;
         ASSERT_TRUE(actuation) << execution;
         EXPECT_EQ(taken.from, actuation->from);
         EXPECT_EQ(taken.acceleration, actuation->acceleration) << execution;

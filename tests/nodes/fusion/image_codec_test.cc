@@ -95,10 +95,8 @@ TEST(ImageCodec, CarriesEveryStatus) {
     view.coasting = bits & 2;
     view.has_length = bits & 4;
     view.has_width = bits & 8;
-    EXPECT_EQ(image.carried(view).status, bits);
+    EXPECT_EQ(static_cast<int>(image.carried(view).status), bits);
   }
-  static_assert(recording::records::kImageConfirmed == 1 && recording::records::kImageCoasting == 2 &&
-                recording::records::kImageHasLength == 4 && recording::records::kImageHasWidth == 8);
 }
 
 TEST(ImageCodec, SaturatesWhatIsOutOfRangeAndCountsIt) {

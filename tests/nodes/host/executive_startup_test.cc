@@ -25,7 +25,8 @@ struct Told final : recording::records::Sink {
   };
   struct Symbol {
     std::int64_t start, end;
-    int channel, kind;
+    int channel;
+    recording::records::Symbol kind;
     bool operator==(const Symbol&) const = default;
   };
   std::vector<Change> changes;
@@ -35,8 +36,9 @@ struct Told final : recording::records::Sink {
 
   using recording::records::Sink::on;
   void on(const recording::records::StateChanged& r) override {
-    changes.push_back({r.stamp.true_time.ns / 1000, r.from, r.to, std::string(r.from_name), std::string(r.to_name),
-                       std::string(r.why), std::string(r.consequence)});
+    changes.push_back({r.stamp.true_time.ns / 1000, static_cast<int>(r.from), static_cast<int>(r.to),
+                       std::string(r.from_name), std::string(r.to_name), std::string(r.why),
+                       std::string(r.consequence)});
     of_the_cluster += r.stamp.global.ns != r.stamp.local.ns ? 1 : 0;
   }
   void on(const recording::records::PowerChanged& r) override {
@@ -102,10 +104,10 @@ TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
 TEST(ExecutiveStartup, SymbolsAreReportedOnEachChannelTheyLeaveOn) {
   ColdNode node;
   node.run_to(60'000);
-  EXPECT_EQ(node.told.symbols, (std::vector<Told::Symbol>{{2'006, 2'009, 0, recording::records::kSymbolCas},
-                                                          {2'006, 2'009, 1, recording::records::kSymbolCas},
-                                                          {8'010, 8'014, 0, recording::records::kSymbolCas},
-                                                          {8'010, 8'014, 1, recording::records::kSymbolCas}}));
+  EXPECT_EQ(node.told.symbols, (std::vector<Told::Symbol>{{2'006, 2'009, 0, recording::records::Symbol::kCas},
+                                                          {2'006, 2'009, 1, recording::records::Symbol::kCas},
+                                                          {8'010, 8'014, 0, recording::records::Symbol::kCas},
+                                                          {8'010, 8'014, 1, recording::records::Symbol::kCas}}));
 }
 
 // It has no global time then and reports its local time instead.
@@ -125,9 +127,9 @@ TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards)
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(4'500);
   ASSERT_EQ(node.told.symbols.size(), 3u);
-  EXPECT_EQ(node.told.symbols[0], (Told::Symbol{2'006, 2'054, 0, recording::records::kSymbolWakeup}));
+  EXPECT_EQ(node.told.symbols[0], (Told::Symbol{2'006, 2'054, 0, recording::records::Symbol::kWakeup}));
   EXPECT_EQ(node.told.symbols[1].start, 2'054 + 2'006);
-  EXPECT_EQ(node.told.symbols[1].kind, recording::records::kSymbolCas);
+  EXPECT_EQ(node.told.symbols[1].kind, recording::records::Symbol::kCas);
   std::vector<std::string> states;
   for (const Told::Change& change : node.told.changes) states.push_back(change.to_name);
   EXPECT_EQ(states, (std::vector<std::string>{"config", "ready", "wakeup listen", "wakeup send", "ready",

@@ -42,7 +42,7 @@ struct Recorded final : recording::records::Sink {
     bool operator==(const Histogram&) const = default;
   };
   struct Told {
-    std::uint8_t what = 0;
+    recording::records::TimingFault what{};
     Duration late{};
     SlotOfCycle slot;
     std::uint32_t count = 0;
@@ -88,7 +88,7 @@ struct Recorded final : recording::records::Sink {
   }
 
   // The number of problems, or the sum of their counts.
-  std::uint64_t told(std::uint8_t what) const {
+  std::uint64_t told(recording::records::TimingFault what) const {
     std::uint64_t sum = 0;
     for (const Told& problem : problems)
       if (problem.what == what) sum += problem.count;
@@ -112,8 +112,8 @@ struct Recorded final : recording::records::Sink {
   std::map<std::int64_t, Correction> corrections;  // by cycle
   std::vector<std::string> states;                 // the controller's, in order
   std::vector<recording::records::Stamp> changes;
-  std::map<int, Histogram> lateness;        // the last, by its subject
-  recording::records::MediumCounts medium;  // the last
+  std::map<recording::records::LatenessOf, Histogram> lateness;  // the last, by its subject
+  recording::records::MediumCounts medium;                       // the last
 };
 
 // Hears nothing at first.
@@ -148,21 +148,21 @@ class Deaf final : public bus::ports::LiveMedium {
 inline void expect_counted_once(const Recorded& recorded, const Health& health) {
   const TimingCounts& timing = health.timing;
   EXPECT_TRUE(recorded.ordered);
-  EXPECT_EQ(recorded.told(recording::records::kLateWakeUp), timing.late_wakeups);
-  EXPECT_EQ(recorded.told(recording::records::kSlotMissed), timing.slots_missed);
-  EXPECT_EQ(recorded.told(recording::records::kLateFrame), timing.late_frames);
-  EXPECT_EQ(recorded.told(recording::records::kEarlyFrame), timing.early_frames);
-  EXPECT_EQ(recorded.told(recording::records::kFramesLost), timing.frames_lost);
+  EXPECT_EQ(recorded.told(recording::records::TimingFault::kLateWakeUp), timing.late_wakeups);
+  EXPECT_EQ(recorded.told(recording::records::TimingFault::kSlotMissed), timing.slots_missed);
+  EXPECT_EQ(recorded.told(recording::records::TimingFault::kLateFrame), timing.late_frames);
+  EXPECT_EQ(recorded.told(recording::records::TimingFault::kEarlyFrame), timing.early_frames);
+  EXPECT_EQ(recorded.told(recording::records::TimingFault::kFramesLost), timing.frames_lost);
   EXPECT_EQ(recorded.medium.sent, health.medium.sent);
   EXPECT_EQ(recorded.medium.received, health.medium.received);
   EXPECT_EQ(recorded.medium.lost, health.medium.lost);
   EXPECT_EQ(recorded.medium.dropped, health.dropped);
-  const auto histogram = [&](int of) {
+  const auto histogram = [&](recording::records::LatenessOf of) {
     const auto one = recorded.lateness.find(of);
     return one == recorded.lateness.end() ? Recorded::Histogram{} : one->second;
   };
-  EXPECT_EQ(histogram(recording::records::kLatenessOfWakeUps).longest, health.wakeup_longest);
-  EXPECT_LE(histogram(recording::records::kLatenessOfArrivals).count, health.medium.received);
+  EXPECT_EQ(histogram(recording::records::LatenessOf::kWakeUps).longest, health.wakeup_longest);
+  EXPECT_LE(histogram(recording::records::LatenessOf::kArrivals).count, health.medium.received);
 }
 
 // All on FlexRay; the sensors' devices are not.

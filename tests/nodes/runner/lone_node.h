@@ -134,7 +134,7 @@ class RunnerTest : public LiveNodeSet {
     std::set<SlotOfCycle> missed() const {
       std::set<SlotOfCycle> missed;
       for (const Recorded::Told& problem : out.problems) {
-        if (problem.what != recording::records::kSlotMissed) continue;
+        if (problem.what != recording::records::TimingFault::kSlotMissed) continue;
         EXPECT_TRUE(missed.insert(problem.slot).second) << "told twice";
       }
       return missed;

@@ -59,7 +59,7 @@ class TurnedNodeSet : public LiveNodeSet {
   std::set<SlotOfCycle> missed(const char* node) {
     std::set<SlotOfCycle> missed;
     for (const Recorded::Told& problem : of(node).problems)
-      if (problem.what == recording::records::kSlotMissed) missed.insert(problem.slot);
+      if (problem.what == recording::records::TimingFault::kSlotMissed) missed.insert(problem.slot);
     return missed;
   }
   // The frames that a node did not send in each slot, between the first and the last sent one.
@@ -90,10 +90,10 @@ TEST_F(TurnedNodeSet, ANodeSetDrivesInRealTime) {
     for (std::size_t n = 0; n < recorded_.size(); ++n) {
       EXPECT_TRUE(recorded_[n].problems.empty()) << cluster_.nodes[n].name;
       EXPECT_LT(health_[n].wakeup_longest.ns, 25 * scale / 1'000'000) << cluster_.nodes[n].name << ": a microtick";
-      EXPECT_EQ(recorded_[n].lateness[recording::records::kLatenessOfTransits].count, health_[n].medium.received);
+      EXPECT_EQ(recorded_[n].lateness[recording::records::LatenessOf::kTransits].count, health_[n].medium.received);
     }
     for (const char* node : kOnFlexRay)
-      EXPECT_GT(of(node).lateness[recording::records::kLatenessOfArrivals].count, 100u) << node;
+      EXPECT_GT(of(node).lateness[recording::records::LatenessOf::kArrivals].count, 100u) << node;
   }
 }
 

@@ -31,7 +31,8 @@ TEST_F(RunnerTest, AWakeUpInTimeIsNeverLate) {
   EXPECT_TRUE(gateway.out.ordered);
   EXPECT_TRUE(gateway.out.problems.empty());
   EXPECT_EQ(gateway.health.wakeup_longest, Duration{});
-  EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfDepartures], (Recorded::Histogram{4 * 34, Duration{}}));
+  EXPECT_EQ(gateway.out.lateness[recording::records::LatenessOf::kDepartures],
+            (Recorded::Histogram{4 * 34, Duration{}}));
   EXPECT_EQ(gateway.health.medium.sent, 4u * 34);
 }
 
@@ -44,7 +45,7 @@ TEST_F(RunnerTest, AWakeUpAsLateAsTheWindowAllowsIsInTime) {
   EXPECT_EQ(gateway.sent(), gateway_slots(4));
   EXPECT_TRUE(gateway.out.problems.empty());
   EXPECT_EQ(gateway.health.wakeup_longest, late);
-  EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfDepartures].longest, late);
+  EXPECT_EQ(gateway.out.lateness[recording::records::LatenessOf::kDepartures].longest, late);
 }
 
 TEST_F(RunnerTest, AFrameThatIsANanosecondTooLateIsNotSentAndReported) {
@@ -54,11 +55,11 @@ TEST_F(RunnerTest, AFrameThatIsANanosecondTooLateIsNotSentAndReported) {
   gateway.run();
   EXPECT_EQ(gateway.sent_or_missed(), gateway_slots(4));
   EXPECT_THAT(gateway.missed(), testing::IsSupersetOf({SlotOfCycle{0, 3, 0}, {0, 3, 1}})) << "what it is woken up for";
-  EXPECT_LE(gateway.out.lateness[recording::records::kLatenessOfDepartures].longest, cluster_.arrival_window->late);
+  EXPECT_LE(gateway.out.lateness[recording::records::LatenessOf::kDepartures].longest, cluster_.arrival_window->late);
   EXPECT_EQ(gateway.health.timing.slots_missed, gateway.missed().size());
   EXPECT_EQ(gateway.health.medium.sent, gateway.sent().size());
   EXPECT_GT(gateway.health.timing.late_wakeups, 0u);
-  EXPECT_EQ(gateway.health.timing.late_wakeups, gateway.out.told(recording::records::kLateWakeUp));
+  EXPECT_EQ(gateway.health.timing.late_wakeups, gateway.out.told(recording::records::TimingFault::kLateWakeUp));
   for (const Recorded::Told& problem : gateway.out.problems) EXPECT_EQ(problem.late, too_late);
 }
 
@@ -164,8 +165,8 @@ TEST_F(RunnerTest, AFrameIsJudgedByItsWindowInRealTime) {
       gateway.run();
       EXPECT_EQ(gateway.health.timing.late_frames, behind > late ? 1u : 0u);
       EXPECT_EQ(gateway.health.timing.early_frames, behind < -early ? 1u : 0u);
-      EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfArrivals].count, 1u);
-      EXPECT_LT(std::abs((gateway.out.lateness[recording::records::kLatenessOfArrivals].longest - behind).ns),
+      EXPECT_EQ(gateway.out.lateness[recording::records::LatenessOf::kArrivals].count, 1u);
+      EXPECT_LT(std::abs((gateway.out.lateness[recording::records::LatenessOf::kArrivals].longest - behind).ns),
                 margin.ns);
     }
   }
@@ -206,24 +207,24 @@ TEST_F(RunnerTest, ReportsOfItsInterfaceAreRecords) {
   Alone laser(*this, "laser", {.lasts = ms(20)});
   const std::size_t can = *schedules::model::can_of_lines(cluster_, *cluster_.find_sensor("laser"));
   bus::ports::CanReport report;
-  report.error = kCanBitError;
+  report.error = CanError::kBit;
   report.as_transmitter = true;
   report.transmit_errors = 8;
   laser.host.at(laser.at(ms(5)), [&, report] { laser.report_on_can(can, report); });
   report = {};
-  report.state = kCanErrorPassive;
+  report.state = CanState::kPassive;
   for (const int at : {7, 8}) laser.host.at(laser.at(ms(at)), [&, report] { laser.report_on_can(can, report); });
   laser.run();
   ASSERT_EQ(laser.out.can_errors.size(), 1u);
   EXPECT_EQ(laser.out.can_errors[0].bus, can);
-  EXPECT_EQ(laser.out.can_errors[0].error, kCanBitError);
+  EXPECT_EQ(laser.out.can_errors[0].error, CanError::kBit);
   EXPECT_EQ(laser.out.can_errors[0].transmit_errors, 8);
   EXPECT_EQ(laser.out.can_errors[0].stamp.node, id_of("laser"));
   ASSERT_EQ(laser.out.can_states.size(), 1u);
-  EXPECT_EQ(laser.out.can_states[0].from, kCanErrorActive);
-  EXPECT_EQ(laser.out.can_states[0].to, kCanErrorPassive);
+  EXPECT_EQ(laser.out.can_states[0].from, CanState::kActive);
+  EXPECT_EQ(laser.out.can_states[0].to, CanState::kPassive);
   EXPECT_EQ(laser.health.can_errors, 1u);
-  EXPECT_EQ(laser.health.can_state, kCanErrorPassive);
+  EXPECT_EQ(laser.health.can_state, CanState::kPassive);
 }
 
 TEST_F(RunnerTest, ALineIsKnownByItsForm) {
@@ -368,7 +369,7 @@ TEST_F(RunnerTest, TheMachinesOwnLatenessIsReported) {
   gateway.floor.add(us(70));
   gateway.floor.add(us(90));
   gateway.run();
-  EXPECT_EQ(gateway.out.lateness[recording::records::kLatenessOfFloor], (Recorded::Histogram{2, us(90)}));
+  EXPECT_EQ(gateway.out.lateness[recording::records::LatenessOf::kFloor], (Recorded::Histogram{2, us(90)}));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "core/time.h"
 #include "nodes/runner/kernel_clock.h"
+#include "recording/records/words.h"
 #include "tests/nodes/runner/live_node_set.h"
 
 namespace ttf::nodes::runner {
@@ -52,8 +53,9 @@ class WallClockNodeSet : public LiveNodeSet {
       const Health& health = health_[n];
       fmt::print("{:<12}{:>12.0f}{:>12.0f}{:>12.0f}{:>12.0f}{:>10}{:>8}  {}\n", cluster_.nodes[n].name,
                  in_us(health.wakeup_p50), in_us(health.wakeup_p99), in_us(health.wakeup_longest),
-                 in_us(recorded_[n].lateness[recording::records::kLatenessOfFloor].longest), health.timing.slots_missed,
-                 health.timing.frames_lost, health.state ? bus::poc::to_text(*health.state) : "off FlexRay");
+                 in_us(recorded_[n].lateness[recording::records::LatenessOf::kFloor].longest),
+                 health.timing.slots_missed, health.timing.frames_lost,
+                 health.state ? to_text(*health.state) : "off FlexRay");
     }
     std::fflush(stdout);
   }

@@ -21,8 +21,8 @@ recording::records::ImageObject car(double x, double y, double heading, double s
   object.speed = speed;
   object.length = 4.0;
   object.width = 2.0;
-  object.status =
-      recording::records::kImageConfirmed | recording::records::kImageHasLength | recording::records::kImageHasWidth;
+  object.status = recording::records::ImageStatus::kConfirmed | recording::records::ImageStatus::kHasLength |
+                  recording::records::ImageStatus::kHasWidth;
   return object;
 }
 FeatureConfig driving(double own_speed) {
@@ -95,7 +95,7 @@ TEST(FeatureService, ClearanceEndsAtTheOutline) {
 
 TEST(FeatureService, UnmeasuredSizesAreThoseOfTheImage) {
   recording::records::ImageObject object = car(22.0, 0.0, 0.0, 0.0);
-  object.status = recording::records::kImageConfirmed;
+  object.status = recording::records::ImageStatus::kConfirmed;
   object.length = 4.4;
   object.width = 1.8;
   EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.length, 1e-9);

@@ -65,8 +65,8 @@ struct Exported {
     collector.on(sent);
   }
   // The channel's record of a frame of the gateway, sent at `sent_ns`; slot 0: no frame of its controller.
-  void on_channel(std::int64_t start_ns, std::int64_t sent_ns, int slot, std::uint8_t channel, std::uint8_t state,
-                  std::span<const std::byte> bytes) {
+  void on_channel(std::int64_t start_ns, std::int64_t sent_ns, int slot, std::uint8_t channel,
+                  records::ChannelState state, std::span<const std::byte> bytes) {
     records::ChannelFrame frame;
     frame.start = frame.end = {start_ns};
     frame.sender = *nodes.find_node("gateway");
@@ -77,7 +77,7 @@ struct Exported {
     frame.bytes = bytes;
     collector.on(frame);
   }
-  void symbol(std::int64_t start_ns, std::int64_t duration_ns, std::uint8_t channel, std::uint8_t kind) {
+  void symbol(std::int64_t start_ns, std::int64_t duration_ns, std::uint8_t channel, records::Symbol kind) {
     const NodeId node = *nodes.find_node("gateway");
     const records::Stamp start{{start_ns}, {}, {}, node}, end{{start_ns + duration_ns}, {}, {}, node};
     collector.on(records::SymbolSent{start, end, channel, kind});
@@ -108,10 +108,12 @@ TEST(CaptureExport, ErrorsOnACanAreErrorFrames) {
   Exported log;
   const NodeId laser = *log.nodes.find_node("laser");
   const auto at = [&](std::int64_t ns) { return records::Stamp{{ns}, {}, {}, laser}; };
-  log.collector.on(records::CanErrorFrame{at(1'000), 0, records::kCanBitError, true, 8, 0});
-  log.collector.on(records::CanErrorFrame{at(2'000), 0, records::kCanCrcError, false, 0, 1});
-  log.collector.on(records::CanStateChanged{at(3'000), 0, records::kCanErrorActive, records::kCanErrorPassive, 128, 0});
-  log.collector.on(records::CanStateChanged{at(4'000), 0, records::kCanErrorPassive, records::kCanBusOff, 256, 0});
+  log.collector.on(records::CanErrorFrame{at(1'000), 0, records::CanError::kBit, true, 8, 0});
+  log.collector.on(records::CanErrorFrame{at(2'000), 0, records::CanError::kCrc, false, 0, 1});
+  log.collector.on(
+      records::CanStateChanged{at(3'000), 0, records::CanState::kActive, records::CanState::kPassive, 128, 0});
+  log.collector.on(
+      records::CanStateChanged{at(4'000), 0, records::CanState::kPassive, records::CanState::kBusOff, 256, 0});
   EXPECT_EQ(log.candump(),
             "(1000000000.000001) laser_can 20000288#0000810000000800\n"
             "(1000000000.000002) laser_can 20000288#0000000800000001\n"
@@ -174,15 +176,15 @@ Exported disturbed() {
   const std::array payload{std::byte{1}, std::byte{0xab}};
   std::array<std::byte, 10> bytes{};
   bus::wire::encode_frame(header, Channel::kA, payload, bytes);
-  log.on_channel(16, 6, 6, 0, 0, bytes);  // late
+  log.on_channel(16, 6, 6, 0, {}, bytes);  // late
   bytes[6] = std::byte{0xaa};
-  log.on_channel(7, 7, 7, 0, records::kChannelFrameCrc, bytes);
-  log.on_channel(8, 8, 8, 0, records::kChannelCoding | records::kChannelCut, std::span(bytes).first(6));
-  log.on_channel(9, 9, 9, 0, records::kChannelNothing, {});
-  log.on_channel(10, 10, 10, 0, records::kChannelCoding, {});
+  log.on_channel(7, 7, 7, 0, records::ChannelState::kFrameCrc, bytes);
+  log.on_channel(8, 8, 8, 0, records::ChannelState::kCoding | records::ChannelState::kCut, std::span(bytes).first(6));
+  log.on_channel(9, 9, 9, 0, records::ChannelState::kNothing, {});
+  log.on_channel(10, 10, 10, 0, records::ChannelState::kCoding, {});
   bytes[6] = std::byte{0xab};
-  log.on_channel(11, 0, 0, 0, 0, bytes);
-  log.on_channel(12, 0, 0, 1, records::kChannelCoding, {});
+  log.on_channel(11, 0, 0, 0, {}, bytes);
+  log.on_channel(12, 0, 0, 1, records::ChannelState::kCoding, {});
   return log;
 }
 
@@ -220,10 +222,10 @@ TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
 Exported with_symbols() {
   Exported log;
   log.flexray(9'000, 1, 0, kNoPdu, false);
-  log.symbol(5'000, 3'900, 0, records::kSymbolCas);
-  log.symbol(5'000, 3'904, 1, records::kSymbolCas);
-  log.symbol(1'000, 792'000, 0, records::kSymbolWakeup);
-  log.symbol(10'000, 3'900, 1, records::kSymbolMediaTest);
+  log.symbol(5'000, 3'900, 0, records::Symbol::kCas);
+  log.symbol(5'000, 3'904, 1, records::Symbol::kCas);
+  log.symbol(1'000, 792'000, 0, records::Symbol::kWakeup);
+  log.symbol(10'000, 3'900, 1, records::Symbol::kMediaTest);
   return log;
 }
 

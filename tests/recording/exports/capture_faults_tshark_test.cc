@@ -39,7 +39,7 @@ class FaultyExpectation final : public Expectation {
     on_channel_.push_back({record, {record.bytes.begin(), record.bytes.end()}});
   }
   void on(const records::FaultActivity& record) override {
-    if (record.what == records::kFaultActs) ++acts[std::string(record.kind)];
+    if (record.what == records::FaultAct::kActs) ++acts[std::string(record.kind)];
   }
 
   std::vector<Packet> packets() {
@@ -79,7 +79,7 @@ class FaultyExpectation final : public Expectation {
     Sent& sent = found->second;
     const std::string comment = fmt::format("slot {} of {}{}{}", record.slot, node(record.sender),
                                             sent.comment.empty() ? "" : "; ", sent.comment);
-    if (record.state == records::kChannelNothing) {
+    if (record.state == records::ChannelState::kNothing) {
       ++nowhere;
       sent_.erase(found);
       return;

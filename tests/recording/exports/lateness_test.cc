@@ -106,7 +106,7 @@ records::BinnedDurations wake_ups_of(const std::vector<Told>& all) {
   LatenessSums sums;
   for (const Told& told : all)
     sums.on(records::LatenessHistogram{{{}, LocalTime{told.local_us * 1000}, {}, NodeId{4}},
-                                       records::kLatenessOfWakeUps,
+                                       records::LatenessOf::kWakeUps,
                                        us(told.longest_us),
                                        told.counts});
   return sums.nodes()[NodeId{4}].wake_ups;
@@ -133,9 +133,9 @@ TEST(LatenessSums, NodesAndWhatItIsOfAreKeptApart) {
   LatenessSums sums;
   EXPECT_TRUE(sums.nodes().empty());
   for (std::uint8_t node = 0; node < 3; ++node)
-    for (std::uint8_t of = records::kLatenessOfWakeUps; of <= records::kLatenessOfTransits; ++of) {
+    for (std::uint8_t of = 1; of <= index_of(records::LatenessOf::kTransits); ++of) {
       const std::vector<std::uint64_t> counts{10u * node + of};
-      sums.on(records::LatenessHistogram{{{}, {}, {}, NodeId{node}}, of, us(of), counts});
+      sums.on(records::LatenessHistogram{{{}, {}, {}, NodeId{node}}, records::LatenessOf{of}, us(of), counts});
     }
   const auto nodes = sums.nodes();
   ASSERT_EQ(nodes.size(), 3u);

@@ -181,13 +181,13 @@ TEST(PerfettoExport, WhatIsLostEndsWhereItWasLostAndMissesAreMarked) {
 
 TEST(PerfettoExport, FaultsLastFromTheirBeginToTheirEndOrThatOfTheRun) {
   Drive drive;
-  const auto fault = [&](std::uint32_t number, std::uint8_t what, std::int64_t at) {
+  const auto fault = [&](std::uint32_t number, records::FaultAct what, std::int64_t at) {
     drive.trace.on(records::FaultActivity{{at}, number, what, kLaser, "omission", "leaves out a frame"});
   };
-  fault(0, records::kFaultBegins, 10 * kMs);
-  fault(1, records::kFaultBegins, 10 * kMs);
-  fault(0, records::kFaultActs, 12 * kMs);
-  fault(0, records::kFaultEnds, 9'000 * kMs);
+  fault(0, records::FaultAct::kBegins, 10 * kMs);
+  fault(1, records::FaultAct::kBegins, 10 * kMs);
+  fault(0, records::FaultAct::kActs, 12 * kMs);
+  fault(0, records::FaultAct::kEnds, 9'000 * kMs);
   drive.measured(1, 20'000 * kMs);
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());

@@ -55,7 +55,7 @@ TEST(TableExport, RowsHaveExactTimesAndNumbersThatReadBackEqual) {
   records::ImageObject object;
   object.track = TrackId{7};
   object.x = 30.5;
-  object.status = records::kImageConfirmed | records::kImageCoasting;
+  object.status = records::ImageStatus::kConfirmed | records::ImageStatus::kCoasting;
   const MeasurementId newest[] = {{SensorId{0}, 3}};
   tables.out.on(records::ImageWritten{stamp, 9, {6'000'000}, {1'000'000}, std::span(&object, 1), newest});
   tables.out.on(records::TaskRun{stamp, 0, stamp, {{12'000'000}, {}, {}, NodeId{1}}, false});

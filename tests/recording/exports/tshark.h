@@ -104,7 +104,7 @@ class Expectation : public records::Sink {
   // than 127.
   void on(const records::SymbolSent& record) override {
     collector_.on(record);
-    const bool cas = record.kind == records::kSymbolCas;
+    const bool cas = record.kind == records::Symbol::kCas;
     ++(cas ? cas_ : wakeup_);
     const double us = (record.end.true_time - record.stamp.true_time).seconds() * 1e6;
     const std::string text = fmt::format("{} of {}, {:.1f} us", cas ? "collision avoidance symbol" : "wake-up pattern",

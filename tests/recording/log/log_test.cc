@@ -325,7 +325,8 @@ TEST(Log, RecordingDoesNotAllocatePerRecord) {
       writer.on(records::TrackState{stamp, 1, TrackId{1}, {}, state, covariance, false});
       writer.on(records::ImageWritten{stamp, 1, {}, {}, std::span(images).first(objects), newest});
       writer.on(records::FeatureUsed{stamp, 1, {}, true, std::span(features).first(objects)});
-      writer.on(records::StateChanged{stamp, 0x22, 0x23, "coldstart collision resolution",
+      writer.on(records::StateChanged{stamp, records::PocKind::kColdstartCollisionResolution,
+                                      records::PocKind::kColdstartConsistencyCheck, "coldstart collision resolution",
                                       "coldstart consistency check",
                                       i % 2 == 0 ? "no other node tried to start the cluster in four cycles" : "", ""});
       writer.on(records::LatenessHistogram{.stamp = stamp, .counts = std::span(late).first(objects * 20)});

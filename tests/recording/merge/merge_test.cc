@@ -133,22 +133,28 @@ TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
     b.on(records::TruthState{TrueTime{1000}, ObjectId{3}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
     b.on(records::FeatureUsed{at(1000, kB), 1, GlobalTime{}, true, {}, false});
     a.on(records::PowerChanged{at(997, kA), false});
-    a.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultActs, kA, "crash", "it stops"});
-    a.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultBegins, kA, "crash", ""});
-    a.on(records::FaultActivity{TrueTime{1000}, 0, records::kFaultEnds, kA, "noise", ""});
-    a.on(records::StateChanged{at(0, kA), 15, 1, "config", "ready", "2nd", ""});
-    a.on(records::StateChanged{at(0, kA), 1, 33, "ready", "listen", "3rd", ""});
-    a.on(records::StateChanged{at(0, kA), 33, 0, "listen", "default", "1st again", ""});
+    a.on(records::FaultActivity{TrueTime{1000}, 1, records::FaultAct::kActs, kA, "crash", "it stops"});
+    a.on(records::FaultActivity{TrueTime{1000}, 1, records::FaultAct::kBegins, kA, "crash", ""});
+    a.on(records::FaultActivity{TrueTime{1000}, 0, records::FaultAct::kEnds, kA, "noise", ""});
+    a.on(records::StateChanged{at(0, kA), records::PocKind::kConfig, records::PocKind::kReady, "config", "ready", "2nd",
+                               ""});
+    a.on(records::StateChanged{at(0, kA), records::PocKind::kReady, records::PocKind::kColdstartListen, "ready",
+                               "listen", "3rd", ""});
+    a.on(records::StateChanged{at(0, kA), records::PocKind::kColdstartListen, records::PocKind::kDefaultConfig,
+                               "listen", "default", "1st again", ""});
     a.on(records::PowerChanged{at(-40, kA), true});
   };
   TextSink expected;
   expected.on(records::PowerChanged{at(-40, kA), true});
-  expected.on(records::StateChanged{at(0, kA), 15, 1, "config", "ready", "2nd", ""});
-  expected.on(records::StateChanged{at(0, kA), 1, 33, "ready", "listen", "3rd", ""});
-  expected.on(records::StateChanged{at(0, kA), 33, 0, "listen", "default", "1st again", ""});
-  expected.on(records::FaultActivity{TrueTime{1000}, 0, records::kFaultEnds, kA, "noise", ""});
-  expected.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultBegins, kA, "crash", ""});
-  expected.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultActs, kA, "crash", "it stops"});
+  expected.on(records::StateChanged{at(0, kA), records::PocKind::kConfig, records::PocKind::kReady, "config", "ready",
+                                    "2nd", ""});
+  expected.on(records::StateChanged{at(0, kA), records::PocKind::kReady, records::PocKind::kColdstartListen, "ready",
+                                    "listen", "3rd", ""});
+  expected.on(records::StateChanged{at(0, kA), records::PocKind::kColdstartListen, records::PocKind::kDefaultConfig,
+                                    "listen", "default", "1st again", ""});
+  expected.on(records::FaultActivity{TrueTime{1000}, 0, records::FaultAct::kEnds, kA, "noise", ""});
+  expected.on(records::FaultActivity{TrueTime{1000}, 1, records::FaultAct::kBegins, kA, "crash", ""});
+  expected.on(records::FaultActivity{TrueTime{1000}, 1, records::FaultAct::kActs, kA, "crash", "it stops"});
   expected.on(records::PowerChanged{at(997, kA), false});
   expected.on(records::FeatureUsed{at(1000, kB), 1, GlobalTime{}, true, {}, false});
   expected.on(records::TruthState{TrueTime{1000}, ObjectId{7}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});

@@ -61,7 +61,7 @@ void drive(records::Sink& out) {
     track.sigma_y = 0.1;
     track.sigma_heading = 0.05;
     track.sigma_speed = 0.4;
-    track.status = k == 4 ? records::kImageCoasting : records::kImageConfirmed;
+    track.status = k == 4 ? records::ImageStatus::kCoasting : records::ImageStatus::kConfirmed;
     records::ImageWritten image;
     image.stamp = stamp_at(1000 + 20 * k);
     image.sequence = k;

@@ -104,11 +104,11 @@ TEST(DriveSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
 
 TEST(DriveSeries, AFaultIsToldByItsFirstAct) {
   DriveSeriesSink sink;
-  sink.on(recording::records::FaultActivity{TrueTime{1'000'000}, 3, recording::records::kFaultBegins, NodeId{2},
+  sink.on(recording::records::FaultActivity{TrueTime{1'000'000}, 3, recording::records::FaultAct::kBegins, NodeId{2},
                                             "omission", "it begins"});
-  sink.on(recording::records::FaultActivity{TrueTime{2'000'000}, 3, recording::records::kFaultActs, NodeId{2},
+  sink.on(recording::records::FaultActivity{TrueTime{2'000'000}, 3, recording::records::FaultAct::kActs, NodeId{2},
                                             "omission", "the first"});
-  sink.on(recording::records::FaultActivity{TrueTime{3'000'000}, 3, recording::records::kFaultActs, NodeId{2},
+  sink.on(recording::records::FaultActivity{TrueTime{3'000'000}, 3, recording::records::FaultAct::kActs, NodeId{2},
                                             "omission", "the second"});
   const FaultTold fault = sink.finish().faults.at(3);
   EXPECT_EQ(fault.acts, 2u);

@@ -64,7 +64,7 @@ TEST(DrivingPicture, TheLegendHasTheWarningsOfTheDrive) {
   EXPECT_EQ(count(picture.svg(), "begins<"), 0U);
   records::Warning warning;
   warning.on = true;
-  warning.service = records::kEmergencyBraking;
+  warning.service = records::WarningKind::kEmergencyBraking;
   warning.stamp.true_time = TrueTime{1'000'000'000};
   picture.on(warning);
   EXPECT_EQ(count(picture.svg(), ">emergency braking begins<"), 1U);

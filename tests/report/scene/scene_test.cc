@@ -55,7 +55,7 @@ struct Records {
     object.width = 2.0;
     object.sigma_x = 0.5;
     object.sigma_y = 0.25;
-    object.status = recording::records::kImageConfirmed;
+    object.status = recording::records::ImageStatus::kConfirmed;
     return object;
   }
   void image(std::int64_t t, const std::vector<recording::records::ImageObject>& objects) {

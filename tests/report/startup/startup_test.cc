@@ -11,6 +11,8 @@
 namespace ttf::report::startup {
 namespace {
 
+using recording::records::PocKind;
+
 // A start-up by the book, in milliseconds: 5 ms cycles, cycle 0 from 20 ms on. Node 0 leads, node 1 follows,
 // node 2 integrates; node 3 begins integrated and only sends.
 struct SyntheticStartup {
@@ -23,8 +25,8 @@ struct SyntheticStartup {
 
   static void change(recording::records::Sink& sink, std::int64_t us, int node, int from, const char* from_name, int to,
                      const char* to_name, const char* why, const char* consequence = "") {
-    sink.on(recording::records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from),
-                                             static_cast<std::uint8_t>(to), from_name, to_name, why, consequence});
+    sink.on(recording::records::StateChanged{stamp(us, node), static_cast<PocKind>(from), static_cast<PocKind>(to),
+                                             from_name, to_name, why, consequence});
   }
   static void frame(recording::records::Sink& sink, int c, int slot, int node, bool startup, bool null) {
     const std::array<std::byte, 5> header{startup ? std::byte{0x18} : std::byte{}};
@@ -52,7 +54,7 @@ struct SyntheticStartup {
     change(sink, 12'000, 2, 0x01, "ready", 0x27, "integration listen", "RUN", "it is not a coldstart node");
     for (std::uint8_t channel = 0; channel < 2; ++channel)
       sink.on(recording::records::SymbolSent{stamp(cycle(0) - 4, 0), stamp(cycle(0), 0), channel,
-                                             recording::records::kSymbolCas});
+                                             recording::records::Symbol::kCas});
     change(sink, cycle(0) - 4, 0, 0x21, "coldstart listen", 0x22, "coldstart collision resolution", "silence");
     for (int c = 0; c < 10; ++c) {
       if (c == 0)
@@ -139,13 +141,13 @@ TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
   StartupDiagram d(four(), Duration::milliseconds(5), {}, {70'000'000});
   SyntheticStartup::drive(d);
   d.on(recording::records::FaultActivity{
-      {10'000'000}, 0, recording::records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
+      {10'000'000}, 0, recording::records::FaultAct::kBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
   d.on(recording::records::FaultActivity{
-      {11'000'000}, 0, recording::records::kFaultActs, NodeId{1}, "babbling_idiot", "it sends in slot 3"});
+      {11'000'000}, 0, recording::records::FaultAct::kActs, NodeId{1}, "babbling_idiot", "it sends in slot 3"});
   d.on(recording::records::FaultActivity{
-      {30'000'000}, 0, recording::records::kFaultEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
+      {30'000'000}, 0, recording::records::FaultAct::kEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
   d.on(recording::records::FaultActivity{
-      {40'000'000}, 1, recording::records::kFaultBegins, kNoNode, "noise", "noise on channel A"});
+      {40'000'000}, 1, recording::records::FaultAct::kBegins, kNoNode, "noise", "noise on channel A"});
   const std::string svg = d.svg();
   EXPECT_EQ(count(svg, ">babbling_idiot, camera_pc</text>"), 1u);
   EXPECT_EQ(count(svg, ">noise</text>"), 1u);
@@ -207,14 +209,15 @@ std::string integrated_diagram(bool comes_back, std::int64_t from_ms, std::int64
   StartupDiagram d(four(), Duration::milliseconds(5), {from_ms * 1'000'000}, {to_ms * 1'000'000});
   integrated_drive(d, comes_back);
   d.on(recording::records::FaultActivity{
-      {120'000'000}, 0, recording::records::kFaultBegins, NodeId{1}, "crash", "camera_pc goes off"});
+      {120'000'000}, 0, recording::records::FaultAct::kBegins, NodeId{1}, "crash", "camera_pc goes off"});
   d.on(recording::records::FaultActivity{
-      {300'000'000}, 0, recording::records::kFaultEnds, NodeId{1}, "crash", "camera_pc comes on"});
-  d.on(recording::records::FaultActivity{{20'000'000}, 1, recording::records::kFaultBegins, kNoNode, "noise", "noise"});
-  d.on(
-      recording::records::FaultActivity{{40'000'000}, 1, recording::records::kFaultEnds, kNoNode, "noise", "no noise"});
+      {300'000'000}, 0, recording::records::FaultAct::kEnds, NodeId{1}, "crash", "camera_pc comes on"});
   d.on(recording::records::FaultActivity{
-      {390'000'000}, 2, recording::records::kFaultBegins, kNoNode, "transient", "a transient"});
+      {20'000'000}, 1, recording::records::FaultAct::kBegins, kNoNode, "noise", "noise"});
+  d.on(recording::records::FaultActivity{
+      {40'000'000}, 1, recording::records::FaultAct::kEnds, kNoNode, "noise", "no noise"});
+  d.on(recording::records::FaultActivity{
+      {390'000'000}, 2, recording::records::FaultAct::kBegins, kNoNode, "transient", "a transient"});
   return d.svg();
 }
 
@@ -256,15 +259,16 @@ TEST(StartupExtent, IsTheStartUpOrTheReturnOfANodeOrItsLoss) {
 
 // ---- its parts
 
-StartupData::Change change(std::int64_t at, int node, std::uint8_t from, std::uint8_t to) {
+StartupData::Change change(std::int64_t at, int node, PocKind from, PocKind to) {
   return {{at}, static_cast<NodeId>(node), from, to, "from", "to", "why", ""};
 }
 
 //   node 0     ready 10 |===| 20 listen |======| 40 off     60 on, listen |====| 100
 TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
   StartupData data;
-  data.changes = {change(10, 0, kStateDefaultConfig, kStateReady), change(20, 0, kStateReady, kStateColdstartListen),
-                  change(60, 0, kStateDefaultConfig, kStateColdstartListen)};
+  data.changes = {change(10, 0, PocKind::kDefaultConfig, PocKind::kReady),
+                  change(20, 0, PocKind::kReady, PocKind::kColdstartListen),
+                  change(60, 0, PocKind::kDefaultConfig, PocKind::kColdstartListen)};
   data.power = {{{10}, NodeId{0}, true}, {{40}, NodeId{0}, false}, {{60}, NodeId{0}, true}};
   const auto spans = state_spans(data, {0}, {100});
   ASSERT_EQ(spans.size(), 3u);
@@ -283,8 +287,9 @@ TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheSt
                 {{20}, NodeId{1}, false},
                 {{30}, NodeId{2}, false},
                 {{50}, NodeId{0}, true}};
-  data.changes = {change(10, 1, kStateDefaultConfig, kStateReady), change(25, 2, kStateNormalActive, kStateHalt),
-                  change(50, 0, kStateDefaultConfig, kStateReady)};
+  data.changes = {change(10, 1, PocKind::kDefaultConfig, PocKind::kReady),
+                  change(25, 2, PocKind::kNormalActive, PocKind::kHalt),
+                  change(50, 0, PocKind::kDefaultConfig, PocKind::kReady)};
   data.frames = {{{5}, {6}, NodeId{3}, 0, 4, 0, false, false}, {{5}, {6}, NodeId{2}, 0, 4, 0, false, false}};
   EXPECT_EQ(active_from_the_start(data), (std::set<NodeId>{NodeId{0}, NodeId{3}}));
   const auto spans = state_spans(data, {0}, {100});
@@ -294,25 +299,25 @@ TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheSt
 
 TEST(StartupStates, ANodeThatBeganIntegratedWasInItsFirstStateFromTheBeginningOn) {
   StartupData data;
-  data.changes = {change(30, 2, kStateNormalActive, kStateHalt)};
+  data.changes = {change(30, 2, PocKind::kNormalActive, PocKind::kHalt)};
   const auto spans = state_spans(data, {5}, {100});
   ASSERT_EQ(spans.size(), 2u);
-  EXPECT_EQ(spans[0].state, kStateNormalActive);
+  EXPECT_EQ(spans[0].state, PocKind::kNormalActive);
   EXPECT_EQ(spans[0].start.ns, 5);
   EXPECT_EQ(spans[0].end.ns, 30);
-  EXPECT_EQ(spans[1].state, kStateHalt);
+  EXPECT_EQ(spans[1].state, PocKind::kHalt);
 }
 
 // Two nodes send a CAS. The one that became active out of the consistency check leads, by its own CAS.
 TEST(StartupCycles, TheLeadingNodeIsTheOneThatWasActiveOutOfTheConsistencyCheck) {
   StartupData data;
-  data.symbols = {{{90}, {100}, NodeId{1}, 0, recording::records::kSymbolCas},
-                  {{290}, {300}, NodeId{0}, 0, recording::records::kSymbolCas},
-                  {{340}, {350}, NodeId{0}, 0, recording::records::kSymbolWakeup},
-                  {{390}, {400}, NodeId{1}, 0, recording::records::kSymbolCas}};
+  data.symbols = {{{90}, {100}, NodeId{1}, 0, recording::records::Symbol::kCas},
+                  {{290}, {300}, NodeId{0}, 0, recording::records::Symbol::kCas},
+                  {{340}, {350}, NodeId{0}, 0, recording::records::Symbol::kWakeup},
+                  {{390}, {400}, NodeId{1}, 0, recording::records::Symbol::kCas}};
   EXPECT_EQ(leading_node(data)->node, NodeId{1}) << "the last one while nobody is active";
-  data.changes = {change(350, 2, kStateIntegrationConsistencyCheck, kStateNormalActive),
-                  change(380, 0, kStateConsistencyCheck, kStateNormalActive)};
+  data.changes = {change(350, 2, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive),
+                  change(380, 0, PocKind::kColdstartConsistencyCheck, PocKind::kNormalActive)};
   EXPECT_EQ(leading_node(data)->node, NodeId{0});
   EXPECT_EQ(leading_node(data)->cas.ns, 300);
   EXPECT_FALSE(leading_node(StartupData{}).has_value());

@@ -131,27 +131,28 @@ TEST(TimingDiagram, WhereAllStartAnewTheNumbersAreTheirs) {
 TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticDrive{}.drive(d, 1'500'000);
-  const auto fault = [&](std::int64_t ms, std::uint32_t index, std::uint8_t what, const char* kind, const char* text) {
+  const auto fault = [&](std::int64_t ms, std::uint32_t index, recording::records::FaultAct what, const char* kind,
+                         const char* text) {
     d.on(
         recording::records::FaultActivity{at_us(ms * 1000), index, what, index == 1 ? kNoNode : NodeId{4}, kind, text});
   };
-  fault(10, 0, recording::records::kFaultBegins, "bit_flips", "bits flip");
-  fault(20, 0, recording::records::kFaultActs, "bit_flips", "long before");
-  fault(210, 0, recording::records::kFaultActs, "bit_flips", "bit 7 is inverted");
-  fault(220, 1, recording::records::kFaultBegins, "noise", "noise on channel A");
-  fault(240, 1, recording::records::kFaultEnds, "noise", "quiet again");
-  fault(260, 2, recording::records::kFaultBegins, "omission", "frames are lost");
-  fault(30, 3, recording::records::kFaultBegins, "crash", "off");
-  fault(40, 3, recording::records::kFaultEnds, "crash", "on again: before the window");
-  fault(400, 4, recording::records::kFaultBegins, "drift", "after the window");
-  const auto channel = [&](std::int64_t us, std::uint8_t state, NodeId sender, std::uint16_t slot) {
+  fault(10, 0, recording::records::FaultAct::kBegins, "bit_flips", "bits flip");
+  fault(20, 0, recording::records::FaultAct::kActs, "bit_flips", "long before");
+  fault(210, 0, recording::records::FaultAct::kActs, "bit_flips", "bit 7 is inverted");
+  fault(220, 1, recording::records::FaultAct::kBegins, "noise", "noise on channel A");
+  fault(240, 1, recording::records::FaultAct::kEnds, "noise", "quiet again");
+  fault(260, 2, recording::records::FaultAct::kBegins, "omission", "frames are lost");
+  fault(30, 3, recording::records::FaultAct::kBegins, "crash", "off");
+  fault(40, 3, recording::records::FaultAct::kEnds, "crash", "on again: before the window");
+  fault(400, 4, recording::records::FaultAct::kBegins, "drift", "after the window");
+  const auto channel = [&](std::int64_t us, recording::records::ChannelState state, NodeId sender, std::uint16_t slot) {
     d.on(recording::records::ChannelFrame{at_us(us), at_us(us + 74), sender, 0, state, slot, 1, at_us(us), 0, {}});
   };
-  channel(210'004, recording::records::kChannelFrameCrc, NodeId{4}, 1);
-  channel(225'000, recording::records::kChannelCoding, kNoNode, 0);
-  channel(230'000, 0, NodeId{6}, 0);
-  channel(265'004, recording::records::kChannelNothing, NodeId{4}, 1);
-  channel(500'000, recording::records::kChannelNothing, NodeId{4}, 1);
+  channel(210'004, recording::records::ChannelState::kFrameCrc, NodeId{4}, 1);
+  channel(225'000, recording::records::ChannelState::kCoding, kNoNode, 0);
+  channel(230'000, {}, NodeId{6}, 0);
+  channel(265'004, recording::records::ChannelState::kNothing, NodeId{4}, 1);
+  channel(500'000, recording::records::ChannelState::kNothing, NodeId{4}, 1);
   const std::string svg = d.svg();
   for (const char* lane : {"bit_flips, gateway", "noise", "omission, gateway"})
     EXPECT_EQ(count(svg, std::string(">") + lane + "</text>"), 1u) << lane;

@@ -26,7 +26,8 @@ struct Told final : recording::records::Sink {
   struct Symbol {
     TrueTime start, end;
     NodeId node;
-    int channel, kind;
+    int channel;
+    recording::records::Symbol kind;
   };
   std::map<NodeId, std::vector<TrueTime>> powered;
   std::vector<Symbol> symbols;
@@ -192,11 +193,11 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
   drive.run(tee);
   ASSERT_FALSE(told.symbols.empty());
   const Told::Symbol& pattern = told.symbols.front();
-  EXPECT_EQ(pattern.kind, recording::records::kSymbolWakeup);
+  EXPECT_EQ(pattern.kind, recording::records::Symbol::kWakeup);
   EXPECT_EQ(pattern.node, named(drive.cluster, "fusion"));
   EXPECT_EQ(pattern.channel, 0);
   EXPECT_EQ(std::count_if(told.symbols.begin(), told.symbols.end(),
-                          [](const Told::Symbol& s) { return s.kind == recording::records::kSymbolWakeup; }),
+                          [](const Told::Symbol& s) { return s.kind == recording::records::Symbol::kWakeup; }),
             1);
   EXPECT_EQ(told.powered.size(), 6u);
   for (const auto& [node, times] : told.powered) {

@@ -18,7 +18,7 @@ inline bool same(const recording::records::Stamp& a, const recording::records::S
 inline auto bits(const recording::records::ImageObject& object) {
   const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
                sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width, status] = object;
-  std::vector<std::uint64_t> all{index_of(track), status};
+  std::vector<std::uint64_t> all{index_of(track), static_cast<std::uint64_t>(status)};
   for (const double value : {x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
                              sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width})
     all.push_back(std::bit_cast<std::uint64_t>(value));

@@ -70,7 +70,7 @@ TEST_P(Living, WithOneSensorDeadTheOtherIsEnough) {
       if (image.at < at_s(1.8)) continue;
       ++images;
       ASSERT_EQ(image.objects.size(), 1u) << dead << " dead, the car at " << image.at.ns;
-      EXPECT_EQ(image.objects[0].status & recording::records::kImageCoasting, 0);
+      EXPECT_FALSE(has(image.objects[0].status, recording::records::ImageStatus::kCoasting));
       EXPECT_TRUE(image.shows(sensor, last)) << "the last one there was";
     }
     EXPECT_GT(images, 50u);
@@ -117,7 +117,7 @@ void expect_coasting_from(const LivingDrive& drive, double silent_s) {
     ASSERT_EQ(image.objects.size(), 1u) << silent.ns;
     EXPECT_GT(image.traces[0], trace) << silent.ns;
     trace = image.traces[0];
-    const bool called = (image.objects[0].status & recording::records::kImageCoasting) != 0;
+    const bool called = has(image.objects[0].status, recording::records::ImageStatus::kCoasting);
     EXPECT_EQ(called, silent > rule.coast_after) << silent.ns;
     ++(called ? coasting : before);
   }

@@ -111,7 +111,7 @@ struct ChannelDiary final : recording::records::Sink {
     ++frames;
     for (const std::int64_t entry :
          {frame.start.ns, frame.end.ns, frame.sent.ns, std::int64_t{frame.channel}, std::int64_t{frame.sent_channel},
-          std::int64_t{frame.state}, std::int64_t{frame.slot}, std::int64_t{frame.cycle_counter},
+          static_cast<std::int64_t>(frame.state), std::int64_t{frame.slot}, std::int64_t{frame.cycle_counter},
           static_cast<std::int64_t>(frame.sender), static_cast<std::int64_t>(frame.bytes.size())})
       entries.push_back(entry);
     for (const std::byte byte : frame.bytes) entries.push_back(static_cast<std::int64_t>(byte));

@@ -15,6 +15,7 @@
 namespace ttf::sim::faults {
 namespace {
 
+using recording::records::CanState;
 using recording::records::CanStateChanged;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -44,8 +45,8 @@ struct FaultyCan {
     return *this;
   }
   std::uint64_t acts() const { return injector.activations()[0].times; }
-  std::vector<unsigned> states_of(int node) const {
-    std::vector<unsigned> states;
+  std::vector<CanState> states_of(int node) const {
+    std::vector<CanState> states;
     for (const CanStateChanged& change : can.changes)
       if (index_of(change.stamp.node) == static_cast<std::size_t>(node)) states.push_back(change.to);
     return states;
@@ -90,7 +91,7 @@ TEST(CanFaults, ACorruptedFrameIsSentAgain) {
   faulty.run(2);
   ASSERT_EQ(faulty.can.errors.size(), 2u);
   EXPECT_EQ(faulty.can.errors[0].stamp.true_time, TrueTime{526'000});
-  EXPECT_EQ(faulty.can.errors[0].error, recording::records::kCanBitError);
+  EXPECT_EQ(faulty.can.errors[0].error, recording::records::CanError::kBit);
   EXPECT_EQ(faulty.can.errors[0].transmit_errors, 8);
   EXPECT_EQ(faulty.can.errors[1].stamp.true_time, TrueTime{526'000 + 47'000});
   EXPECT_EQ(faulty.can.errors[1].transmit_errors, 16);
@@ -109,7 +110,7 @@ TEST(CanFaults, AnErrorOfOneReceiverIsOneOfAll) {
   faulty.run(1);
   ASSERT_EQ(faulty.can.errors.size(), 1u);
   EXPECT_EQ(faulty.can.errors[0].stamp.node, NodeId{1});
-  EXPECT_EQ(faulty.can.errors[0].error, recording::records::kCanCrcError);
+  EXPECT_EQ(faulty.can.errors[0].error, recording::records::CanError::kCrc);
   EXPECT_EQ(faulty.can.arrived, 2u);
 }
 
@@ -119,8 +120,8 @@ TEST(CanFaults, CorruptionTakesTheSenderOffTheBus) {
   FaultyCan faulty(fault_at(FaultKind::kCanCorruption, 0, 2, 8));
   faulty.run(20);
   EXPECT_GE(faulty.acts(), 32u);
-  EXPECT_THAT(faulty.states_of(0), testing::Contains(recording::records::kCanBusOff));
-  EXPECT_NE(faulty.states_of(0).back(), recording::records::kCanBusOff);
+  EXPECT_THAT(faulty.states_of(0), testing::Contains(CanState::kBusOff));
+  EXPECT_NE(faulty.states_of(0).back(), CanState::kBusOff);
   // Its frames wait, and all arrive. Some may come twice, after an error in the last bit.
   EXPECT_GE(faulty.can.sent, 20u);
   EXPECT_GE(faulty.can.arrived, 40u);
@@ -145,10 +146,10 @@ TEST(CanFaults, BusOffLastsAndEndsByRecovery) {
   FaultyCan faulty(fault_at(FaultKind::kCanBusOff, 0, 2, 4));
   faulty.run(6);
   EXPECT_EQ(faulty.can.sent, 2u);
-  EXPECT_THAT(faulty.states_of(0), ElementsAre(recording::records::kCanBusOff));
+  EXPECT_THAT(faulty.states_of(0), ElementsAre(CanState::kBusOff));
   faulty.run(4);
   // The bus is silent: it recovers 128 * 11 bits later.
-  EXPECT_THAT(faulty.states_of(0), ElementsAre(recording::records::kCanBusOff, recording::records::kCanErrorActive));
+  EXPECT_THAT(faulty.states_of(0), ElementsAre(CanState::kBusOff, CanState::kActive));
   EXPECT_EQ(faulty.can.changes[1].stamp.true_time, TrueTime{6'000'000 + 128 * 11 * 1'000});
   EXPECT_EQ(faulty.can.sent, 10u);
   EXPECT_EQ(faulty.acts(), 2u);
@@ -168,8 +169,7 @@ TEST(CanFaults, BusOffBeginsAndEndsInTheMiddleOfFrames) {
       faulty.can.medium.set_bit_by_bit(bit_by_bit);
       faulty.run(8);
       EXPECT_EQ(faulty.can.sent, 8u);
-      EXPECT_THAT(faulty.states_of(1),
-                  ElementsAre(recording::records::kCanBusOff, recording::records::kCanErrorActive));
+      EXPECT_THAT(faulty.states_of(1), ElementsAre(CanState::kBusOff, CanState::kActive));
       diaries.back().insert(diaries.back().end(), faulty.can.diary.begin(), faulty.can.diary.end());
     }
   }
@@ -180,14 +180,13 @@ TEST(CanFaults, AStuckLineSilencesAllAndLetsGo) {
   FaultyCan faulty(fault_at(FaultKind::kCanStuckDominant, 2, 2, 4));
   faulty.run(6);
   EXPECT_EQ(faulty.can.sent, 2u);
-  for (const int node : {0, 1, 2})
-    EXPECT_THAT(faulty.states_of(node), ElementsAre(recording::records::kCanErrorPassive)) << node;
+  for (const int node : {0, 1, 2}) EXPECT_THAT(faulty.states_of(node), ElementsAre(CanState::kPassive)) << node;
   ASSERT_FALSE(faulty.can.errors.empty());
-  EXPECT_EQ(faulty.can.errors[0].error, recording::records::kCanStuffError);
+  EXPECT_EQ(faulty.can.errors[0].error, recording::records::CanError::kStuff);
   EXPECT_EQ(faulty.can.errors[0].stamp.true_time, TrueTime{2'006'000});
   faulty.run(6);
   EXPECT_EQ(faulty.can.sent, 12u);
-  EXPECT_EQ(faulty.states_of(1).back(), recording::records::kCanErrorActive);
+  EXPECT_EQ(faulty.states_of(1).back(), CanState::kActive);
 }
 
 // To the end, and for an hour: time passes in eights of bits.
@@ -215,8 +214,8 @@ TEST(CanFaults, WhoDoesNotAcknowledgeMattersWhereNoOtherDoes) {
   two.run(6);
   EXPECT_EQ(two.can.sent, 2u);
   EXPECT_GT(two.can.errors.size(), 20u);
-  for (const auto& error : two.can.errors) EXPECT_EQ(error.error, recording::records::kCanAcknowledgementError);
-  EXPECT_THAT(two.states_of(0), ElementsAre(recording::records::kCanErrorPassive));  // never bus off
+  for (const auto& error : two.can.errors) EXPECT_EQ(error.error, recording::records::CanError::kAcknowledgement);
+  EXPECT_THAT(two.states_of(0), ElementsAre(CanState::kPassive));  // never bus off
   two.run(4);
   EXPECT_EQ(two.can.sent, 10u);
 }
@@ -241,7 +240,7 @@ TEST(CanFaults, SuppliesComeAndGoMeanwhile) {
     if (kind == FaultKind::kCanStuckDominant) {
       faulty.can.power_off(NodeId{0});  // the driver lets go
       faulty.run(1);
-      EXPECT_EQ(faulty.states_of(1).back(), recording::records::kCanErrorActive) << "since its power-on";
+      EXPECT_EQ(faulty.states_of(1).back(), CanState::kActive) << "since its power-on";
       continue;
     }
     EXPECT_EQ(faulty.can.sent, 12u);

@@ -14,7 +14,7 @@ namespace {
 using schedules::model::Channel;
 using ttf::faults::FaultKind;
 
-constexpr std::uint8_t kCrcs = recording::records::kChannelHeaderCrc | recording::records::kChannelFrameCrc;
+constexpr auto kCrcs = recording::records::ChannelState::kHeaderCrc | recording::records::ChannelState::kFrameCrc;
 
 struct Heard final : recording::records::Sink {
   struct Frame {
@@ -26,7 +26,7 @@ struct Heard final : recording::records::Sink {
   void on(const recording::records::ChannelFrame& record) override {
     frames.push_back({record, {record.bytes.begin(), record.bytes.end()}});
   }
-  std::size_t count(std::uint8_t state) const {
+  std::size_t count(recording::records::ChannelState state) const {
     return static_cast<std::size_t>(
         std::count_if(frames.begin(), frames.end(), [&](const Frame& frame) { return frame.record.state == state; }));
   }
@@ -99,7 +99,7 @@ TEST(ChannelLog, AnInvertedBitFailsTheChecksThatCoverIt) {
         EXPECT_EQ(frame.record.sent_channel, frame.record.channel);
         EXPECT_GE(frame.record.cycle_counter, 10);
         // Sync, startup, frame id, length and the header CRC itself.
-        EXPECT_EQ(frame.record.state, at >= 3 && at <= 33 ? kCrcs : recording::records::kChannelFrameCrc)
+        EXPECT_EQ(frame.record.state, at >= 3 && at <= 33 ? kCrcs : recording::records::ChannelState::kFrameCrc)
             << "bit " << at;
         frame.bytes[static_cast<std::size_t>(at / 8)] ^= static_cast<std::byte>(0x80 >> at % 8);
         EXPECT_EQ(error_of(frame), bus::wire::FrameError::kNone) << "but for that bit it is the frame that was sent";
@@ -115,13 +115,13 @@ TEST(ChannelLog, WhatSomeReceiversAloneMistakeWasOnTheChannelAsItWasSent) {
   fault.receivers.push_back(NodeId{1});
   const LoggedBus all(fault, 20);
   EXPECT_EQ(all.frames().size(), 8U);
-  EXPECT_EQ(all.heard.count(recording::records::kChannelFrameCrc), 8U);
+  EXPECT_EQ(all.heard.count(recording::records::ChannelState::kFrameCrc), 8U);
 
   fault = fault_of(FaultKind::kSosValue, 2, 10, 4);
   fault.receivers = {NodeId{0}, NodeId{1}};
   EXPECT_TRUE(LoggedBus(fault, 20).frames().empty());
   fault.receivers.push_back(NodeId{3});
-  EXPECT_EQ(LoggedBus(fault, 20).heard.count(recording::records::kChannelCoding), 8U);
+  EXPECT_EQ(LoggedBus(fault, 20).heard.count(recording::records::ChannelState::kCoding), 8U);
 
   fault = fault_of(FaultKind::kOmission, 2, 10, 4);
   fault.direction = ttf::faults::FaultDirection::kReceive;
@@ -142,7 +142,7 @@ TEST(ChannelLog, OfAFrameThatBreaksOffThereAreTheBytesThatHadLeft) {
       EXPECT_NEAR(static_cast<double>(left), microseconds * 1'000.0, 1'000.0) << "clocks agree to a microsecond";
       const std::int64_t whole = left < 1'000 ? 0 : (left - 1'000) / 1'000;  // 100 ns a bit
       EXPECT_EQ(frame.bytes.size(), static_cast<std::size_t>(whole));
-      EXPECT_EQ(frame.record.state, recording::records::kChannelCoding | recording::records::kChannelCut)
+      EXPECT_EQ(frame.record.state, recording::records::ChannelState::kCoding | recording::records::ChannelState::kCut)
           << "no CRC that is there is wrong";
       const auto header = bus::wire::header_of(frame.bytes);
       EXPECT_EQ(header ? header->frame_id : 2, 2);
@@ -163,7 +163,7 @@ TEST(ChannelLog, OfWhatCollidesNothingIsLeft) {
   ASSERT_EQ(logged.frames().size(), 16U);
   int of_the_owner = 0;
   for (const Heard::Frame& frame : logged.frames()) {
-    EXPECT_EQ(frame.record.state, recording::records::kChannelCoding);
+    EXPECT_EQ(frame.record.state, recording::records::ChannelState::kCoding);
     EXPECT_TRUE(frame.bytes.empty());
     const bool of_nobody = frame.record.slot == 0;
     EXPECT_EQ(frame.record.sender, of_nobody ? NodeId{2} : NodeId{1});
@@ -181,14 +181,14 @@ TEST(ChannelLog, WhatNoControllerSentIsThereToo) {
   for (const Heard::Frame& frame : logged.frames()) {
     EXPECT_EQ(frame.record.sender, NodeId{2});
     EXPECT_EQ(frame.record.slot, 0);
-    EXPECT_EQ(frame.record.state, 0);
+    EXPECT_EQ(frame.record.state, recording::records::ChannelState::kSound);
     EXPECT_EQ(error_of(frame), bus::wire::FrameError::kNone);
     EXPECT_EQ(bus::wire::header_of(frame.bytes)->frame_id, 40);
   }
   ttf::faults::Fault noise = fault_of(FaultKind::kNoise, 0, 10, 5);
   noise.channels = schedules::model::Channels::kB;
   const LoggedBus noisy(noise, 20);
-  EXPECT_GE(noisy.heard.count(recording::records::kChannelCoding), noisy.bus.acts());
+  EXPECT_GE(noisy.heard.count(recording::records::ChannelState::kCoding), noisy.bus.acts());
   const auto bursts = std::count_if(noisy.frames().begin(), noisy.frames().end(), [&](const Heard::Frame& frame) {
     return frame.record.sender == kNoNode && frame.record.slot == 0 && channel_of(frame) == Channel::kB &&
            frame.record.end - frame.record.start == noise.length;
@@ -201,7 +201,7 @@ TEST(ChannelLog, FramesThatDoNotLeaveWereNowhere) {
   ASSERT_EQ(logged.frames().size(), 10U);
   for (const Heard::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
-    EXPECT_EQ(frame.record.state, recording::records::kChannelNothing);
+    EXPECT_EQ(frame.record.state, recording::records::ChannelState::kNothing);
     EXPECT_TRUE(frame.bytes.empty());
   }
 }
@@ -212,7 +212,7 @@ TEST(ChannelLog, AFrameOnTheOtherChannelFailsItsCrcThere) {
   for (const Heard::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_NE(frame.record.channel, frame.record.sent_channel);
-    EXPECT_EQ(frame.record.state, recording::records::kChannelFrameCrc);
+    EXPECT_EQ(frame.record.state, recording::records::ChannelState::kFrameCrc);
     EXPECT_EQ(bus::wire::decode_frame(static_cast<Channel>(frame.record.sent_channel), frame.bytes).error,
               bus::wire::FrameError::kNone);
   }
@@ -227,7 +227,8 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
     for (const Heard::Frame& frame : logged.frames()) {
       expect_sent_by(frame, 1);
       // The guardian refuses a frame that is late by more than half an action point offset.
-      EXPECT_EQ(frame.record.state, star ? recording::records::kChannelNothing : 0);
+      EXPECT_EQ(frame.record.state,
+                star ? recording::records::ChannelState::kNothing : recording::records::ChannelState::kSound);
       EXPECT_EQ(frame.record.start, frame.record.sent + fault.shift);
     }
   }
@@ -236,7 +237,7 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
 TEST(ChannelLog, ATransientLeavesNothingThatAnybodyMakesOut) {
   const LoggedBus logged(fault_of(FaultKind::kTransient, 0, 10, 3), 20);
   EXPECT_EQ(logged.frames().size(), 3U * 2 * 4);
-  EXPECT_EQ(logged.heard.count(recording::records::kChannelCoding), 3U * 2 * 4);
+  EXPECT_EQ(logged.heard.count(recording::records::ChannelState::kCoding), 3U * 2 * 4);
 }
 
 TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
@@ -245,7 +246,7 @@ TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
   own.masquerade = ttf::faults::MasqueradeMode::kOwnSlot;
   const LoggedBus masked(star_of({own}), 20);
   EXPECT_EQ(masked.frames().size(), 10U);
-  EXPECT_EQ(masked.heard.count(recording::records::kChannelNothing), 10U);
+  EXPECT_EQ(masked.heard.count(recording::records::ChannelState::kNothing), 10U);
 
   ttf::faults::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
   EXPECT_TRUE(LoggedBus(star_of({babble}), 8).frames().empty());
@@ -253,7 +254,7 @@ TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
   for (const Heard::Frame& frame : babbling.frames()) expect_sent_by(frame, 3);  // with which its own noise collides
 
   const LoggedBus misshapen(star_of({fault_of(FaultKind::kSosValue, 1, 10, 100)}), 120);
-  EXPECT_EQ(misshapen.frames().size(), misshapen.heard.count(recording::records::kChannelNothing));
+  EXPECT_EQ(misshapen.frames().size(), misshapen.heard.count(recording::records::ChannelState::kNothing));
   EXPECT_EQ(misshapen.frames().size(), static_cast<std::size_t>(misshapen.bus.said(0).count(
                                            2, bus::controller::kSyntaxError | bus::controller::kNoFrame)));
 }
@@ -267,7 +268,7 @@ TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
   for (const Heard::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_EQ(frame.record.start, frame.record.sent) << "as at the sender, not at the coupler";
-    EXPECT_EQ(frame.record.state, recording::records::kChannelCoding | recording::records::kChannelCut);
+    EXPECT_EQ(frame.record.state, recording::records::ChannelState::kCoding | recording::records::ChannelState::kCut);
     EXPECT_NEAR(static_cast<double>(frame.bytes.size()), 11.0, 3.0);
   }
 }
@@ -283,7 +284,7 @@ TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
   const LoggedBus logged(with({noise, babble}), 40);
   // The noise, 1000 bursts, four frames in each of 20 cycles.
   ASSERT_EQ(logged.frames().size(), 1U + 1000U + 4U * 20U);
-  EXPECT_EQ(logged.heard.count(recording::records::kChannelCoding), logged.frames().size())
+  EXPECT_EQ(logged.heard.count(recording::records::ChannelState::kCoding), logged.frames().size())
       << "nobody can make any of it out";
   for (std::size_t f = 1; f < logged.frames().size(); ++f)
     EXPECT_LE(logged.frames()[f - 1].record.end, logged.frames()[f].record.end + Duration::microseconds(3)) << "delays";

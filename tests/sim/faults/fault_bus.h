@@ -114,7 +114,7 @@ class FaultBus final : public recording::records::Sink {
   struct Activity {
     TrueTime at{};
     std::uint32_t fault = 0;
-    unsigned what = 0;
+    recording::records::FaultAct what{};
     NodeId node{};
     std::string kind, text;
   };
@@ -125,7 +125,7 @@ class FaultBus final : public recording::records::Sink {
     for (std::size_t n = 0; n < said_.size(); ++n)
       for (const std::string& line : said_[n]->all) text += fmt::format("{}: {}\n", n, line);
     for (const Activity& a : activities_)
-      text += fmt::format("{} fault {} {} {} {}\n", a.at.ns, a.fault, a.what, a.kind, a.text);
+      text += fmt::format("{} fault {} {} {} {}\n", a.at.ns, a.fault, index_of(a.what), a.kind, a.text);
     return text;
   }
 

@@ -33,7 +33,7 @@ struct Sum final : recording::records::Sink {
   }
   void on(const recording::records::ImageWritten& image) override { ++images, add(image.valid_at.ns); }
   void on(const recording::records::FaultActivity& activity) override {
-    if (activity.what == recording::records::kFaultActs) ++acts[std::string(activity.kind)];
+    if (activity.what == recording::records::FaultAct::kActs) ++acts[std::string(activity.kind)];
   }
 
  private:

@@ -34,7 +34,7 @@ TEST(FrameFaults, SayInWordsWhatTheyDo) {
   const auto first_act = [](const ttf::faults::Fault& fault) {
     const FaultBus bus(fault, 15);
     for (const FaultBus::Activity& activity : bus.activities())
-      if (activity.what == recording::records::kFaultActs) return activity.text;
+      if (activity.what == recording::records::FaultAct::kActs) return activity.text;
     return std::string("nothing");
   };
   ttf::faults::Fault flips = fault_of(FaultKind::kBitFlipPayload, 1);

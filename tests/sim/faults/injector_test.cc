@@ -63,9 +63,9 @@ TEST(Injector, EveryKindBeginsActsAndIsCounted) {
       if (activity.fault != i) continue;
       EXPECT_EQ(activity.kind, ttf::faults::name_of(ttf::faults::kAllFaultKinds[i]));
       EXPECT_FALSE(activity.text.empty());
-      begins += activity.what == recording::records::kFaultBegins ? 1 : 0;
-      ends += activity.what == recording::records::kFaultEnds ? 1 : 0;
-      if (activity.what != recording::records::kFaultActs) continue;
+      begins += activity.what == recording::records::FaultAct::kBegins ? 1 : 0;
+      ends += activity.what == recording::records::FaultAct::kEnds ? 1 : 0;
+      if (activity.what != recording::records::FaultAct::kActs) continue;
       if (acts++ == 0) first = activity.at;
       last = activity.at;
       EXPECT_EQ(begins, 1U) << "it acts after it begins";
@@ -333,7 +333,7 @@ TEST(Injector, NothingIsToldBeforeItIsSo) {
     EXPECT_EQ(bus.acts(), 0U);
     bus.simulation().run_until(from);
     ASSERT_EQ(bus.activities().size(), 3U) << ttf::faults::name_of(kind);
-    EXPECT_EQ(bus.activities()[0].what, recording::records::kFaultBegins);
+    EXPECT_EQ(bus.activities()[0].what, recording::records::FaultAct::kBegins);
     for (const FaultBus::Activity& activity : bus.activities()) EXPECT_EQ(activity.at, from);
     EXPECT_NE(bus.activities()[1].text, bus.activities()[2].text) << "on A and on B";
     EXPECT_EQ(bus.acts(), 2U);

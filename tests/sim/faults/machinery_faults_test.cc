@@ -30,10 +30,10 @@ TEST(MachineryFaults, ACrashedNodesSlotIsEmptyUntilItIsBack) {
   EXPECT_GE(empty, 10 + 6);
   EXPECT_LE(empty, 10 + 8);
   ASSERT_EQ(bus.activities().size(), 4U);
-  EXPECT_EQ(bus.activities()[0].what, recording::records::kFaultBegins);
+  EXPECT_EQ(bus.activities()[0].what, recording::records::FaultAct::kBegins);
   EXPECT_EQ(bus.activities()[1].text, "node3 loses its supply");
   EXPECT_EQ(bus.activities()[2].text, "node3 has its supply back");
-  EXPECT_EQ(bus.activities()[3].what, recording::records::kFaultEnds);
+  EXPECT_EQ(bus.activities()[3].what, recording::records::FaultAct::kEnds);
 }
 
 // pRateCorrectionOut is 3005 ppm.

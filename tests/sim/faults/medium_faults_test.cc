@@ -167,7 +167,7 @@ TEST(MediumFaults, ANodeWithoutSupplySendsNothing) {
     EXPECT_GT(alone.acts(), 0U);
     EXPECT_EQ(off.acts(1), 0U);
     for (const FaultBus::Activity& activity : off.activities())
-      EXPECT_FALSE(activity.fault == 1 && activity.what == recording::records::kFaultActs) << activity.text;
+      EXPECT_FALSE(activity.fault == 1 && activity.what == recording::records::FaultAct::kActs) << activity.text;
     for (const int n : {0, 2, 3}) EXPECT_EQ(off.said(n).all, crashed.said(n).all);
   }
 }

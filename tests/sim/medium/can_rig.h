@@ -73,7 +73,7 @@ struct Can final : recording::records::Sink, engine::Plant {
     if (!writes) return;
     errors.push_back(error);
     diary.push_back(
-        fmt::format("{} error {} at {}", error.stamp.true_time.ns, error.error, index_of(error.stamp.node)));
+        fmt::format("{} error {} at {}", error.stamp.true_time.ns, index_of(error.error), index_of(error.stamp.node)));
   }
   void on(const recording::records::FaultActivity& activity) override {
     if (!writes) return;
@@ -82,7 +82,7 @@ struct Can final : recording::records::Sink, engine::Plant {
   void on(const recording::records::CanStateChanged& change) override {
     if (!writes) return;
     changes.push_back(change);
-    diary.push_back(fmt::format("{} state {}", change.stamp.true_time.ns, change.to));
+    diary.push_back(fmt::format("{} state {}", change.stamp.true_time.ns, index_of(change.to)));
   }
   // Handles everything up to `end`.
   void run_until(TrueTime end) {

@@ -183,7 +183,7 @@ TEST(CanWays, AControllerRecoversBetweenOtherTraffic) {
       can.medium.release(NodeId{0}, can.time);
       can.run_until(at + Duration::milliseconds(4));
       ASSERT_EQ(can.changes.size(), 2u);
-      EXPECT_EQ(can.changes[1].to, recording::records::kCanErrorActive);
+      EXPECT_EQ(can.changes[1].to, recording::records::CanState::kActive);
       EXPECT_EQ(can.changes[1].stamp.true_time, recovery(at, frames));
     }
 }
@@ -233,7 +233,7 @@ TEST(CanWays, ASenderWithoutSupplyBreaksItsFrameOff) {
     EXPECT_EQ(can.arrived, 1u);  // at node 2
     ASSERT_EQ(can.errors.size(), 1u);
     EXPECT_EQ(can.errors[0].stamp.true_time, TrueTime{14'000});
-    EXPECT_EQ(can.errors[0].error, recording::records::kCanFormError);
+    EXPECT_EQ(can.errors[0].error, recording::records::CanError::kForm);
     EXPECT_FALSE(can.errors[0].as_transmitter);
     EXPECT_EQ(can.errors[0].receive_errors, 1);
     // Behind the flags there are eight recessive bits of the delimiter and three of the intermission.
@@ -259,8 +259,8 @@ TEST(CanWays, PowerOnEndsErrorStates) {
     const auto& change = can.changes[2 + node];
     EXPECT_EQ(index_of(change.stamp.node), node);
     EXPECT_EQ(change.stamp.true_time, can.time);
-    EXPECT_EQ(change.from, node == 0 ? recording::records::kCanErrorPassive : recording::records::kCanBusOff);
-    EXPECT_EQ(change.to, recording::records::kCanErrorActive);
+    EXPECT_EQ(change.from, node == 0 ? recording::records::CanState::kPassive : recording::records::CanState::kBusOff);
+    EXPECT_EQ(change.to, recording::records::CanState::kActive);
     EXPECT_EQ(change.transmit_errors + change.receive_errors, 0);
   }
   can.medium.release(NodeId{1}, can.time);  // it is not held off any more
@@ -281,12 +281,12 @@ TEST(CanWays, AFrameIsSentAgainUntilItIsAcknowledged) {
   ASSERT_GT(can.errors.size(), 140u);
   EXPECT_LT(can.errors.size(), 170u);
   for (const auto& error : can.errors) {
-    EXPECT_EQ(error.error, recording::records::kCanAcknowledgementError);
+    EXPECT_EQ(error.error, recording::records::CanError::kAcknowledgement);
     EXPECT_TRUE(error.as_transmitter);
     EXPECT_LE(error.transmit_errors, 128);
   }
   ASSERT_EQ(can.changes.size(), 1u);
-  EXPECT_EQ(can.changes[0].to, recording::records::kCanErrorPassive);
+  EXPECT_EQ(can.changes[0].to, recording::records::CanState::kPassive);
   can.medium.power_on(NodeId{1}, can.time);
   can.run_until(TrueTime{30'000'000});
   EXPECT_EQ(can.sent, 1u);
@@ -339,7 +339,7 @@ TEST(CanWays, AControllerOffTheBusRecoversBehindItsRelease) {
   Can can(can_cluster(false, 0.0, 1'000'000));
   can.medium.hold_off(NodeId{0}, can.time);
   ASSERT_EQ(can.changes.size(), 1u);
-  EXPECT_EQ(can.changes[0].to, recording::records::kCanBusOff);
+  EXPECT_EQ(can.changes[0].to, recording::records::CanState::kBusOff);
   can.send(0, 7, {});
   can.send(1, 9, {});
   can.run_until(TrueTime{10'000'000});
@@ -348,7 +348,7 @@ TEST(CanWays, AControllerOffTheBusRecoversBehindItsRelease) {
   can.medium.release(NodeId{0}, can.time);
   can.run_until(TrueTime{20'000'000});
   ASSERT_EQ(can.changes.size(), 2u);
-  EXPECT_EQ(can.changes[1].to, recording::records::kCanErrorActive);
+  EXPECT_EQ(can.changes[1].to, recording::records::CanState::kActive);
   EXPECT_EQ(can.changes[1].stamp.true_time, TrueTime{10'000'000 + 128 * 11 * 1'000});
   EXPECT_EQ(can.sent, 2u);
 }
@@ -391,9 +391,9 @@ TEST(CanWays, AControllerThatNeverRecoversStaysOff) {
     can.disturb(held);
     can.send(0, 7, std::vector<std::byte>(8, std::byte{0x35}));
     can.run_until(TrueTime{20'000'000});
-    EXPECT_EQ(can.changes.at(0).to, recording::records::kCanErrorPassive);
+    EXPECT_EQ(can.changes.at(0).to, recording::records::CanState::kPassive);
     const auto of_node_0 = std::count_if(can.changes.begin(), can.changes.end(), [](const auto& change) {
-      return change.stamp.node == NodeId{0} && change.to == recording::records::kCanBusOff;
+      return change.stamp.node == NodeId{0} && change.to == recording::records::CanState::kBusOff;
     });
     EXPECT_EQ(of_node_0, 1);
     EXPECT_EQ(can.sent, recovery == CanRecovery::kAutomatic ? 1u : 0u);

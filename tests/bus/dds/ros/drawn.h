@@ -49,7 +49,7 @@ inline recording::records::ImageObject image_object(int i) {
           .sigma_acceleration = 0.6 + d,
           .sigma_length = 0.7 + d,
           .sigma_width = 0.8 + d,
-          .status = static_cast<std::uint8_t>(i % 2 == 0 ? 1 : 6)};
+          .status = static_cast<recording::records::ImageStatus>(i % 2 == 0 ? 1 : 6)};
 }
 
 // An image written at true_ns, of use 20 ms later, with a newest measurement of 5 ms before. Its record

@@ -49,7 +49,7 @@ TEST_F(RosListen, AnImageArrivesAsItWasRecorded) {
   for (int i = 0; i < 2; ++i) {
     const recording::records::ImageObject object = image_object(i);
     const json expected = {{"track_id", index_of(object.track)},
-                           {"status", object.status},
+                           {"status", static_cast<int>(object.status)},
                            {"x", object.x},
                            {"y", object.y},
                            {"heading", object.heading},

@@ -122,7 +122,7 @@ TEST(RosWire, AnImageHasTheBytesOfItsMessage) {
   expected.u32(17).time(1'700'000'001, 250'000'000).time(1'700'000'001, 245'000'000).u32(2);
   for (int i = 0; i < 2; ++i) {
     const recording::records::ImageObject object = image_object(i);
-    expected.u16(static_cast<std::uint16_t>(100 + i)).u8(object.status);
+    expected.u16(static_cast<std::uint16_t>(100 + i)).u8(static_cast<std::uint8_t>(object.status));
     for (const double value :
          {object.x, object.y, object.heading, object.speed, object.acceleration, object.length, object.width,
           object.sigma_x, object.sigma_y, object.correlation_xy, object.sigma_heading, object.sigma_speed,

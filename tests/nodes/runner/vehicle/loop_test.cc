@@ -25,7 +25,7 @@ struct LoopRecords final : recording::records::Sink {
   };
   using recording::records::Sink::on;
   void on(const recording::records::CommandTaken& taken) override {
-    if (taken.verdict == recording::records::kApplied)
+    if (taken.verdict == recording::records::CommandVerdict::kApplied)
       applied.push_back({TrueTime{} + (taken.from - sim::engine::kFirstCycle), taken.acceleration, taken.steering});
   }
   void on(const recording::records::Measured& measured) override {

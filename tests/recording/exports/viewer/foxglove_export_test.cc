@@ -95,7 +95,7 @@ records::ImageObject object(int track, double x, double speed = 0.0) {
   one.width = 2.0;
   one.sigma_x = 0.5;
   one.sigma_y = 0.25;
-  one.status = records::kImageConfirmed;
+  one.status = records::ImageStatus::kConfirmed;
   return one;
 }
 

@@ -47,9 +47,9 @@ void drive(recording::records::Sink& sink) {
   namespace records = recording::records;
   for (std::int64_t t = -100; t < 1700; t += 50) {
     Slice slice(sink, at_us(t * 1000), at_us((t + 50) * 1000));
-    slice.on(records::FaultActivity{at_us(100'001), 0, records::kFaultBegins, NodeId{1}, "mute", "It is mute."});
+    slice.on(records::FaultActivity{at_us(100'001), 0, records::FaultAct::kBegins, NodeId{1}, "mute", "It is mute."});
     SyntheticDrive{}.drive(slice, 1'500'000);
-    slice.on(records::FaultActivity{at_us(900'001), 0, records::kFaultEnds, NodeId{1}, "mute", "It is mute."});
+    slice.on(records::FaultActivity{at_us(900'001), 0, records::FaultAct::kEnds, NodeId{1}, "mute", "It is mute."});
   }
 }
 
