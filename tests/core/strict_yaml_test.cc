@@ -322,6 +322,22 @@ TEST(StrictYaml, OtherMapsAreThoseOfTheNamesNotAskedFor) {
   EXPECT_THAT(sentences, ElementsAre(HasSubstr("a.yaml:3: a.w: is not a known key here")));
 }
 
+// Own keys go first. An inherited value has its own line, and no inherited key is unknown.
+TEST(StrictYaml, AnInheritedKeyIsThatOfTheOtherMapping) {
+  const auto sentences = read("a: {x: 1}\nb: {y: 9, z: 3}\nc: {x: 5, list: [{n: 1}]}\n", [](YamlMap& map) {
+    YamlMap a = map.map("a"), b = map.map("b"), c = map.map("c");
+    a.inherit(b);
+    b.inherit(c);
+    EXPECT_EQ(a.integer("x", {0, 9}), 1);
+    EXPECT_EQ(a.integer("y", {0, 8}), 0);
+    EXPECT_EQ(a.maps("list").size(), 1U);
+    EXPECT_FALSE(b.lacks("x"));
+    EXPECT_TRUE(c.lacks("y"));
+    a.finish();
+  });
+  EXPECT_THAT(sentences, ElementsAre(HasSubstr("a.yaml:2: a.y = 9: ")));
+}
+
 TEST(StrictYaml, TimesAreExactToTheNanosecond) {
   const auto value = [](const std::string& text) {
     Duration result{};

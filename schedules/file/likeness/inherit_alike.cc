@@ -11,7 +11,7 @@ std::vector<std::optional<std::size_t>> inherit_alike(NamedMaps& entries, std::s
   std::vector<std::optional<std::size_t>> like(entries.size());
   std::vector<std::size_t> refused;
   const auto refuse = [&](std::size_t entry, std::string expected) {
-    entries[entry].second.fail("like", std::move(expected));
+    if (!expected.empty()) entries[entry].second.fail("like", std::move(expected));
     refused.push_back(entry);
   };
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -23,7 +23,9 @@ std::vector<std::optional<std::size_t>> inherit_alike(NamedMaps& entries, std::s
       others.emplace_back(entries[other].first);
       if (!like[i] && entries[other].first == name) like[i] = other;
     }
-    if (!like[i]) refuse(i, fmt::format("must be another {} of this file: {}", what, fmt::join(others, ", ")));
+    if (like[i]) continue;
+    const bool is_text = !name.empty();  // else a finding already
+    refuse(i, is_text ? fmt::format("must be another {} of this file: {}", what, fmt::join(others, ", ")) : "");
   }
   const auto leads_back = [&](std::size_t entry) {
     auto at = like[entry];

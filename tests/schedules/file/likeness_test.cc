@@ -141,6 +141,8 @@ TEST(Likeness, EachMistakeIsOneSentence) {
   };
   const Mistake mistakes[] = {
       {"rear: {like: lidar}", "rear.like", "must be another sensor of this file: laser, camera, odometry"},
+      {"rear: {like: [laser]}", "rear.like", "must be a text"},
+      {"rear: {like: ''}", "rear.like", "must be a text"},
       {"rear: {like: rear}", "rear.like", "must be another sensor of this file: laser, camera, odometry"},
       {"rear: {like: left}\n  left: {like: laser, raw: 9, device: laser}", "left.raw",
        "device and host must be left out"},
