@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "recording/records/records.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::bus::can {
 

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "bus/can/frame_bits.h"
-#include "recording/records/records.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::bus::can {
 

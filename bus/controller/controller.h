@@ -40,7 +40,7 @@
 #include "bus/ports/flexray_port.h"
 #include "core/ids.h"
 #include "core/time.h"
-#include "recording/records/records.h"
+#include "recording/records/enumerations.h"
 #include "schedules/model/cluster.h"
 #include "timebase/clock_sync.h"
 #include "timebase/cycle_clock.h"

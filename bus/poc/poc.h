@@ -45,7 +45,7 @@
 #include "bus/poc/event.h"
 #include "bus/poc/reason.h"
 #include "core/time.h"
-#include "recording/records/records.h"
+#include "recording/records/enumerations.h"
 #include "schedules/model/flexray_parameters.h"
 
 namespace ttf::bus::poc {

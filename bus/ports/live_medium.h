@@ -31,7 +31,7 @@
 #include "bus/ports/can_port.h"
 #include "bus/ports/flexray_port.h"
 #include "core/time.h"
-#include "recording/records/records.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::bus::ports {
 

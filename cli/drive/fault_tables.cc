@@ -6,7 +6,7 @@
 
 #include "core/counted.h"
 #include "evaluation/faults/reach.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::drive {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/counted.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::cli::launch {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bus/dds/ros/publisher.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "sim/drives/observer.h"
 #include "sim/drives/step_catalog.h"
 

@@ -8,7 +8,7 @@
 
 #include "cli/supervision/lines.h"
 #include "core/counted.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "report/drawing/tables.h"
 
 namespace ttf::cli::supervision {

@@ -1,7 +1,7 @@
 #include "nodes/host/node_records.h"
 
 #include "bus/wire/pdu_codec.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::nodes::host {
 

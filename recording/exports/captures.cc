@@ -7,7 +7,7 @@
 
 #include "recording/capture/packet.h"
 #include "recording/exports/pcapng_writer.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::recording::exports {
 namespace {

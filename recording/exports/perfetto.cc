@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::recording::exports {
 namespace {

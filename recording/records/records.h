@@ -15,7 +15,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
-#include "recording/records/bits.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::recording::records {
 
@@ -63,14 +63,6 @@ struct CanFrameSent {
 
 // A controller on a private CAN detected an error, and its error flag is the first of an error frame. The frame is
 // sent again.
-enum class CanError : std::uint8_t {
-  kNone = 0,  // in no record
-  kBit = 1,
-  kStuff = 2,
-  kForm = 3,
-  kCrc = 4,
-  kAcknowledgement = 5
-};
 struct CanErrorFrame {
   Stamp stamp;           // the end of the bit with the error
   std::uint8_t bus = 0;  // index in Cluster::can_buses
@@ -80,7 +72,6 @@ struct CanErrorFrame {
 };
 
 // A controller on a private CAN changed its state of error confinement.
-enum class CanState : std::uint8_t { kActive = 0, kPassive = 1, kBusOff = 2 };
 struct CanStateChanged {
   Stamp stamp;
   std::uint8_t bus = 0;
@@ -107,15 +98,6 @@ struct SlotFrameSent {
 // sent, such as noise. The record holds the frame of the best-placed receiver; an error of a single receiver is
 // a SlotProblem of that receiver instead. The record is written once the frame has arrived everywhere, or can
 // arrive nowhere any more, which may be before its sender records it. Symbols have no such record.
-enum class ChannelState : std::uint8_t {
-  kSound = 0,
-  kHeaderCrc = 1,  // the header CRC fails
-  kFrameCrc = 2,   // the frame CRC fails, or the length differs from the header's
-  kCoding = 4,     // undecodable for every receiver, wholly or beyond `bytes`
-  kCut = 8,        // the frame ends early, after `bytes`; a missing CRC is not wrong
-  kNothing = 16    // no receiver got any of it; excludes the other bits
-};
-template <> inline constexpr bool kIsBits<ChannelState> = true;
 struct ChannelFrame {
   TrueTime start{};  // first and last bit, as they left the sender, or where they appeared
   TrueTime end{};
@@ -129,19 +111,8 @@ struct ChannelFrame {
   std::span<const std::byte> bytes;  // header, payload and trailer as on the wire; empty if undecodable
 };
 
-// Status of a slot on one channel as one receiver saw it (FlexRay 2.1A vSS): bits, and at the end the host's view of a
-// valid frame. Recorded if the slot had an error, or if the frame that is expected there did not come.
-enum SlotStatus : std::uint8_t {
-  kValidFrame = 0,
-  kSyntaxError = 1,
-  kContentError = 2,
-  kBoundaryViolation = 4,
-  kTransmissionConflict = 8,
-  kNoFrame = 16,
-  // A valid frame that is not in the schedule's slot, cycle and channel. Or its message id, its length or its payload
-  // is not that of the slot's list.
-  kUnexpectedFrame = 32
-};
+// Status of a slot on one channel as one receiver saw it. Recorded if the slot had an error, or if the frame that is
+// expected there did not come.
 struct SlotProblem {
   Stamp stamp;
   std::int64_t cycle = 0;
@@ -151,16 +122,6 @@ struct SlotProblem {
 };
 
 // A list of a PDU on its way: each hop is one record, so that a diagram can draw the arrows.
-enum class Hop : std::uint8_t {
-  kWritten = 1,      // a task's output became visible in a CNI
-  kSent = 2,         // its last frame has left
-  kReceived = 3,     // complete in the receiver's CNI
-  kTorn = 4,         // displaced before all its fragments had arrived: lost
-  kRead = 5,         // a task read it at its start for the first time
-  kOverwritten = 6,  // a newer list replaced it before any task read it
-  kStale = 7,        // a fragment came after a newer list had begun to arrive; not used
-  kDiscarded = 8     // a task read it but could not use it: raw data without a strobe have no time
-};
 struct ListHop {
   Stamp stamp;
   Hop hop = Hop::kWritten;
@@ -189,28 +150,7 @@ struct ClockCorrected {
   bool offset_missing = false, rate_missing = false, offset_limited = false, rate_limited = false;
 };
 
-// A controller's protocol operation control changed its state. Numbers are those of E-Ray's CCSV.POCS; a later
-// version may record others. A node that begins integrated records no change.
-enum class PocKind : std::uint8_t {
-  kDefaultConfig = 0x00,
-  kReady = 0x01,
-  kNormalActive = 0x02,
-  kNormalPassive = 0x03,
-  kHalt = 0x04,
-  kConfig = 0x0F,
-  kWakeupListen = 0x11,
-  kWakeupSend = 0x12,
-  kWakeupDetect = 0x13,
-  kColdstartListen = 0x21,
-  kColdstartCollisionResolution = 0x22,
-  kColdstartConsistencyCheck = 0x23,
-  kColdstartGap = 0x24,
-  kColdstartJoin = 0x25,
-  kIntegrationColdstartCheck = 0x26,
-  kIntegrationListen = 0x27,
-  kIntegrationConsistencyCheck = 0x28,
-  kInitialiseSchedule = 0x29
-};
+// A controller's protocol operation control changed its state. A node that begins integrated records no change.
 struct StateChanged {
   Stamp stamp;  // global time as the node has it in the new state
   PocKind from{}, to{};
@@ -220,7 +160,6 @@ struct StateChanged {
 };
 
 // A symbol on one channel, as its sender sent it.
-enum class Symbol : std::uint8_t { kCas = 1, kWakeup = 2, kMediaTest = 3 };
 struct SymbolSent {
   Stamp stamp;  // start of transmission
   Stamp end{};
@@ -519,13 +458,6 @@ struct EgoTruth {
 
 // A missed instant in real time, where an ordinary kernel keeps the schedule: the node's process was late, or a
 // frame was. Loss and lateness are separate kinds.
-enum class TimingFault : std::uint8_t {
-  kLateWakeUp = 1,  // an act was due for longer than the arrival window allows
-  kSlotMissed = 2,  // too late to send in an own slot
-  kLateFrame = 3,   // a frame came after its arrival window and was not used
-  kEarlyFrame = 4,  // a frame came before its arrival window and was not used
-  kFramesLost = 5   // `count` frames of a slot never came, as the cycle of the next one shows
-};
 struct TimingProblem {
   Stamp stamp;  // true time: when it was noticed; local and global: when it was due
   TimingFault what = TimingFault::kLateWakeUp;

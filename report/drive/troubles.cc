@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "report/drawing/names.h"
 #include "report/drive/tables.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "report/startup/cycles.h"
 
 namespace ttf::report::startup {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::report::timing {
 ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& names) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::report::timing {
 namespace {

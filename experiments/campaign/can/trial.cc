@@ -12,7 +12,7 @@
 #include "evaluation/faults/can_judge.h"
 #include "experiments/campaign/full_list.h"
 #include "experiments/campaign/judged.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "sim/engine/can_simulation.h"
 #include "sim/faults/injector.h"
 

@@ -4,7 +4,7 @@
 
 #include "bus/poc/reason.h"
 #include "experiments/campaign/judged.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 
 namespace ttf::experiments::campaign::flexray {
 void StoryInWords::state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/random.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "tests/bus/poc/poc_script.h"
 
 namespace ttf::bus::poc {

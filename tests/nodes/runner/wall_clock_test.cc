@@ -12,7 +12,7 @@
 
 #include "core/time.h"
 #include "nodes/runner/kernel_clock.h"
-#include "recording/records/words.h"
+#include "recording/records/enumerations.h"
 #include "tests/nodes/runner/live_node_set.h"
 
 namespace ttf::nodes::runner {
