@@ -1,4 +1,4 @@
-// The estimator over a kernel of one motion model under a filter (single.h), or of several (interacting.h). It
+// The estimator over a kernel of one motion model under a filter (single.h), or of several (interacting.cc). It
 // chooses the sensor's model by the observation's kind and starts objects.
 //
 // A polar state needs a course to begin with. With unknown heading and speed no linearisation holds, and a

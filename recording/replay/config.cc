@@ -7,7 +7,6 @@
 
 #include "core/errors.h"
 #include "core/file_kind.h"
-#include "fusion/loading/cut_off.h"
 #include "fusion/loading/known_sensor.h"
 #include "fusion/loading/tracker.h"
 

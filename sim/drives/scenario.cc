@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/file_kind.h"
-#include "fusion/loading/cut_off.h"
 #include "fusion/loading/tracker.h"
 #include "sensors/kinds/loader.h"
 
