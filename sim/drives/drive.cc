@@ -5,22 +5,48 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "core/counted.h"
+#include "core/ids.h"
 #include "core/nearest.h"
 #include "core/strict_yaml.h"
 #include "faults/believed_schedule.h"
 #include "nodes/fusion/fusion_host.h"
+#include "recording/records/every.h"
 #include "recording/records/tee.h"
 #include "sensors/kinds/loader.h"
 #include "sim/drives/known_fields.h"
 #include "sim/drives/played_recording.h"
 #include "sim/drives/step_catalog.h"
 #include "sim/drives/surroundings.h"
-#include "sim/processes/share.h"
 
 namespace ttf::sim::drives {
 namespace {
+
+// Filters records when each process simulates one node: each keeps its own node's records, the first also those
+// of no node. All processes see the records that belong to no executive: signals' ways on the channels,
+// guardians' interventions, faults. Together they keep each of these once.
+class Share final : public recording::records::Every<Share> {
+ public:
+  Share(NodeId self, recording::records::Sink& out) : self_(self), out_(out) {}
+  template <class Record> void each(const Record& record) {
+    if constexpr (std::is_same_v<Record, recording::records::FaultActivity>) {
+      if (!is_mine(record.node)) return;
+    } else if constexpr (std::is_same_v<Record, recording::records::GuardianIntervention>) {
+      if (!is_mine(record.branch)) return;
+    } else if constexpr (std::is_same_v<Record, recording::records::ChannelFrame>) {
+      if (!is_mine(record.sender)) return;
+    }
+    out_.on(record);
+  }
+
+ private:
+  bool is_mine(NodeId node) const { return node == self_ || (node == kNoNode && self_ == NodeId{}); }
+
+  NodeId self_;
+  recording::records::Sink& out_;
+};
 
 // A sleeping node has its supply from the start on.
 void start_cold(sim::engine::SimulationConfig& config, const std::vector<nodes::host::NodeStart>& starts) {
@@ -145,7 +171,7 @@ DriveOutcome run_drive(const DriveConfig& config, recording::records::Sink& out)
   if (config.recorded) played = cluster_that_plays(scenario, *config.cluster, *config.recorded);
   const schedules::model::Cluster& cluster = played ? *played : *config.cluster;
   check_cluster(scenario, cluster, config.strategy);
-  std::optional<sim::processes::Share> share;
+  std::optional<Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   recording::records::Sink& sink = share ? static_cast<recording::records::Sink&>(*share) : out;
   const Surroundings around = surroundings_of(scenario, cluster, config.seed, config.replication, config.recorded);

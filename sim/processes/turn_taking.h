@@ -4,7 +4,7 @@
 // Every process simulates all media and its own node. It learns the acts of other nodes from their turns, and
 // the instants of these turns from their promises. At each turn a node says its acts, until when it will be
 // silent, and how soon an arrival may make it speak (nodes/host/promise.h). All processes know all arrivals. So
-// each knows every node's next turn (sim/processes/outlook.h), and goes on until there without waiting:
+// each knows every node's next turn (Outlook), and goes on until there without waiting:
 //
 //   T1  all processes see the same acts and turns in the same order, that of sim/medium/event_queue.h: a node's
 //       records are those of a simulation in one process
@@ -16,6 +16,7 @@
 // in the dynamic segment, every arrival may be answered, and each has a turn.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -28,10 +29,38 @@
 #include "core/time.h"
 #include "nodes/host/promise.h"
 #include "schedules/model/cluster.h"
-#include "sim/processes/outlook.h"
 #include "sim/processes/turn.h"
 
 namespace ttf::sim::processes {
+
+// A node as the others see it: the instant of its next turn. All processes with the same arrivals and promises
+// come to the same answer, the node's own process included.
+class Outlook {
+ public:
+  using Promise = nodes::host::Promise;
+
+  // Returns the end of its promise: then it must take a turn, if only to go on being silent. Never: it is off.
+  Microticks turn() const { return turn_; }
+
+  void begins(Microticks now) { promises({now, Microticks{}, Microticks{}, Microticks{}}); }
+  void ends() { promises({kNever<Microticks>}); }
+  void promises(const Promise& promise) {
+    promise_ = promise;
+    turn_ = promise.silent_until;
+  }
+
+  void hears_flexray(Microticks now) { moves(now, promise_.after_flexray); }
+  void hears_can(Microticks now) { moves(now, promise_.after_can); }
+  void hears_trigger(Microticks now) { moves(now, promise_.after_trigger); }
+
+ private:
+  void moves(Microticks now, Microticks after) {
+    if (after != kNever<Microticks>) turn_ = std::min(turn_, now + after);
+  }
+
+  Promise promise_{kNever<Microticks>};
+  Microticks turn_ = kNever<Microticks>;
+};
 
 class TurnTaking {
  public:
