@@ -1,18 +1,56 @@
 #include "bus/dds/ros/publisher.h"
 
-#include <atomic>
-#include <mutex>
-#include <thread>
+#include <dds/dds.h>
+#include <semaphore.h>
 
-#include "bus/dds/ros/bell.h"
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bus/dds/common/participant.h"
+#include "bus/dds/ros/messages.h"
+#include "bus/dds/ros/options.h"
 #include "bus/dds/ros/outbox.h"
-#include "bus/dds/ros/writers.h"
+#include "core/check.h"
 
 namespace ttf::bus::dds::ros {
 namespace {
 
-TopicCounts counts_of(const Writer::Counts& written, std::uint64_t dropped) {
-  return {written.written, dropped, written.refused, written.deadlines_missed};
+constexpr std::int32_t kDepth = 10;  // the default depth of ROS' readers
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+// A reliable, volatile writer suits every reader of ROS 2, except those that want earlier samples. It keeps
+// only the last samples, so that a stopped reader holds up no writer.
+Qos qualities(Duration period, bool kept_for_late_listeners, const RosOptions& options) {
+  Qos qos(dds_create_qos(), dds_delete_qos);
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+  const std::int32_t depth = kept_for_late_listeners ? 1 : kDepth;
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  if (kept_for_late_listeners) {
+    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
+                                DDS_LENGTH_UNLIMITED);
+  } else {
+    dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  }
+  if (period > Duration{})
+    dds_qset_deadline(qos.get(), std::llround(static_cast<double>(period.ns) * options.deadline_slack));
+  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, std::chrono::nanoseconds(options.liveliness_lease).count());
+  dds_data_representation_id_t plain = DDS_DATA_REPRESENTATION_XCDR1;  // the only one of ROS 2
+  dds_qset_data_representation(qos.get(), 1, &plain);
+  return qos;
+}
+
+// ROS 2 puts "rt/" before the names of topics.
+std::string topic_of(const RosOptions& options, const std::string& name) {
+  return "rt/" + options.node_name + "/" + name;
 }
 
 const RosOptions& valid(const RosOptions& options) {
@@ -21,6 +59,119 @@ const RosOptions& valid(const RosOptions& options) {
 }
 
 }  // namespace
+
+// One topic and its writer.
+class Writer {
+ public:
+  struct Counts {
+    std::uint64_t written = 0;
+    std::uint64_t refused = 0;           // by DDS, because its memory is full or for another reason
+    std::uint64_t deadlines_missed = 0;  // a sample came later than its deadline, or never
+  };
+  Writer(const common::Participant& participant, const void* type, const std::string& topic, Duration period,
+         bool kept_for_late_listeners, const RosOptions& options) {
+    const Qos qos = qualities(period, kept_for_late_listeners, options);
+    const common::Handle made =
+        common::checked(dds_create_topic(participant.handle(), static_cast<const dds_topic_descriptor_t*>(type),
+                                         topic.c_str(), nullptr, nullptr),
+                        "cannot make topic " + topic);
+    writer_ = common::checked(dds_create_writer(participant.handle(), made, qos.get(), nullptr),
+                              "cannot make a writer of " + topic);
+  }
+  void write(const void* sample) {  // never waits
+    if (dds_write(writer_, sample) == DDS_RETCODE_OK)
+      ++counts_.written;
+    else
+      ++counts_.refused;
+  }
+  Counts counts() const {
+    Counts counts = counts_;
+    dds_offered_deadline_missed_status_t missed{};
+    if (dds_get_offered_deadline_missed_status(writer_, &missed) == DDS_RETCODE_OK)
+      counts.deadlines_missed = missed.total_count;
+    return counts;
+  }
+
+ private:
+  common::Handle writer_ = 0;
+  Counts counts_;
+};
+
+// The topics: names, types and qualities as ROS 2 expects them (docs/media/dds.md has the table).
+class Writers {
+ public:
+  // Throws std::runtime_error if DDS refuses.
+  explicit Writers(const RosOptions& options)
+      : participant_(options.domain, lease_of(options)), messages_(options),
+        // All of ROS looks for diagnostics here, from any publisher.
+        healths_(participant_, &diagnostic_msgs_msg_dds__DiagnosticArray__desc, "rt/diagnostics", options.health_period,
+                 true, options) {
+    if (options.images) {
+      images_.emplace(participant_, &ttfusion_msgs_msg_dds__RealTimeImage__desc, topic_of(options, "image"),
+                      options.image_period, false, options);
+      boxes_.emplace(participant_, &vision_msgs_msg_dds__Detection3DArray__desc, topic_of(options, "image/boxes"),
+                     options.image_period, false, options);
+    }
+    if (options.tracks)
+      tracks_.emplace(participant_, &ttfusion_msgs_msg_dds__TrackArray__desc, topic_of(options, "tracks"),
+                      options.step_period, false, options);
+    truths_.reserve(options.truth_objects);
+    for (std::uint16_t object = 0; object < options.truth_objects; ++object)
+      truths_.emplace_back(participant_, &nav_msgs_msg_dds__Odometry__desc,
+                           topic_of(options, "truth/" + object_name(ObjectId{object})), options.truth_period, false,
+                           options);
+  }
+
+  void write(const WaitingImage& image) {
+    if (!images_) return;
+    images_->write(&messages_.image(image));
+    boxes_->write(&messages_.boxes(image));
+  }
+  void write(const WaitingStep& step) {
+    if (tracks_) tracks_->write(&messages_.tracks(step));
+  }
+  void write(const WaitingTruth& truth) { truths_[index_of(truth.state.object)].write(&messages_.truth(truth)); }
+  void write(const WaitingHealth& health) { healths_.write(&messages_.health(health)); }
+
+  // Without a writer, nothing is counted.
+  Writer::Counts images() const { return images_ ? images_->counts() : Writer::Counts{}; }
+  Writer::Counts boxes() const { return boxes_ ? boxes_->counts() : Writer::Counts{}; }
+  Writer::Counts tracks() const { return tracks_ ? tracks_->counts() : Writer::Counts{}; }
+  Writer::Counts truths() const {  // for all objects
+    Writer::Counts all;
+    for (const Writer& writer : truths_) {
+      const Writer::Counts counts = writer.counts();
+      all.written += counts.written;
+      all.refused += counts.refused;
+      all.deadlines_missed += counts.deadlines_missed;
+    }
+    return all;
+  }
+  Writer::Counts healths() const { return healths_.counts(); }
+
+ private:
+  common::Participant participant_;
+  Messages messages_;
+  std::optional<Writer> images_, boxes_, tracks_;
+  Writer healths_;
+  std::vector<Writer> truths_;  // by object
+};
+
+// A bell wakes a thread that sleeps until the next call. Calling never waits; calls during the thread's work are kept.
+class Bell {
+ public:
+  Bell() { TTF_CHECK(sem_init(&semaphore_, 0, 0) == 0); }
+  ~Bell() { sem_destroy(&semaphore_); }
+  Bell(const Bell&) = delete;
+  Bell& operator=(const Bell&) = delete;
+  void ring() { sem_post(&semaphore_); }  // fails only beyond INT_MAX calls, when no thread sleeps
+  void wait() {
+    while (sem_wait(&semaphore_) != 0) continue;  // interrupted by a process signal
+  }
+
+ private:
+  sem_t semaphore_;
+};
 
 class RosPublisher::Impl {
  public:
@@ -38,6 +189,9 @@ class RosPublisher::Impl {
   }
 
   RosCounts counts() const {
+    const auto counts_of = [](const Writer::Counts& written, std::uint64_t dropped) {
+      return TopicCounts{written.written, dropped, written.refused, written.deadlines_missed};
+    };
     const Outbox::Dropped dropped = outbox_.dropped();
     const std::scoped_lock lock(mutex_);
     return {counts_of(written_.images, dropped.images),   counts_of(written_.boxes, 0),
