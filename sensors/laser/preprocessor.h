@@ -12,9 +12,15 @@
 #include "sensors/laser/outline_parts.h"
 #include "sensors/laser/rectangle_fit.h"
 #include "sensors/laser/segmentation.h"
-#include "sensors/laser/vehicle_shape.h"
 
 namespace ttf::sensors::laser {
+
+// Tells segments that a vehicle fits from those that none fits (VehicleShape). A pole is thin only if both of its ends
+// are seen: a car that is almost hidden is no pole.
+struct ShapeConfig {
+  double thinnest_m = 0.5;   // 0: nothing is too thin
+  double roughest_m = 0.25;  // root mean square of the range errors that the best outline leaves
+};
 
 struct LaserPreprocessingConfig {
   SegmentationConfig segmentation;

@@ -39,7 +39,7 @@ struct OutlineEnd {
 };
 using OutlineEnds = std::array<OutlineEnd, 2>;  // at the smallest and at the largest azimuth
 
-// The shape of a segment (sensors/laser/vehicle_shape.h):
+// The shape of a segment (sensors/laser/preprocessor.h):
 //   kVehicle  An end, a side or a corner was measured: the object has an axis and at least one side of its own.
 //   kPart     A silhouette: part of a vehicle, far or half hidden, or of something else. Alone it shows no vehicle.
 //   kThin     All of it is in view, and it is thinner than any vehicle: a pole, a trunk, a person.
