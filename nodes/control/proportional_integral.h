@@ -6,6 +6,8 @@
 //   I_n = I* + (I_0 - I*) (1 - dt / Tt)^n,   I* = u - kp e + ki Tt e.
 #pragma once
 
+#include <algorithm>
+
 namespace ttf::nodes::control {
 
 struct ProportionalIntegral {
@@ -15,7 +17,12 @@ struct ProportionalIntegral {
   double smallest = -6.0, largest = 3.0;  // the output
 
   // Returns the output for an error, and takes the integral on by `dt` [s]. The integral is the caller's.
-  double step(double error, double dt, double& integral) const;
+  double step(double error, double dt, double& integral) const {
+    const double wanted = kp * error + integral;
+    const double output = std::clamp(wanted, smallest, largest);
+    integral += dt * (ki * error + (output - wanted) / tracking_s);
+    return output;
+  }
 };
 
 }  // namespace ttf::nodes::control

@@ -61,22 +61,4 @@ double time_to_collision(double clearance, const InLine& own, const InLine& ahea
   return kNever;
 }
 
-double needed_deceleration(double clearance, double own_speed, const InLine& ahead) {
-  if (clearance <= 0.0) return kNever;
-  if (own_speed <= 0.0) return 0.0;
-  const double ahead_stands = stands_at(ahead);
-  const double closing = own_speed - ahead.speed;
-  // Either both speeds are equal at the smallest clearance, and the vehicle ahead still drives then.
-  if (closing > 0.0) {
-    const double needed = closing * closing / (2.0 * clearance) - ahead.acceleration;
-    const double equal_after = 2.0 * clearance / closing;
-    if (equal_after <= ahead_stands) return std::max(0.0, needed);
-  } else if (ahead_stands == kNever) {
-    return 0.0;
-  }
-  // Or it stands, and the own vehicle needs all of the way to its place.
-  const double its_way = ahead.speed > 0.0 ? -ahead.speed * ahead.speed / (2.0 * ahead.acceleration) : 0.0;
-  return own_speed * own_speed / (2.0 * (clearance + its_way));
-}
-
 }  // namespace ttf::nodes::control

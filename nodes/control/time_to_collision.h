@@ -1,4 +1,4 @@
-// Time to collision of two vehicles in a line, and the braking that avoids it.
+// Time to collision of two vehicles in a line.
 #pragma once
 
 namespace ttf::nodes::control {
@@ -14,9 +14,5 @@ struct InLine {
 // Returns the first instant [s] without clearance for constant accelerations; infinite if there is none. A vehicle that brakes
 // stops, and stays there.
 double time_to_collision(double clearance, const InLine& own, const InLine& ahead);
-
-// Returns the least constant deceleration [m/s^2] with which the own vehicle does not touch the one ahead. The latter keeps its
-// acceleration, and stops if it is negative. 0 if no braking is needed, infinite without clearance.
-double needed_deceleration(double clearance, double own_speed, const InLine& ahead);
 
 }  // namespace ttf::nodes::control

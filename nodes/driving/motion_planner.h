@@ -12,12 +12,29 @@
 #include "core/strict_yaml.h"
 #include "nodes/control/gap_planner.h"
 #include "nodes/driving/ahead.h"
-#include "nodes/driving/interest.h"
 #include "nodes/driving/own_place.h"
 #include "nodes/driving/plan.h"
 #include "nodes/host/step.h"
+#include "nodes/vision/regions.h"
+#include "recording/records/records.h"
 
 namespace ttf::nodes::driving {
+
+// A camera in the planner's model: its place on the vehicle, and its picture.
+struct Picture {
+  SensorId sensor = kNoSensor;
+  double x = 0.0, y = 0.0, heading = 0.0;  // the mounting [m], [rad]
+  double height_m = 1.3;                   // over ground
+  double focal_px = 1100.0;
+  double half_width_px = 530.0, half_height_px = 400.0;
+};
+
+// The part of a picture in which the next detection is to look for an object.
+struct InterestConfig {
+  double margin_px = 20.0;       // on each side of the box
+  double least_area = 0.6;       // a share of the picture; 0: no least area
+  double object_height_m = 1.5;  // the image does not say it
+};
 
 struct PlannerConfig {
   control::GapPlannerConfig law;

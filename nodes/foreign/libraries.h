@@ -5,11 +5,25 @@
 #include <utility>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/ids.h"
 #include "core/time.h"
+#include "nodes/foreign/call.h"
+#include "nodes/foreign/ttfusion_step.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::nodes::foreign {
+
+// A shared library with a step's four functions (ttfusion_step.h).
+struct Library {
+  decltype(&ttf_step_create) create = nullptr;
+  decltype(&ttf_step_run) run = nullptr;
+  decltype(&ttf_step_destroy) destroy = nullptr;
+};
+
+// Loads the file, which must be a library of this program's version. A process loads it once, and keeps it until its own
+// end: threads and exit handlers of the library may outlive its steps. `place` names the task. Throws InputError.
+Library load_library(const std::string& path, const Finding& place, const CallTerms& terms);
 
 struct StepFolder {
   static constexpr Duration kUsualLimit = Duration::milliseconds(10'000);

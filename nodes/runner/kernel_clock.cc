@@ -24,6 +24,33 @@ constexpr std::size_t kMostWatched =
 
 }  // namespace
 
+Floor::Floor(Duration period, bus::ports::MachineTime first) : thread_([this, period, first] { run(period, first); }) {}
+
+Floor::~Floor() {
+  stopped_ = true;
+  thread_.join();
+}
+
+recording::records::BinnedDurations Floor::lateness() const {
+  const std::lock_guard lock(mutex_);
+  return lateness_;
+}
+
+void Floor::run(Duration period, bus::ports::MachineTime first) {
+  for (bus::ports::MachineTime next = first; !stopped_; next += period) {
+    const timespec until{.tv_sec = next.ns / kSecond, .tv_nsec = next.ns % kSecond};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
+    }
+    const bus::ports::MachineTime now = bus::ports::host_now();
+    {
+      const std::lock_guard lock(mutex_);
+      lateness_.add(now - next);
+    }
+    // Several periods slept through are one late wake-up.
+    while (next + period <= now) next += period;
+  }
+}
+
 KernelClock::KernelClock(const DriveClock& drive)
     : floor_(kFloorPeriod, drive.next_turn(kFloorPeriod, kFloorPhase, bus::ports::host_now())),
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK)) {

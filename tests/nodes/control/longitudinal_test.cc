@@ -202,23 +202,5 @@ TEST(TimeToCollision, AcceleratedVehiclesThatStop) {
   }
 }
 
-TEST(TimeToCollision, NeededDecelerationJustAvoidsIt) {
-  EXPECT_DOUBLE_EQ(needed_deceleration(20.0, 10.0, {0.0, 0.0}), 2.5);
-  EXPECT_DOUBLE_EQ(needed_deceleration(20.0, 30.0, {20.0, 0.0}), 2.5);
-  EXPECT_DOUBLE_EQ(needed_deceleration(20.0, 20.0, {20.0, 0.0}), 0.0);
-  EXPECT_DOUBLE_EQ(needed_deceleration(20.0, 20.0, {25.0, 1.0}), 0.0);
-  EXPECT_EQ(needed_deceleration(0.0, 20.0, {25.0, 1.0}), kNever);
-  const struct {
-    double clearance, speed;
-    InLine ahead;
-  } cases[] = {
-      {40.0, 29.0, {29.0, -8.0}}, {10.0, 20.0, {25.0, -3.0}}, {10.0, 20.0, {12.0, -1.0}}, {5.0, 9.0, {6.0, 0.5}}};
-  for (const auto& [clearance, speed, ahead] : cases) {
-    const double needed = needed_deceleration(clearance, speed, ahead);
-    EXPECT_EQ(time_to_collision(clearance, {speed, -1.001 * needed}, ahead), kNever) << clearance;
-    EXPECT_LT(time_to_collision(clearance, {speed, -0.999 * needed}, ahead), kNever) << clearance;
-  }
-}
-
 }  // namespace
 }  // namespace ttf::nodes::control
