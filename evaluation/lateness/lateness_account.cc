@@ -1,6 +1,8 @@
 #include "evaluation/lateness/lateness_account.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <utility>
@@ -9,6 +11,21 @@
 
 namespace ttf::evaluation::lateness {
 namespace {
+
+using recording::records::MediumCounts;
+
+constexpr std::array<std::uint64_t MediumCounts::*, 7> kCounts{
+    &MediumCounts::sent,    &MediumCounts::received,  &MediumCounts::not_sent, &MediumCounts::lost,
+    &MediumCounts::foreign, &MediumCounts::malformed, &MediumCounts::dropped};
+
+bool is_of_another_process(const MediumCounts& newer, const MediumCounts& older) {
+  return newer.stamp.local < older.stamp.local ||
+         std::any_of(kCounts.begin(), kCounts.end(), [&](const auto count) { return newer.*count < older.*count; });
+}
+
+void add(MediumCounts& sum, const MediumCounts& more) {
+  for (const auto count : kCounts) sum.*count += more.*count;
+}
 
 std::uint64_t* counter_of(NodeTiming& timing, recording::records::TimingFault what) {
   using recording::records::TimingFault;
@@ -29,6 +46,21 @@ std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t
 }
 
 }  // namespace
+
+void MediumSums::on(const MediumCounts& record) {
+  Reported& reported = reported_.try_emplace(record.stamp.node, Reported{{}, record}).first->second;
+  if (is_of_another_process(record, reported.newest)) add(reported.before, reported.newest);
+  reported.newest = record;
+}
+
+std::map<NodeId, MediumCounts> MediumSums::nodes() const {
+  std::map<NodeId, MediumCounts> nodes;
+  for (const auto& [node, reported] : reported_) {
+    MediumCounts& sum = nodes[node] = reported.newest;
+    add(sum, reported.before);
+  }
+  return nodes;
+}
 
 RealTimeDrive real_time_drive(const recording::merge::MergedLogs& logs) {
   RealTimeDrive drive;
