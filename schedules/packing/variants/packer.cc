@@ -2,20 +2,76 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "core/check.h"
+#include "schedules/packing/first_fit.h"
+#include "schedules/packing/instance.h"
 #include "schedules/packing/lower_bound.h"
 #include "schedules/packing/variants/candidates.h"
 #include "schedules/packing/variants/columns.h"
 #include "schedules/packing/variants/lower_bound.h"
 #include "schedules/packing/variants/pieces.h"
 #include "schedules/packing/variants/projection.h"
-#include "schedules/packing/variants/standing_columns.h"
 
 namespace ttf::schedules::packing::variants {
 namespace {
+
+// The columns of places that stand, and their owners in each variant.
+class StandingColumns {
+ public:
+  // `fixed` is empty, or has an entry for each signal. Both must outlive the object.
+  StandingColumns(const Instance& instance, const Places& fixed) : instance_(instance), fixed_(fixed) {
+    for (std::size_t signal = 0; signal < fixed.size(); ++signal) {
+      if (!fixed[signal]) continue;
+      const Signal& of = instance.signals[signal];
+      count_ = std::max(count_, fixed[signal]->bin + 1);
+      owned_[fixed[signal]->bin][instance.shared_slots ? 0 : of.node] |= of.variants & instance.all_variants();
+    }
+  }
+
+  int count() const { return count_; }
+
+  // Returns the places of these signals that stand, in bins of their own, and adds the columns of the bins to
+  // `columns`. The signals are those of the node; where slots are shared, they are all signals and the node is 0. A bin
+  // is blocked in the variants of other owners. The owner of the lowest number also has the variants without an owner.
+  Packed bins_of(const Order& signals, int node, std::vector<int>& columns) const {
+    Places places(instance_.signals.size());
+    std::map<int, int> bin_of;  // by column
+    for (const auto& [column, owners] : owned_)
+      if (owners.contains(node)) {
+        bin_of.emplace(column, static_cast<int>(columns.size()));
+        columns.push_back(column);
+      }
+    for (const std::size_t signal : signals)
+      if (signal < fixed_.size() && fixed_[signal]) {
+        places[signal] = fixed_[signal];
+        places[signal]->bin = bin_of.at(fixed_[signal]->bin);
+      }
+    Packed packed = with_fixed(instance_, places);
+    for (const auto& [column, bin] : bin_of)
+      packed.bins[static_cast<std::size_t>(bin)].block(blocked(owned_.at(column), node));
+    return packed;
+  }
+
+ private:
+  using Owners = std::map<int, VariantSet>;  // the variants of each node
+
+  VariantSet blocked(const Owners& owners, int node) const {
+    VariantSet others = 0;
+    for (const auto& [owner, variants] : owners)
+      if (owner != node) others |= variants;
+    return owners.begin()->first == node ? others : instance_.all_variants() & ~owners.at(node);
+  }
+
+  const Instance& instance_;
+  const Places& fixed_;
+  int count_ = 0;
+  std::map<int, Owners> owned_;  // by column
+};
 
 // A part of the signals, with bins of its own: those of one node, or all where slots are shared.
 struct Share {

@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::int64_t kMostSlotInstances = 2'000'000;
 
-void check_slot(const TdmaSlot& slot) {
-  TTF_CHECK(slot.length >= 1 && slot.length <= slot.cycle && slot.cycle <= kLongestArgument,
-            "a slot of {} in a cycle of {}", slot.length, slot.cycle);
-}
-
 Int128 time_of(const TdmaSlot& slot, Int128 work) {
   return work + ceil_of(work, slot.length) * (slot.cycle - slot.length);
 }
@@ -30,16 +25,9 @@ Response slot_bound(const TdmaSlot& slot, const TdmaTask& task) {
 
 }  // namespace
 
-Response tdma_time(const TdmaSlot& slot, std::int64_t work) {
-  check_slot(slot);
-  TTF_CHECK(work >= 0 && work <= kLongestArgument, "work of {}", work);
-  const Int128 time = time_of(slot, work);
-  if (time > kLongestResponse) return {};
-  return {Quality::kExact, static_cast<std::int64_t>(time)};
-}
-
 Response tdma_response(const TdmaSlot& slot, const TdmaTask& task) {
-  check_slot(slot);
+  TTF_CHECK(slot.length >= 1 && slot.length <= slot.cycle && slot.cycle <= kLongestArgument,
+            "a slot of {} in a cycle of {}", slot.length, slot.cycle);
   for (const std::int64_t time : {task.period, task.work, task.jitter})
     TTF_CHECK(time >= 0 && time <= kLongestArgument, "a time of {}", time);
   TTF_CHECK(task.period >= 1 && task.work >= 1, "period {}, work {}", task.period, task.work);

@@ -23,10 +23,6 @@ struct TdmaTask {
   std::int64_t jitter = 0;  // J
 };
 
-// Returns the longest time until `work` is done, for any arrival relative to the slot; unbounded beyond
-// kLongestResponse.
-Response tdma_time(const TdmaSlot& slot, std::int64_t work);
-
 // Exact: the task has its slot alone and any phase. Unbounded if C / T > s / L.
 Response tdma_response(const TdmaSlot& slot, const TdmaTask& task);
 

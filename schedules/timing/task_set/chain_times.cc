@@ -4,15 +4,61 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "core/int128.h"
+#include "core/time.h"
 #include "schedules/timing/chain/stage.h"
 #include "schedules/timing/chain/timetable.h"
-#include "schedules/timing/task_set/simulated_jobs.h"
+#include "schedules/timing/response/simulation.h"
 
 namespace ttf::schedules::timing::task_set {
 namespace {
+
+// The earliest start and the latest end of all jobs of a processor with preemptive fixed priorities, where all offsets
+// are known: the jobs of a hyperperiod, simulated with best and with worst cases (schedules/timing/response/simulation.h).
+struct PeriodicTask {
+  Duration period{}, offset{};
+  Duration best{}, worst{};
+};
+
+struct SimulatedJobs {
+  Duration hyperperiod{};
+  std::vector<std::vector<chain::Job>> jobs;  // for each task those of one hyperperiod
+};
+
+constexpr std::int64_t kMostSimulated = 400'000;  // jobs in two hyperperiods
+
+std::vector<response::PeriodicWork> as_works(std::span<const PeriodicTask> tasks, Duration PeriodicTask::*work) {
+  std::vector<response::PeriodicWork> works;
+  for (const PeriodicTask& task : tasks)
+    works.push_back({.period = task.period.ns, .offset = task.offset.ns, .work = (task.*work).ns});
+  return works;
+}
+
+// Takes the tasks by priority, the highest first. Returns none if the load exceeds one, the jobs exceed kMostSimulated
+// or the hyperperiod exceeds a quarter of chain::kLongest.
+std::optional<SimulatedJobs> simulated_jobs(std::span<const PeriodicTask> by_priority) {
+  const auto at_worst = as_works(by_priority, &PeriodicTask::worst);
+  // The last ends are less than two hyperperiods later.
+  const auto hyperperiod = response::simulated_hyperperiod(at_worst, chain::kLongest.ns / 4, kMostSimulated);
+  if (!hyperperiod) return std::nullopt;
+  SimulatedJobs found{.hyperperiod = Duration{*hyperperiod}, .jobs = {}};
+  for (const PeriodicTask& task : by_priority)
+    found.jobs.emplace_back(static_cast<std::size_t>(*hyperperiod / task.period.ns));
+  const auto place = [&](const response::EndedJob& job) -> chain::Job& {
+    return found.jobs[job.task][static_cast<std::size_t>(job.release / by_priority[job.task].period.ns)];
+  };
+  response::simulate_jobs(as_works(by_priority, &PeriodicTask::best), *hyperperiod,
+                          [&](const response::EndedJob& job) { place(job).reads = Duration{job.start}; });
+  response::simulate_jobs(at_worst, *hyperperiod,
+                          [&](const response::EndedJob& job) { place(job).writes = Duration{job.end}; });
+  return found;
+}
 
 constexpr Duration kLongestSum{chain::kLongest.ns / 2};  // offsets and periods come on top of the responses
 

@@ -5,7 +5,7 @@
 //                   worst whatever others do
 //   implicit        reads at its start, which is not before its release, and writes within its response. On a
 //                   preemptive processor whose tasks all have offsets and no jitter, all jobs of a hyperperiod are
-//                   known (simulated_jobs.h): exact if best and worst cases are equal, bounds otherwise
+//                   known: exact if best and worst cases are equal, bounds otherwise
 //   message         takes its value at its release, as it is queued
 //   activated       ends its response behind its earliest release, which its activator's shortest time precedes
 //

@@ -25,10 +25,9 @@ std::int64_t ticked_response(const TdmaSlot& slot, const TdmaTask& task, std::in
 //
 //   arrival just behind a slot  ...|.......===|.......=  4 + 2 * 7 = 18
 TEST(TdmaSlots, WorkNeedsWholeCycles) {
-  EXPECT_EQ(tdma_time({3, 10}, 4), (Response{Quality::kExact, 18}));
-  EXPECT_EQ(tdma_time({3, 10}, 3), (Response{Quality::kExact, 10}));
-  EXPECT_EQ(tdma_time({10, 10}, 7), (Response{Quality::kExact, 7})) << "the slot is the cycle";
-  EXPECT_EQ(tdma_time({1, kLongestArgument}, kLongestArgument), Response{});
+  EXPECT_EQ(tdma_response({3, 10}, {1'000, 4, 0}), (Response{Quality::kExact, 18}));
+  EXPECT_EQ(tdma_response({3, 10}, {1'000, 3, 0}), (Response{Quality::kExact, 10}));
+  EXPECT_EQ(tdma_response({10, 10}, {1'000, 7, 0}), (Response{Quality::kExact, 7})) << "the slot is the cycle";
 }
 
 TEST(TdmaSlots, AllPhasesOfSmallNumbers) {
