@@ -1,4 +1,4 @@
-// A control loop of blocks, for expected_cost.h: continuous plants, and discrete systems that hold their outputs.
+// A control loop of blocks: continuous plants, and discrete systems that hold their outputs.
 //
 //   plant      x' = a x + b (u + w),  y = c x;   w: independent white noises of one density at all inputs
 //   discrete   when executed: x+ = a x + b (u + n),  y+ = c x + d (u + n);   between: x and y are held
@@ -6,13 +6,13 @@
 // time. A discrete block reads them when it is executed, with the measurement noise n of each plant. A sampler is a discrete
 // block without state, with d = 1. So is an actuator.
 //
-// Times are in the unit of Timing::grain. A noise's density is its variance per unit of time.
+// All times are in one unit. A noise's density is its variance per unit of time.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "experiments/cost/expected_cost.h"
+#include "experiments/cost/flow.h"
 
 namespace ttf::experiments::cost {
 
@@ -24,6 +24,11 @@ struct StateSpace {
 StateSpace gains(const std::vector<double>& of_inputs);
 
 using Block = std::size_t;
+
+// An execution of blocks: x+ = e x + v, E v v' = noise.
+struct Jump {
+  Eigen::MatrixXd e, noise;
+};
 
 class ControlLoop {
  public:

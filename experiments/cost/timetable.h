@@ -1,13 +1,13 @@
 // The expected quadratic cost of a control loop whose stages are executed at known instants.
 //
-// No delay is random. A round has jumps at instants (expected_cost.h has the words). Between them the state flows. So a
+// No delay is random. A round has jumps at instants. Between them the state flows. So a
 // round maps the second moment by M -> A M A' + R. The sum of A^k R A'^k is stationary. Doubling the number of rounds
 // finds it (Smith: "Matrix equation XA + BX = C", SIAM Journal on Applied Mathematics 16, 1968).
 #pragma once
 
 #include <vector>
 
-#include "experiments/cost/expected_cost.h"
+#include "experiments/cost/control_loop.h"
 #include "experiments/cost/flow.h"
 
 namespace ttf::experiments::cost {

@@ -2,16 +2,54 @@
 
 #include <fmt/format.h>
 
+#include "bus/poc/reason.h"
 #include "core/counted.h"
 #include "evaluation/faults/checks.h"
 #include "experiments/campaign/flexray/draw.h"
-#include "experiments/campaign/flexray/story_in_words.h"
 #include "experiments/campaign/flexray/trial.h"
+#include "experiments/campaign/flexray/trial_story.h"
+#include "experiments/campaign/judged.h"
+#include "experiments/campaign/outcome.h"
+#include "recording/records/enumerations.h"
 #include "schedules/check/checker.h"
+#include "schedules/model/cluster.h"
 #include "sim/drives/drive.h"
 
 namespace ttf::experiments::campaign::flexray {
 namespace {
+
+// Tells the events of a FlexRay trial in words: the fault's acts, the guardians' interventions, the nodes' changes of
+// state with their causes, and the checks.
+class StoryInWords final : public TrialStory {
+ public:
+  StoryInWords(const schedules::model::Cluster& cluster, Story& story) : cluster_(cluster), story_(story) {}
+
+  void state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step, TrueTime at) override {
+    const std::string_view consequence = to_text(step.consequence);
+    story_.say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, to_text(from), to_text(step.next.kind),
+                               to_text(step.reason), consequence.empty() ? "" : "; ", consequence));
+  }
+  void fault_acts(const recording::records::FaultActivity& activity) override {
+    story_.say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text),
+               activity.what == recording::records::FaultAct::kActs ? Story::Of::kFault : Story::Of::kOthers);
+  }
+  void guardian_intervened(const sim::medium::StarCoupler::Intervention& intervention) override {
+    const bool cut = intervention.reason == bus::guardian::GuardianReason::kForwarded;
+    story_.say(intervention.at,
+               fmt::format("guardian of {} {} {} of {}{}{}", letter(intervention.channel), cut ? "cuts off" : "blocks",
+                           to_text(intervention.signal),
+                           intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
+                           cut ? "" : ": ", cut ? "" : bus::guardian::to_text(intervention.reason)),
+               Story::Of::kGuardians);
+  }
+  void judged(const evaluation::faults::Judgement& judgement) override {
+    tell(judgement, evaluation::faults::kAllChecks, story_);
+  }
+
+ private:
+  const schedules::model::Cluster& cluster_;
+  Story& story_;
+};
 
 using evaluation::faults::Check;
 using schedules::model::Channels;

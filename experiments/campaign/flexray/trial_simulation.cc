@@ -1,14 +1,90 @@
 #include "experiments/campaign/flexray/trial_simulation.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "experiments/campaign/flexray/trial_draws.h"
-#include "experiments/campaign/flexray/trial_host.h"
+#include "bus/controller/controller.h"
+#include "core/ids.h"
+#include "core/random.h"
+#include "core/time.h"
+#include "experiments/campaign/full_list.h"
+#include "schedules/model/cluster.h"
+#include "sim/engine/bus_simulation.h"
 #include "sim/engine/clock_spread.h"
+#include "sim/medium/star_coupler.h"
+#include "timebase/oscillator.h"
 
 namespace ttf::experiments::campaign::flexray {
 namespace {
+
+constexpr int kCyclesToPowerOn = 2;  // all nodes, in a start-up
+constexpr std::int64_t kGuardianDriftPpb = 1'500'000, kIdleMicrotick_ps = 25'000;
+
+// Draws a trial's cluster: the clocks of nodes and guardians, and the instants of power-on. A pure function of
+// the campaign's seed and the trial's index.
+class TrialDraws {
+ public:
+  TrialDraws(std::uint64_t seed, std::uint32_t index, const schedules::model::Cluster& cluster)
+      : seed_(seed), index_(index), cluster_(cluster) {}
+
+  // Nodes by NodeId: powered on within some cycles, or integrated in a cluster whose cycle 0 starts at
+  // `origin`.
+  std::vector<sim::engine::BusNode> starting() const {
+    std::vector<sim::engine::BusNode> nodes;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
+      const std::int64_t latest = cluster_.cycle().ns * kCyclesToPowerOn;
+      nodes.push_back(node(n));
+      nodes.back().power_on = TrueTime{stream(Purpose::kCampaign, n + 1).integer(0, latest)};
+    }
+    return nodes;
+  }
+  // The rate correction cancels the drift to a microtick per cycle, as after start-up.
+  std::vector<sim::engine::BusNode> integrated(TrueTime origin) const {
+    std::vector<sim::engine::BusNode> nodes;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
+      sim::engine::BusNode& made = nodes.emplace_back(node(n));
+      const Microticks begins = made.oscillator.ticks_at(origin);
+      const std::int64_t thousand = (made.oscillator.ticks_at(origin + cluster_.cycle() * 1000) - begins).value;
+      made.clock = {begins + Microticks{1},
+                    static_cast<int>((thousand + 500) / 1000 - cluster_.nodes[n].flexray->pMicroPerCycle)};
+    }
+    return nodes;
+  }
+  std::vector<timebase::Oscillator> guardians() const {  // by channel
+    std::vector<timebase::Oscillator> guardians;
+    for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
+      const bool needed = sim::medium::StarCoupler::needed(cluster_, channel);
+      guardians.push_back(
+          oscillator(cluster_.nodes.size() + index_of(channel),
+                     needed ? sim::medium::StarCoupler::microtick_ps(cluster_, channel) : kIdleMicrotick_ps,
+                     std::nullopt, kGuardianDriftPpb));
+    }
+    return guardians;
+  }
+
+ private:
+  RandomStream stream(Purpose purpose, std::size_t entity) const {
+    return RandomStream({seed_, index_, purpose, static_cast<std::uint16_t>(entity), 0});
+  }
+  timebase::Oscillator oscillator(std::size_t entity, std::int64_t microtick_ps, std::optional<std::int64_t> fixed_ppb,
+                                  std::int64_t most_ppb) const {
+    RandomStream draw = stream(Purpose::kClockDrift, entity);
+    const std::int64_t ppb = draw.integer(-most_ppb, most_ppb);
+    return {microtick_ps, fixed_ppb.value_or(ppb), draw.integer(0, microtick_ps - 1)};
+  }
+  sim::engine::BusNode node(std::size_t n) const {
+    const schedules::model::Node& node = cluster_.nodes[n];
+    return {oscillator(n, node.microtick_ps, node.drift_ppb, node.max_drift_ppb)};
+  }
+
+  std::uint64_t seed_;
+  std::uint32_t index_;
+  const schedules::model::Cluster& cluster_;
+};
 
 using bus::poc::PocKind;
 using schedules::model::Channel;
@@ -23,6 +99,38 @@ faults::FaultPlan plan_of(const CampaignFile& campaign, const std::optional<faul
 }
 
 }  // namespace
+
+// The host of one node in a trial: writes its lists and its network management vector anew in every cycle, so
+// that all frames differ.
+class TrialHost {
+ public:
+  TrialHost(const schedules::model::Cluster& cluster, NodeId node) : cluster_(cluster), node_(node) {
+    for (const schedules::model::FrameSlot& frame : cluster.frames)
+      if (frame.sender == node && frame.pdu != kNoPdu &&
+          std::find(pdus_.begin(), pdus_.end(), frame.pdu) == pdus_.end())
+        pdus_.push_back(frame.pdu);
+    vector_.resize(static_cast<std::size_t>(cluster.flexray.gNetworkManagementVectorLength));
+  }
+  void write(bus::controller::FlexRayController& controller, std::int64_t cycle) {
+    for (const PduId pdu : pdus_) write_list(controller, pdu, cycle);
+    if (!vector_.empty()) write_vector(controller, cycle);
+  }
+
+ private:
+  void write_list(bus::controller::FlexRayController& controller, PduId pdu, std::int64_t cycle) {
+    controller.outgoing(pdu).write(full_list(cluster_.pdu(pdu), static_cast<std::uint32_t>(cycle), list_));
+  }
+  void write_vector(bus::controller::FlexRayController& controller, std::int64_t cycle) {
+    vector_.front() = static_cast<std::byte>(index_of(node_) + 1);
+    vector_.back() = static_cast<std::byte>(cycle & 0xff);
+    controller.set_network_management_vector(vector_);
+  }
+
+  const schedules::model::Cluster& cluster_;
+  NodeId node_;
+  std::vector<PduId> pdus_;
+  std::vector<std::byte> list_, vector_;
+};
 
 TrueTime trial_origin(bool starts_up) { return starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle; }
 

@@ -1,23 +1,175 @@
 #include "experiments/sweep/answers/answer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "core/counted.h"
 #include "evaluation/measures/measure.h"
+#include "experiments/results/equivalence.h"
 #include "experiments/results/multiplicity.h"
-#include "experiments/sweep/answers/expectations.h"
-#include "experiments/sweep/answers/interactions.h"
+#include "experiments/results/ratio.h"
+#include "experiments/results/store.h"
+#include "experiments/sweep/answers/figures.h"
 #include "experiments/sweep/answers/point_drives.h"
 
 namespace ttf::experiments::sweep::answers {
 namespace {
 
 using evaluation::measures::find_measure;
-
 using results::Interval;
 using results::Moments;
+using results::Quadruple;
 using results::Row;
+
+std::size_t index_of(const SweepFile& sweep, const std::string& paradigm) {
+  const auto found = std::find_if(sweep.paradigms.begin(), sweep.paradigms.end(),
+                                  [&](const Paradigm& one) { return one.name == paradigm; });
+  return static_cast<std::size_t>(found - sweep.paradigms.begin());
+}
+
+std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
+  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
+  return static_cast<std::size_t>(found - sweep.measures.begin());
+}
+
+// The outcome at one point, with the reason unless the expectation holds.
+struct Verdict {
+  Outcome outcome = Outcome::kHolds;
+  std::string why = {};
+};
+
+std::string with_unit(const std::string& text, const Expectation& expectation) {
+  const std::string_view unit = find_measure(expectation.measure)->unit;
+  return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+Verdict undecided(const std::string& why) { return {Outcome::kCannotTell, "cannot tell: " + why}; }
+
+// Compares the two measures drive by drive.
+Verdict agree(const SweepFile& sweep, const Expectation& expectation, const PointDrives& drives) {
+  const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
+  results::EquivalenceTest test(expectation.margin);
+  for (const Row* row : drives.of(index_of(sweep, expectation.less)))
+    test.add(drives.value(*row, one), drives.value(*row, other));
+  const results::Agreement agreement = test.agreement(sweep.confidence);
+  if (agreement == results::Agreement::kWithin) return {};
+  const Interval difference = interval_of(test.difference(), sweep.confidence);
+  if (difference.count < 2)
+    return undecided(fmt::format("{} with both measures; more replications", counted(difference.count, "drive")));
+  const std::string interval = interval_text(difference, true);
+  const std::string margin = with_unit(fmt::format("{:.2g}", test.margin()), expectation);
+  if (agreement == results::Agreement::kBeyond)
+    return {Outcome::kFails, fmt::format("differs by {}, beyond the margin of {}", interval, margin)};
+  const bool wide = difference.half_width > test.margin();
+  return undecided(fmt::format("the interval {} is {} the margin of {}; more replications", interval,
+                               wide ? "wider than" : "on both sides of", margin));
+}
+
+Verdict less(const SweepFile& sweep, const Expectation& expectation, const PointDrives& drives) {
+  const std::size_t m = measure_index(sweep, expectation.measure);
+  Moments differences;
+  for_each_pair(
+      drives.of(index_of(sweep, expectation.less)), drives.of(index_of(sweep, expectation.than)),
+      [&](const Row& one, const Row& other) { differences.add(drives.value(one, m) - drives.value(other, m)); });
+  const Interval difference = difference_interval(sweep, m, differences);
+  if (difference.below(0.0)) return {};
+  if (difference.count < 2)
+    return undecided(fmt::format("{} of both paradigms; more replications", counted(difference.count, "pair")));
+  const std::string text = with_unit(interval_text(difference, true), expectation);
+  return difference.above(0.0) ? Verdict{Outcome::kFails, "it is more, by " + text}
+                               : undecided(fmt::format("the difference is {}; more replications", text));
+}
+
+ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, const results::Store& store) {
+  ExpectationAnswer answer{expectation.text, Outcome::kHolds, {}};
+  const std::vector<const Axis*> grid = sweep.grid();
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    const std::vector<const Setting*> settings = sweep.settings_of(point);
+    bool meant = true;
+    for (std::size_t a = 0; a < grid.size(); ++a)
+      if (const auto label = expectation.where.find(grid[a]->name); label != expectation.where.end())
+        meant = meant && label->second == settings[a]->label;
+    if (!meant) continue;
+    const PointDrives drives(sweep, store.of_point(point));
+    Verdict verdict = expectation.agrees.empty() ? less(sweep, expectation, drives) : agree(sweep, expectation, drives);
+    if (verdict.outcome == Outcome::kHolds) continue;
+    if (answer.outcome != Outcome::kFails) answer.outcome = verdict.outcome;
+    answer.unmet.push_back({sweep.label_of(point), std::move(verdict.why)});
+  }
+  return answer;
+}
+
+// The same replication of both paradigms before and after. A replication without all four values is left out.
+std::vector<Quadruple> values_of(const Interaction& of, const PointDrives& before, const PointDrives& after) {
+  std::vector<Quadruple> values;
+  const auto add = [&](double first_before, double first_after, double second_before, double second_after) {
+    if (std::isfinite(first_before) && std::isfinite(first_after) && std::isfinite(second_before) &&
+        std::isfinite(second_after))
+      values.push_back({first_before, first_after, second_before, second_after});
+  };
+  std::vector<const results::Row*> firsts, seconds;  // before; of replications that are there after, too
+  std::vector<double> first_after, second_after;
+  for_each_pair(before.of(of.first), after.of(of.first), [&](const results::Row& one, const results::Row& other) {
+    firsts.push_back(&one);
+    first_after.push_back(after.value(other, of.measure));
+  });
+  for_each_pair(before.of(of.second), after.of(of.second), [&](const results::Row& one, const results::Row& other) {
+    seconds.push_back(&one);
+    second_after.push_back(after.value(other, of.measure));
+  });
+  for (std::size_t f = 0, s = 0; f < firsts.size() && s < seconds.size();) {
+    const std::uint32_t first = firsts[f]->key.replication, second = seconds[s]->key.replication;
+    if (first == second)
+      add(before.value(*firsts[f], of.measure), first_after[f], before.value(*seconds[s], of.measure), second_after[s]);
+    f += first <= second;
+    s += second <= first;
+  }
+  return values;
+}
+
+// The change of one paradigm; as pairs of the value after and the value before.
+Change change_of(const Interaction& of, const std::vector<Quadruple>& values, bool first, double confidence) {
+  std::vector<std::pair<double, double>> pairs;
+  Moments differences;
+  for (const Quadruple& one : values) {
+    pairs.emplace_back(first ? one.first_after : one.second_after, first ? one.first_before : one.second_before);
+    differences.add(pairs.back().first - pairs.back().second);
+  }
+  Change change{interval_of(differences, confidence), {}};
+  if (of.scale == Scale::kRatio) change.ratio = results::ratio_of(pairs, confidence);
+  return change;
+}
+
+// Answers each interaction of the file, once for all values of the other axes. All of them are one family.
+std::vector<InteractionAnswer> interactions_of(const SweepFile& sweep, const results::Store& store) {
+  std::vector<InteractionAnswer> answers;
+  std::vector<results::Interval> all;
+  for (const Interaction& of : sweep.interactions) {
+    InteractionAnswer& answer = answers.emplace_back();
+    for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+      if (sweep.moved(point, of.axis, of.before) != point) continue;
+      const PointDrives before(sweep, store.of_point(point));
+      const PointDrives after(sweep, store.of_point(sweep.moved(point, of.axis, of.after)));
+      const std::vector<Quadruple> values = values_of(of, before, after);
+      InteractionPoint& here = answer.points.emplace_back();
+      here.point = point;
+      here.first = change_of(of, values, true, sweep.confidence);
+      here.second = change_of(of, values, false, sweep.confidence);
+      here.interaction = of.scale == Scale::kRatio ? results::log_ratio_of_ratios(values, sweep.confidence)
+                                                   : results::difference_of_differences(values, sweep.confidence);
+      all.push_back(here.interaction);
+    }
+  }
+  const results::Family family = results::family_of(all, sweep.confidence);
+  auto stays = family.stays.begin();
+  for (InteractionAnswer& answer : answers)
+    for (InteractionPoint& here : answer.points) here.stays = *stays++;
+  return answers;
+}
 
 // One measure of a paradigm minus that of its reference, and its ratio to it if that has a meaning.
 void compare(const SweepFile& sweep, std::size_t measure, const PointDrives& drives, std::size_t paradigm,

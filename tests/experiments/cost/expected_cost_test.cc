@@ -1,6 +1,4 @@
 // The expected cost of control loops. Oracles are closed forms, published values and a sampled loop.
-#include "experiments/cost/expected_cost.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +10,7 @@
 
 #include "core/file_bytes.h"
 #include "core/random.h"
+#include "tests/experiments/cost/expected_cost.h"
 #include "tests/experiments/cost/loops.h"
 
 namespace ttf::experiments::cost {

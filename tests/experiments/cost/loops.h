@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/cost/control_loop.h"
+#include "tests/experiments/cost/expected_cost.h"
 
 namespace ttf::experiments::cost {
 

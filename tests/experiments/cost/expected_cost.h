@@ -2,8 +2,7 @@
 //
 // A period of `grains` steps begins with stage 0. Each stage runs a random number of grains after the one before, independent of
 // the state. A stage that would come after the end of the period, or never, is left out in it, and so are those behind it.
-// Between stages the state flows (flow.h). In a stage it jumps: x+ = e x + v, E v v' = noise. Stages are samplers, controllers
-// and actuators. The loop says which states a jump sets (control_loop.h).
+// Between stages the state flows (flow.h). In a stage it jumps (control_loop.h). Stages are samplers, controllers and actuators.
 //
 // The second moment M = E x x' after stage 0 goes through the period linearly: M+ = L(M) + R. L is the mean over the delays. The
 // loop is mean square stable if the spectral radius of L is below 1. Then M = L(M) + R has one solution. The cost per unit of
@@ -16,6 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "experiments/cost/control_loop.h"
 #include "experiments/cost/flow.h"
 
 namespace ttf::experiments::cost {
@@ -26,10 +26,6 @@ Delays constant_delay(int grains);
 Delays uniform_delay(int least, int most);  // [grains], both included
 // The next stage is left out with the probability `loss`.
 Delays with_loss(Delays delays, double loss);
-
-struct Jump {
-  Eigen::MatrixXd e, noise;
-};
 
 struct Stage {
   // By the grains since the beginning of the period. The last one holds for later grains, too. So a controller may know the

@@ -1,4 +1,4 @@
-#include "experiments/cost/expected_cost.h"
+#include "tests/experiments/cost/expected_cost.h"
 
 #include <Eigen/LU>
 #include <algorithm>
