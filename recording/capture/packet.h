@@ -74,7 +74,6 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data);
 void put_can_packet(std::string& out, std::uint32_t identifier, bool flexible_data_rate,
                     std::span<const std::byte> data);
 
-inline constexpr std::size_t kCanPacketHeader = 8;
 inline constexpr std::size_t kMaxCanData = 64;
 inline constexpr std::uint32_t kLargestBaseIdentifier = 0x7ff;
 inline constexpr std::uint32_t kExtendedIdentifier = 0x80000000u;

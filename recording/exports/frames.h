@@ -22,7 +22,7 @@ struct LoggedFrame {
   std::int64_t cycle = 0;           // running; FlexRay only
   bool null_frame = false;          // FlexRay only
   bool flexible_data_rate = false;  // CAN only
-  bool can_error = false;           // CAN: an error frame, or a controller's new state (can_error_bytes.h)
+  bool can_error = false;           // CAN: an error frame, or a controller's new state
   NodeId sender{};
   PduId pdu = kNoPdu;
   SensorId sensor = kNoSensor;  // with `sequence`, the measurement that the frame carries

@@ -44,6 +44,19 @@ const char* status_of(const records::ImageObject& object) {
 
 }  // namespace
 
+void Shown::replace_by(::foxglove::SceneUpdate& update, TrueTime at) {
+  std::set<std::string> now;
+  for (const ::foxglove::SceneEntity& entity : update.entities()) now.insert(entity.id());
+  for (const std::string& id : ids_) {
+    if (now.contains(id)) continue;
+    ::foxglove::SceneEntityDeletion& gone = *update.add_deletions();
+    set_stamp(*gone.mutable_timestamp(), at);
+    gone.set_type(::foxglove::SceneEntityDeletion::MATCHING_ID);
+    gone.set_id(id);
+  }
+  ids_ = std::move(now);
+}
+
 FoxgloveExport::FoxgloveExport(const std::string& path, std::vector<scene::ViewedSensor> sensors)
     : sensors_(std::move(sensors)), file_(path) {
   const google::protobuf::Descriptor& update = *::foxglove::SceneUpdate::descriptor();

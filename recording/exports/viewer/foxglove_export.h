@@ -18,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,12 +26,25 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "recording/exports/viewer/message_file.h"
-#include "recording/exports/viewer/shown.h"
 #include "recording/records/records.h"
 #include "recording/scene/moments.h"
 #include "recording/scene/viewed.h"
 
+namespace foxglove {
+class SceneUpdate;
+}  // namespace foxglove
+
 namespace ttf::recording::exports::viewer {
+
+// The entities that a topic of a scene shows.
+class Shown {
+ public:
+  // Deletes the topic's entities that `update` no longer has.
+  void replace_by(::foxglove::SceneUpdate& update, TrueTime at);
+
+ private:
+  std::set<std::string> ids_;
+};
 
 struct SceneCounts {
   std::uint64_t fields = 0;        // sensors with a known field
