@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/time.h"
 #include "report/drawing/names.h"
@@ -11,6 +12,7 @@
 #include "report/timing/data.h"
 #include "report/timing/lanes.h"
 #include "report/timing/tags.h"
+#include "report/timing/transfers.h"
 #include "report/timing/ways.h"
 
 namespace ttf::report::timing {
@@ -40,5 +42,7 @@ double lane_height(const Lane& lane);
 
 // Draws the arrows of one measurement or one image.
 void draw_way(drawing::Svg& svg, const TimingCanvas& canvas, const Way& way);
+// Draws labels where space is free; called last.
+void draw_labels(drawing::Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers);
 
 }  // namespace ttf::report::timing

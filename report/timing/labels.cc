@@ -1,5 +1,3 @@
-#include "report/timing/labels.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +5,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "report/drawing/axes.h"
+#include "report/drawing/svg.h"
+#include "report/timing/canvas.h"
+#include "report/timing/transfers.h"
 
 namespace ttf::report::timing {
 namespace {

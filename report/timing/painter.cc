@@ -3,15 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "recording/records/enumerations.h"
 #include "report/drawing/axes.h"
+#include "report/drawing/names.h"
 #include "report/timing/canvas.h"
 #include "report/timing/cycles.h"
-#include "report/timing/faults.h"
-#include "report/timing/labels.h"
+#include "report/timing/data.h"
 #include "report/timing/lanes.h"
 #include "report/timing/problems.h"
 #include "report/timing/transfers.h"
@@ -19,6 +22,35 @@
 
 namespace ttf::report::timing {
 namespace {
+
+// A frame that differs on a channel from the sent one, at its place in the drawing: over its own box if it
+// never arrived.
+struct ChannelMark {
+  TrueTime start, end;
+  std::uint8_t channel = 0;
+  bool missing = false;  // no part of it reached a receiver
+  std::string words;
+};
+
+constexpr std::string_view kChangedFrameWords = "frame damaged, displaced or sent by no controller",
+                           kMissingFrameWords = "frame that reached no receiver";
+
+ChannelMark channel_mark(const TimingData::OnChannel& r, const drawing::Names& names) {
+  ChannelMark mark{r.start, r.end, r.channel, has(r.state, recording::records::ChannelState::kNothing), {}};
+  if (mark.missing) {
+    mark.start = r.sent;
+    mark.end = r.sent + std::max(r.end - r.start, Duration{});
+    mark.channel = r.sent_channel;
+  }
+  std::string whose = "sent by no node";
+  if (r.slot != 0)
+    whose = fmt::format("slot {} of {}", r.slot, names.node(r.sender));
+  else if (r.sender != kNoNode)
+    whose = fmt::format("{}, but its controller did not send it", names.node(r.sender));
+  const std::string state = mark.missing ? "it reached no receiver" : to_text(r.state);
+  mark.words = fmt::format("{}: {}", whose, state.empty() ? "sound" : state);
+  return mark;
+}
 
 // Everything needed to draw one picture; lives for one call of svg().
 class TimingPainter : TimingCanvas {
