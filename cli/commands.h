@@ -26,6 +26,8 @@ void add_report(CLI::App& app, Action& action);
 }  // namespace ttf::cli::logs
 namespace ttf::cli::schedule {
 void add_schedule(CLI::App& app, Action& action);
+void add_sequence(CLI::App& schedule, Action& action);    // below `schedule`
+void add_synthesize(CLI::App& schedule, Action& action);  // below `schedule`
 }  // namespace ttf::cli::schedule
 namespace ttf::cli::experiment {
 void add_experiment(CLI::App& app, Action& action);

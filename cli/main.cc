@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 #include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/help_format.h"
 #include "cli/output.h"
 #include "cli/version.h"
 #include "core/errors.h"
@@ -19,6 +22,49 @@ constexpr const char* kAbout =
     "simulated in virtual time, or as processes in real time on SocketCAN or DDS. It also checks\n"
     "schedules, injects faults, draws and reports drives, and compares strategies in experiments.";
 
+constexpr std::size_t kWidest = 100;
+
+// Breaks at blanks; lines of the text stay lines.
+std::string broken(std::string_view text, std::size_t width) {
+  std::string out;
+  std::size_t used = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+    if (used > 0 && used + 1 + end > width) {
+      out += '\n';
+      used = 0;
+    } else if (used > 0) {
+      out += ' ';
+      ++used;
+    }
+    out += text.substr(0, end);
+    used += end;
+    if (end < text.size() && text[end] == '\n') {
+      out += '\n';
+      used = 0;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+// Help for people: descriptions are broken into lines of at most 100 characters. CLI11 prints each on one line.
+class HelpFormat final : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return broken(Formatter::make_option_desc(option), kWidest - get_column_width());
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::stringstream out;
+    CLI::detail::format_help(out, command->get_name(), broken(command->get_description(), kWidest - get_column_width()),
+                             get_column_width());
+    return out.str();
+  }
+  std::string make_description(const CLI::App* command) const override {
+    return broken(Formatter::make_description(command), kWidest);
+  }
+};
+
 int refuse(const ttf::Finding& mistake) {
   fmt::print(stderr, "error: {}\n", mistake.sentence());
   return 2;
@@ -28,7 +74,7 @@ int refuse(const ttf::Finding& mistake) {
 
 int main(int argc, char** argv) {
   CLI::App app{kAbout, "ttfusion"};
-  app.formatter(std::make_shared<ttf::cli::HelpFormat>());  // first: commands inherit it
+  app.formatter(std::make_shared<HelpFormat>());  // first: commands inherit it
   app.require_subcommand(1);
   app.set_version_flag("-V,--version", ttf::cli::version_text());
   ttf::cli::Action action;

@@ -1,9 +1,8 @@
-#include "cli/exports/foxglove.h"
-
 #include <limits>
 #include <utility>
 
 #include "cli/drive_progress.h"
+#include "cli/exports/formats.h"
 #include "cli/exports/told_uses.h"
 #include "cli/logs/viewed_sensors.h"
 #include "core/counted.h"

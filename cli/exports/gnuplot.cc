@@ -1,5 +1,3 @@
-#include "cli/exports/gnuplot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "cli/drive_progress.h"
+#include "cli/exports/formats.h"
 #include "cli/logs/log_inputs.h"
 #include "cli/output.h"
 #include "core/counted.h"

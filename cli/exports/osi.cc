@@ -1,5 +1,3 @@
-#include "cli/exports/osi.h"
-
 #include <fmt/format.h>
 
 #include <exception>
@@ -8,6 +6,7 @@
 #include <system_error>
 
 #include "cli/drive_progress.h"
+#include "cli/exports/formats.h"
 #include "cli/output.h"
 #include "recording/log/writer.h"
 #include "recording/records/tee.h"

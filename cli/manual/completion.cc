@@ -1,9 +1,9 @@
-#include "cli/manual/completion.h"
-
 #include <fmt/format.h>
 
 #include <string_view>
 #include <vector>
+
+#include "cli/manual/outline.h"
 
 namespace ttf::cli::manual {
 namespace {

@@ -1,9 +1,9 @@
-#include "cli/manual/man_page.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
+
+#include "cli/manual/outline.h"
 
 namespace ttf::cli::manual {
 namespace {

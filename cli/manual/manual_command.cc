@@ -5,8 +5,6 @@
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
-#include "cli/manual/completion.h"
-#include "cli/manual/man_page.h"
 #include "cli/manual/outline.h"
 #include "cli/output.h"
 

@@ -29,4 +29,12 @@ CommandOutline outline_of(const CLI::App& app);
 // Returns the command and all commands in it, outermost first.
 std::vector<const CommandOutline*> all_of(const CommandOutline& program);
 
+// Returns the page of the program, or of one of its commands with the commands in it, in the macros of man(7).
+std::string man_page(const CommandOutline& command, const std::string& version);
+
+// Completion of the command line: commands, options, their words, names of shipped files, and files.
+std::string bash_completion(const CommandOutline& program);
+std::string zsh_completion(const CommandOutline& program);
+std::string fish_completion(const CommandOutline& program);
+
 }  // namespace ttf::cli::manual

@@ -1,5 +1,3 @@
-#include "cli/schedule/can_errors_check.h"
-
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -7,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cli/schedule/checks.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 #include "core/time.h"

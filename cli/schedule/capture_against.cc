@@ -1,5 +1,3 @@
-#include "cli/schedule/capture_against.h"
-
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -7,6 +5,7 @@
 
 #include "cli/argument_checks.h"
 #include "cli/output.h"
+#include "cli/schedule/checks.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_kind.h"

@@ -1,5 +1,3 @@
-#include "cli/schedule/medium_check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "bus/socketcan/schedule_on_can.h"
 #include "cli/decimal_option.h"
+#include "cli/schedule/checks.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 #include "schedules/check/real_time_rules.h"

@@ -1,9 +1,8 @@
-#include "cli/schedule/synthesize.h"
-
 #include <memory>
 #include <string>
 
 #include "cli/argument_checks.h"
+#include "cli/commands.h"
 #include "cli/schedule/packing/command.h"
 #include "cli/schedule/planning/command.h"
 #include "core/errors.h"

@@ -1,10 +1,9 @@
-#include "cli/schedule/task_set_check.h"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/schedule/checks.h"
 #include "core/errors.h"
 #include "core/file_kind.h"
 #include "core/time.h"

@@ -7,7 +7,7 @@ namespace ttf::cli::schedule::planning {
 
 struct PlanOutputs {
   std::string cluster;    // the file to write; empty: none
-  std::string trade_off;  // likewise, a picture or a table (trade_off.h)
+  std::string trade_off;  // likewise, a picture or a table
   bool binding = false;   // prints what binds
   bool json = false;
 };
