@@ -57,8 +57,8 @@ struct AxisComparison {
   std::size_t baseline = 0;  // in its settings
 };
 
-// kRatio: a change is a share of the value before, so that two changes are compared by the ratio of their factors.
-// kDifference: a change is a difference in the measure's unit.
+// A change by kRatio is a share of the value before, so that two changes are compared by the ratio of their factors. A change
+// by kDifference is in the measure's unit.
 enum class Scale : std::uint8_t { kRatio, kDifference };
 
 // Whether the change of an axis from one value to another lowers a measure of paradigm `first` more than of `second`.

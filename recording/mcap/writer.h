@@ -3,8 +3,8 @@
 //
 // A chunk closes when it holds kChunkBytes, or when the next message would make it span more than kChunkSpan of
 // log time. It never closes by the machine's clock: the same messages give the same bytes. A closed chunk and
-// its indexes are flushed at once, so a crash loses only the open chunk. close() throws the first
-// write error; no other function throws after construction.
+// its indexes are flushed at once, so a crash loses only the open chunk. After construction, only
+// close() throws: the first write error.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 //
 // Each process of a node set writes a log of its own nodes' records; merged, these are the log of the drive.
 // One log and many logs, in any order, give the same sequence of records, as both go through the merge.
-// recording/merge/record_place.h and docs/reference/log_format.md define the order.
-// recording/merge/common_time.h puts the true times of different machines on one scale.
+// The order is that of recording/merge/record_place.h and docs/reference/log_format.md.
+// The true times of different machines are on one scale (recording/merge/common_time.h).
 //
 // The merge is exact for any order within the logs. Logs have the order of reports, not of true time. A task's
 // execution is reported at its end but stamped with its start; a FlexRay list's hop `sent` is reported when its

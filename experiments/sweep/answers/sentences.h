@@ -7,8 +7,9 @@
 
 namespace ttf::experiments::sweep::answers {
 
-// Returns the answer to the file's question, a line each: its interactions; then for each paradigm, or value of the compared
-// axis, at how many points the first measure is less, more or undecided, by how much, and where that changes for certain.
+// Returns the answer to the file's question, a line each. The interactions come first. Each paradigm, or value of the compared
+// axis, has the numbers of points at which the first measure is less, more or undecided. It also has by how much, and where
+// that changes for certain.
 std::string answer_lines(const SweepFile& sweep, const SweepAnswer& answer);
 // Says how many comparisons, and how many interactions, stay certain together.
 std::string family_lines(const SweepFile& sweep, const SweepAnswer& answer);
