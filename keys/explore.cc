@@ -113,15 +113,14 @@ class Explorer {
 
   // Adds a run for each other answer to a decision that this run is the first to meet.
   void branch(std::size_t index) {
-    const std::vector<Decision> decisions = found_.runs[index].usual().decisions();
-    for (const Decision& decision : decisions) {
-      const Run& run = found_.runs[index];
+    const Run& run = found_.runs[index];
+    for (const Decision& decision : run.usual().decisions()) {
       if (is_number(decision.question.type) || run.answers.contains(decision.name)) continue;
       const bool anew = run.changes_keys && decision.question.map == run.changed->question.map;
       if (run.changed && !anew && has_met(found_.runs[run.parent], decision)) continue;
       for (const KeyValue& answer : other_answers(decision)) {
         Run next;
-        next.answers = found_.runs[index].answers;
+        next.answers = run.answers;
         next.answers[decision.name] = answer;
         next.parent = index;
         next.changed = decision;
@@ -139,7 +138,7 @@ class Explorer {
 
   // Finds the numbers that set other keys' bounds and defaults. Only needed if all numbers together change some.
   void attribute(std::size_t index) {
-    const Run run = found_.runs[index];
+    const Run& run = found_.runs[index];
     bool unexplained = false;
     for (std::size_t r = 1; r < run.readings.size(); ++r)
       for (const auto& [path, map] : run.readings[r].maps())

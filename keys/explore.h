@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -34,7 +35,7 @@ struct Run {
 };
 
 struct Exploration {
-  std::vector<Run> runs;
+  std::deque<Run> runs;  // a run stays where it is while others are added
   // By a key's path, the paths of the keys by which its bounds, or its default, change.
   std::map<std::string, std::set<std::string>> bounds_by, default_by;
 };

@@ -138,7 +138,7 @@ class MappingOutline {
   }
 
   const Exploration& all_;
-  const std::vector<Run>& runs_;
+  const std::deque<Run>& runs_;
   std::map<std::size_t, std::vector<std::size_t>> members_;  // by the run that case_of() says
   Mapping mapping_;
 };

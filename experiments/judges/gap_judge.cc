@@ -1,6 +1,7 @@
 #include "experiments/judges/gap_judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -76,7 +77,7 @@ double GapJudge::bound(const std::vector<Prospect>& prospects, const std::vector
       const Duration least = all ? prospect.least_worst_age : one.least_age;
       const double best = weights[0] * at_age(one.period, least);
       bound = std::max(bound, best);
-      if (bound > enough) break;
+      if (bound > enough || !std::isfinite(bound)) break;
       double before = best;
       for (int step = 1; step <= kSteps; ++step) {
         const double error = weights[0] * at_age(one.period, least + Duration{one.period.ns * step / kSteps});

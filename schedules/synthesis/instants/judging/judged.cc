@@ -98,7 +98,8 @@ class JudgedSearch {
       if (one.bound > least) continue;
       propose(one);
       if (one.impossible) one.bound = kWithoutValue;
-      if (one.proposals.empty()) continue;
+      // Behind an infinite bound each placement is as good as any other.
+      if (one.proposals.empty() || one.bound == kWithoutValue) continue;
       weigh(one, weights);
       least = std::min(least, one.best.value);
     }
