@@ -65,7 +65,7 @@ drives=('drive node_set_restart 1' 'drive node_set_restart 2 $more_looks' 'drive
 export -f at_its_place bed script the_bed_itself ends_with sockets_tests drive
 
 golden=tests/golden/vcan_hashes
-made_with='bash g++-12 libc6 libddsc0debian libfmt9 libopenmpi3 libprotobuf32 librsvg2-2 libsqlite3-0 libstdc++6 libyaml-cpp0.7 libz3-4 libzstd1 linux-source-6.1'
+made_with='bash g++-12 libc6 libddsc0debian libfmt9 libopenmpi3 libprotobuf32 librsvg2-2 libsqlite3-0 libstdc++6 libyaml-cpp0.7 libzstd1 linux-source-6.1'
 compare_drives() {
   local drive
   for drive in node_set node_set_restart node_set_closed_loop; do

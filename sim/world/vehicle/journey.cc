@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
-#include <optional>
 
 #include "sim/world/road/lane_change.h"
 #include "sim/world/road/road.h"
@@ -95,7 +95,7 @@ class Driver {
     if (lane_)
       lane_->change(lane, within);
     else
-      lane_.emplace(*road_, lane, config_.vehicle, motion);
+      lane_ = std::make_unique<LaneKeeping>(*road_, lane, config_.vehicle, motion);
   }
 
   double steering(const Segment* segment, const Motion& motion) {
@@ -109,7 +109,7 @@ class Driver {
 
   const EgoConfig& config_;
   const road::Road* road_;
-  std::optional<LaneKeeping> lane_;
+  std::unique_ptr<LaneKeeping> lane_;  // not optional: g++ -O3 takes its members for uninitialised
   std::size_t segment_ = 0;
   const Segment* last_ = nullptr;
   Duration end_{};
