@@ -5,7 +5,7 @@
 // those of others on its resource, which activate further ones. The equations are iterated from no jitter on until
 // nothing changes: holistic analysis (K. Tindell, J. Clark, Microprocessing and Microprogramming 40, 1994). It is safe,
 // but may find no bound where there is one: mostly where a task activates one of a higher priority on its own
-// processor. Jitters that would grow without end are found before, and have no bound (growth.h). The others are given up
+// processor. Jitters that would grow without end are found before, and have no bound. The others are given up
 // after 1000 rounds: so near to growth without end, or over a dynamic segment.
 //
 // Responses and deadlines count from the release before its jitter; that of an activated task is its earliest one.
