@@ -7,7 +7,6 @@
 #include "evaluation/faults/checks.h"
 #include "experiments/campaign/flexray/draw.h"
 #include "experiments/campaign/flexray/trial.h"
-#include "experiments/campaign/flexray/trial_story.h"
 #include "experiments/campaign/judged.h"
 #include "experiments/campaign/outcome.h"
 #include "recording/records/enumerations.h"

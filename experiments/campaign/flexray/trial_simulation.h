@@ -11,7 +11,7 @@
 #include "core/time.h"
 #include "evaluation/faults/judge.h"
 #include "experiments/campaign/file.h"
-#include "experiments/campaign/flexray/trial_story.h"
+#include "experiments/campaign/flexray/trial.h"
 #include "faults/believed_schedule.h"
 #include "faults/plan.h"
 #include "recording/records/records.h"
