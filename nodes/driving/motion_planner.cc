@@ -20,10 +20,8 @@ Span within(Span box, double half, double least) {
   return {centre - reach, centre + reach};
 }
 
-// The region is the object's predicted box with a margin. It grows about its middle to a share of the picture's area, and moves
-// into the picture. A pinhole camera sees a point at depth x, y to the left and z over ground, at
-//   column -f y / x,  row f (h - z) / x.
-// The object is in the vehicle's axes. There is no region if the middle of its box is not in the picture.
+}  // namespace
+
 std::optional<vision::Region> region_of(const Picture& picture, const InterestConfig& config,
                                         const recording::records::ImageObject& object) {
   const double c = std::cos(picture.heading), s = std::sin(picture.heading);
@@ -50,8 +48,6 @@ std::optional<vision::Region> region_of(const Picture& picture, const InterestCo
   rows = within(widened(rows), picture.half_height_px, 2.0 * share * picture.half_height_px);
   return vision::Region{picture.sensor, columns.low, rows.low, columns.high - columns.low, rows.high - rows.low, true};
 }
-
-}  // namespace
 
 PlannerConfig load_planner(YamlMap& yaml) {
   PlannerConfig c;
