@@ -102,7 +102,8 @@ std::string short_name(const Activity& activity) {
   for (const std::string_view section : {"sensors.", "nodes."})
     if (name.starts_with(section)) name = name.substr(section.size());
   constexpr std::string_view kTasks = ".tasks.";
-  if (const auto at = name.find(kTasks); at != std::string::npos) name.replace(at, kTasks.size(), ".");
+  if (const auto at = name.find(kTasks); at != std::string::npos)
+    name = fmt::format("{}.{}", name.substr(0, at), name.substr(at + kTasks.size()));  // g++ 12 warns of replace()
   return name;
 }
 
