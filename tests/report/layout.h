@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "report/drawing/svg.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::report {
 
@@ -27,19 +27,19 @@ inline std::string unescape(std::string s) {
 
 // Unrotated texts.
 inline std::vector<DrawnText> texts_of(const std::string& svg) {
-  static const std::regex element(
+  static const support::Pattern element(
       "<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"([0-9.]+)\"([^>]*)>([^<]*)</text>");
   std::vector<DrawnText> out;
-  for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
-    const std::string more = (*it)[4];
+  for (const support::Match& match : support::matches(svg, element)) {
+    const std::string& more = match[4];
     if (more.find("rotate") != std::string::npos) continue;
     drawing::TextStyle style;
-    style.size = std::stod((*it)[3]);
+    style.size = std::stod(match[3]);
     style.bold = more.find("bold") != std::string::npos;
     if (more.find("middle") != std::string::npos) style.anchor = drawing::Anchor::kMiddle;
     if (more.find("\"end\"") != std::string::npos) style.anchor = drawing::Anchor::kEnd;
-    const std::string text = unescape((*it)[5]);
-    out.push_back({text, text_area({std::stod((*it)[1]), std::stod((*it)[2])}, text, style)});
+    const std::string text = unescape(match[5]);
+    out.push_back({text, text_area({std::stod(match[1]), std::stod(match[2])}, text, style)});
   }
   return out;
 }
@@ -66,10 +66,10 @@ inline void expect_no_overlaps(const std::string& svg) {
 
 // All text inside the picture.
 inline void expect_inside(const std::string& svg) {
-  static const std::regex size("<svg [^>]*viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"");
-  std::smatch m;
-  ASSERT_TRUE(std::regex_search(svg, m, size));
-  const double width = std::stod(m[1]), height = std::stod(m[2]);
+  static const support::Pattern size("<svg [^>]*viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"");
+  const auto m = support::first_match(svg, size);
+  ASSERT_TRUE(m);
+  const double width = std::stod((*m)[1]), height = std::stod((*m)[2]);
   for (const DrawnText& t : texts_of(svg)) {
     EXPECT_GE(t.area.x, 0) << t.text;
     EXPECT_LE(t.area.x + t.area.width, width) << t.text;
@@ -80,14 +80,14 @@ inline void expect_inside(const std::string& svg) {
 
 // A picture of this width, whose texts have one size, lie inside and do not overlap.
 inline void expect_on_paper(const std::string& svg, double width_mm, double font_pt) {
-  static const std::regex size("<svg [^>]*width=\"([0-9.]+)mm\" height=\"[0-9.]+mm\" viewBox=\"0 0 ([0-9.]+) ");
-  std::smatch m;
-  ASSERT_TRUE(std::regex_search(svg, m, size)) << svg.substr(0, 300);
-  EXPECT_NEAR(std::stod(m[1]), width_mm, 0.02);
-  const double points_per_unit = std::stod(m[1]) / 25.4 * 72 / std::stod(m[2]);
-  static const std::regex font(" font-size=\"([0-9.]+)\"");
-  for (std::sregex_iterator it(svg.begin(), svg.end(), font), end; it != end; ++it)
-    ASSERT_NEAR(std::stod((*it)[1]) * points_per_unit, font_pt, 0.001 * font_pt) << it->str();
+  static const support::Pattern size("<svg [^>]*width=\"([0-9.]+)mm\" height=\"[0-9.]+mm\" viewBox=\"0 0 ([0-9.]+) ");
+  const auto m = support::first_match(svg, size);
+  ASSERT_TRUE(m) << svg.substr(0, 300);
+  EXPECT_NEAR(std::stod((*m)[1]), width_mm, 0.02);
+  const double points_per_unit = std::stod((*m)[1]) / 25.4 * 72 / std::stod((*m)[2]);
+  static const support::Pattern font(" font-size=\"([0-9.]+)\"");
+  for (const support::Match& said : support::matches(svg, font))
+    ASSERT_NEAR(std::stod(said[1]) * points_per_unit, font_pt, 0.001 * font_pt) << said[0];
   expect_no_overlaps(svg);
   expect_inside(svg);
 }

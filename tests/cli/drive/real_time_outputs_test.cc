@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 
 #include "recording/log/writer.h"
 #include "schedules/file/loader.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::cli::drive {
 namespace {
@@ -56,8 +56,8 @@ std::string name_of_node(const StrategyResult& result, int node) {
 
 // Matches lines; runs of blanks count as one.
 bool has_line(const std::string& text, const std::string& pattern) {
-  const std::string blanks = std::regex_replace(pattern, std::regex(" "), " +");
-  return std::regex_search(text, std::regex("(^|\n)" + blanks + " *(\n|$)"));
+  const std::string blanks = support::replaced(pattern, " ", " +");
+  return support::found(text, "(^|\n)" + blanks + " *(\n|$)");
 }
 
 TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {

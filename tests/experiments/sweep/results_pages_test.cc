@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "core/strict_yaml.h"
 #include "experiments/campaign/campaign_bus.h"
 #include "experiments/sweep/file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -36,25 +36,21 @@ struct Page {
   std::vector<std::string> expected;  // lines that begin with "expected: "
 };
 
-std::vector<std::smatch> all(const std::string& text, const std::regex& pattern) {
-  return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
-}
-
 Page page_at(const fs::path& path) {
-  static const std::regex kCommand("\n    build/release/ttfusion experiment (\\S+)([^\n]*)"),
+  static const support::Pattern kCommand("\n    build/release/ttfusion experiment (\\S+)([^\n]*)"),
       kShard("--shard [0-9]+/([0-9]+)"), kReplications("--replications ([0-9]+)"),
       kExpected("\n    expected: ([^\n]+)");
   Page page{path, read_file(path.string()), {}, {}};
-  for (const std::smatch& match : all(page.text, kCommand)) {
+  for (const support::Match& match : support::matches(page.text, kCommand)) {
     Command& command = page.commands.emplace_back();
     command.file = match[1];
     const std::string options = match[2];
-    if (std::smatch shard; std::regex_search(options, shard, kShard))
-      command.shards = static_cast<std::uint32_t>(std::stoul(shard[1]));
-    if (std::smatch count; std::regex_search(options, count, kReplications))
-      command.replications = static_cast<std::uint32_t>(std::stoul(count[1]));
+    if (const auto shard = support::first_match(options, kShard))
+      command.shards = static_cast<std::uint32_t>(std::stoul((*shard)[1]));
+    if (const auto count = support::first_match(options, kReplications))
+      command.replications = static_cast<std::uint32_t>(std::stoul((*count)[1]));
   }
-  for (const std::smatch& match : all(page.text, kExpected)) page.expected.push_back(match[1]);
+  for (const support::Match& match : support::matches(page.text, kExpected)) page.expected.push_back(match[1]);
   return page;
 }
 
@@ -68,12 +64,12 @@ std::vector<Page> pages() {
 bool is_campaign(const std::string& file) { return read_file(file).find("kind: fault_campaign") != std::string::npos; }
 
 TEST(ResultsPages, NameExperimentsThatAreThere) {
-  static const std::regex kNamed("experiments/[a-z0-9_/]+\\.yaml");
+  static const support::Pattern kNamed("experiments/[a-z0-9_/]+\\.yaml");
   std::set<std::string> named;
   for (const Page& page : pages()) {
-    for (const std::smatch& match : all(page.text, kNamed)) {
+    for (const support::Match& match : support::matches(page.text, kNamed)) {
       named.insert(match[0]);
-      EXPECT_TRUE(fs::exists(kTop / match[0].str())) << page.path << ": " << match[0];
+      EXPECT_TRUE(fs::exists(kTop / match[0])) << page.path << ": " << match[0];
     }
     for (const Command& command : page.commands) EXPECT_TRUE(named.contains(command.file)) << page.path;
   }
@@ -86,7 +82,7 @@ TEST(ResultsPages, NameExperimentsThatAreThere) {
 
 // A table comes from a command of its page, or of a page that it links to.
 TEST(ResultsPages, HaveTheCommandsOfTheirTables) {
-  static const std::regex kLink("\\]\\(([a-z_/.]+\\.md)");
+  static const support::Pattern kLink("\\]\\(([a-z_/.]+\\.md)");
   std::set<fs::path> with_command;
   for (const Page& page : pages())
     if (!page.commands.empty()) with_command.insert(fs::canonical(page.path));
@@ -94,26 +90,25 @@ TEST(ResultsPages, HaveTheCommandsOfTheirTables) {
   for (const Page& page : pages()) {
     if (page.text.find("\n|---") == std::string::npos) continue;
     if (page.text.find("\n    build/release/ttfusion ") != std::string::npos) continue;
-    const auto links = all(page.text, kLink);
-    EXPECT_TRUE(std::any_of(links.begin(), links.end(), [&](const std::smatch& link) {
-      return with_command.contains(fs::weakly_canonical(page.path.parent_path() / link[1].str()));
+    const auto links = support::matches(page.text, kLink);
+    EXPECT_TRUE(std::any_of(links.begin(), links.end(), [&](const support::Match& link) {
+      return with_command.contains(fs::weakly_canonical(page.path.parent_path() / link[1]));
     })) << page.path;
   }
 }
 
 TEST(ResultsPages, DroveAsManyWithTheSeedOfTheFile) {
-  static const std::regex kReplications("([0-9][0-9,]*)\\s+replications"), kSeed("seed\\s+([0-9]+)");
+  static const support::Pattern kReplications("([0-9][0-9,]*)\\s+replications"), kSeed("seed\\s+([0-9]+)");
   for (const Page& page : pages()) {
     if (page.commands.size() != 1 || is_campaign((kTop / page.commands[0].file).string())) continue;
     const SweepFile sweep = load_sweep((kTop / page.commands[0].file).string());
-    std::smatch count, seed;
-    ASSERT_TRUE(std::regex_search(page.text, count, kReplications)) << page.path;
-    ASSERT_TRUE(std::regex_search(page.text, seed, kSeed)) << page.path;
-    std::string number = count[1];
+    const auto count = support::first_match(page.text, kReplications), seed = support::first_match(page.text, kSeed);
+    ASSERT_TRUE(count && seed) << page.path;
+    std::string number = (*count)[1];
     std::erase(number, ',');
     EXPECT_EQ(std::stoul(number), page.commands[0].replications.value_or(sweep.replications) / page.commands[0].shards)
         << page.path;
-    EXPECT_EQ(std::stoul(seed[1]), sweep.seed) << page.path;
+    EXPECT_EQ(std::stoul((*seed)[1]), sweep.seed) << page.path;
   }
 }
 

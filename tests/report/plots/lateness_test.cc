@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <limits>
-#include <regex>
 
 #include "report/plots/lateness_picture.h"
 #include "tests/report/layout.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::report::plots {
 namespace {
@@ -34,16 +34,15 @@ struct DrawnCurve {
   bool dashed = false;
 };
 std::vector<DrawnCurve> curves_in(const std::string& svg) {
-  static const std::regex element("<path d=\"([^\"]*)\"( class=\"curve\"[^>]*)><title>([^<]*)</title>");
+  static const support::Pattern element("<path d=\"([^\"]*)\"( class=\"curve\"[^>]*)><title>([^<]*)</title>");
   std::vector<DrawnCurve> curves;
-  for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
+  for (const support::Match& drawn : support::matches(svg, element)) {
     DrawnCurve& curve = curves.emplace_back();
-    const std::string points = (*it)[1];
-    static const std::regex pair("([-0-9.]+)[ ,]([-0-9.]+)");
-    for (std::sregex_iterator p(points.begin(), points.end(), pair); p != end; ++p)
-      curve.points.push_back({std::stod((*p)[1]), std::stod((*p)[2])});
-    curve.dashed = (*it)[2].str().find("dasharray") != std::string::npos;
-    curve.hover = (*it)[3];
+    static const support::Pattern pair("([-0-9.]+)[ ,]([-0-9.]+)");
+    for (const support::Match& point : support::matches(drawn[1], pair))
+      curve.points.push_back({std::stod(point[1]), std::stod(point[2])});
+    curve.dashed = drawn[2].find("dasharray") != std::string::npos;
+    curve.hover = drawn[3];
   }
   return curves;
 }

@@ -2,15 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
-#include <regex>
 
 #include "report/timing/diagram.h"
 #include "report/timing/transfers.h"
 #include "report/timing/ways.h"
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_drive.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::report::timing {
 namespace {
@@ -176,14 +175,12 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
 
 TEST(TimingDiagram, MarksMeasurementsAsOtherPicturesDo) {
   const std::string svg = timing_diagram(200, 350);
-  static const std::regex cross("<path d=\"M[^M]*M[^M]*\" class=\"measured\" fill=\"#d55e00\""),
+  static const support::Pattern cross("<path d=\"M[^M]*M[^M]*\" class=\"measured\" fill=\"#d55e00\""),
       triangle("<path d=\"M[^M]*Z\" class=\"measured\" fill=\"#0072b2\"");
-  const auto found = [&](const std::regex& mark) {
-    return std::distance(std::sregex_iterator(svg.begin(), svg.end(), mark), std::sregex_iterator());
-  };
-  EXPECT_GT(found(cross), 0) << "the laser's";
-  EXPECT_GT(found(triangle), 0) << "the camera's";
-  EXPECT_EQ(static_cast<std::size_t>(found(cross) + found(triangle)), count_class(svg, "measured"));
+  const auto found = [&](const support::Pattern& mark) { return support::matches(svg, mark).size(); };
+  EXPECT_GT(found(cross), 0u) << "the laser's";
+  EXPECT_GT(found(triangle), 0u) << "the camera's";
+  EXPECT_EQ(found(cross) + found(triangle), count_class(svg, "measured"));
 }
 
 TEST(TimingDiagram, FitsOnPaper) {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "schedules/analysis/minislots.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::analysis {
 namespace {
@@ -13,8 +13,7 @@ namespace {
 std::string changed(const std::string& pattern, const std::string& replacement,
                     const std::string& file = "flexray_demo") {
   const std::string original = shipped_text(file);
-  const std::string text =
-      std::regex_replace(original, std::regex(pattern), replacement, std::regex_constants::format_first_only);
+  const std::string text = support::replaced_first(original, pattern, replacement);
   EXPECT_NE(text, original) << pattern;
   return text;
 }

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::check {
 
@@ -44,8 +44,7 @@ inline void expect_named_in(const std::string& original, const std::vector<Mutat
   ASSERT_TRUE(findings_of(original).empty()) << sentences(findings_of(original));
   for (const Mutation& mutation : mutations) {
     SCOPED_TRACE(mutation.name);
-    const std::string text = std::regex_replace(original, std::regex(mutation.pattern), mutation.replacement,
-                                                std::regex_constants::format_first_only);
+    const std::string text = support::replaced_first(original, mutation.pattern, mutation.replacement);
     ASSERT_NE(text, original) << "the pattern does not occur in the file";
     const Wanted& wanted = mutation.wanted;
     const auto findings = findings_of(text);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/schedules/check/mutation.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::check {
 namespace {
@@ -99,12 +100,12 @@ TEST(Mutations, OfDynamicSlots) {
 
 // A list that activates a task needs a bound, regardless of its content.
 TEST(Mutations, OfAListThatActivatesATask) {
-  const std::string text = std::regex_replace(
-      std::regex_replace(shipped_text("flexray_demo"), std::regex("pLatestTx: 69"), "pLatestTx: 36"),
-      std::regex("\\{kind: time, base_cycle: 0, repetition: 8, offset: 1600\\}"), "{kind: message, port: camera}");
+  const std::string text = support::replaced(
+      support::replaced(shipped_text("flexray_demo"), "pLatestTx: 69", "pLatestTx: 36"),
+      "\\{kind: time, base_cycle: 0, repetition: 8, offset: 1600\\}", "{kind: message, port: camera}");
   ASSERT_NE(text, shipped_text("flexray_demo"));
-  EXPECT_NE(sentences(findings_of(std::regex_replace(text, std::regex("    sensor: camera\n    fragment_bytes: 56"),
-                                                     "    fragment_bytes: 56")))
+  EXPECT_NE(sentences(findings_of(support::replaced(text, "    sensor: camera\n    fragment_bytes: 56",
+                                                    "    fragment_bytes: 56")))
                 .find("it activates nodes.fusion.tasks.fuse"),
             std::string::npos);
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/schedules/check/mutation.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::check {
 namespace {
@@ -110,8 +111,8 @@ TEST(Mutations, OfParameters) {
 }
 
 TEST(Mutations, OneControllerIsNoCluster) {
-  const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"),
-                                              std::regex("flexray: \\{pKeySlotId: [2-5]\\}"), "microtick: 25");
+  const std::string text =
+      support::replaced(shipped_text("paper_unsynchronised"), "flexray: \\{pKeySlotId: [2-5]\\}", "microtick: 25");
   const auto findings = findings_of(text);
   const auto found = std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.key == "nodes"; });
   ASSERT_NE(found, findings.end()) << sentences(findings);

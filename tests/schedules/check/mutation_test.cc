@@ -2,22 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::check {
 namespace {
 
 TEST(Mutations, AMistakeInTheSharedParametersIsReportedOnce) {
   const std::string text =
-      std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("pWakeupPattern: 2"), "pWakeupPattern: 99");
+      support::replaced(shipped_text("paper_unsynchronised"), "pWakeupPattern: 2", "pWakeupPattern: 99");
   EXPECT_EQ(findings_of(text).size(), 1u) << sentences(findings_of(text));
 }
 
 TEST(Mutations, ASlotWithManyOwnersIsSaidOncePerFrameTooMany) {
-  const std::string text =
-      std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("(slot: )[2-5],"), "$011,");
+  const std::string text = support::replaced(shipped_text("paper_unsynchronised"), "(slot: )[2-5],", "$011,");
   const auto findings = findings_of(text);
   EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
                           [](const Finding& f) { return f.expected.find("owned twice") != std::string::npos; }),
@@ -28,7 +27,7 @@ TEST(Mutations, ASlotWithManyOwnersIsSaidOncePerFrameTooMany) {
 TEST(Mutations, AllMistakesAreReportedAtOnce) {
   std::string text = shipped_text("paper_unsynchronised");
   for (const char* key : {"gListenNoise", "gColdStartAttempts", "gdCASRxLowMax"})
-    text = std::regex_replace(text, std::regex(std::string(key) + ": [0-9]+"), std::string(key) + ": 1000");
+    text = support::replaced(text, std::string(key) + ": [0-9]+", std::string(key) + ": 1000");
   EXPECT_EQ(findings_of(text).size(), 3u) << sentences(findings_of(text));
 }
 
@@ -49,9 +48,8 @@ TEST(Mutations, LinesAreThoseOfTheParameter) {
 TEST(Mutations, EveryFindingAboutAMissingSectionHasALine) {
   for (const char* section :
        {"name", "synchronisation", "flexray", "node_parameters", "pdus", "sensors", "nodes", "frames", "can"}) {
-    const std::string text =
-        std::regex_replace("\n" + shipped_text("paper_unsynchronised"), std::regex("\n" + std::string(section) + ":"),
-                           "\nno_" + std::string(section) + ":");
+    const std::string text = support::replaced("\n" + shipped_text("paper_unsynchronised"),
+                                               "\n" + std::string(section) + ":", "\nno_" + std::string(section) + ":");
     const auto findings = findings_of(text);
     ASSERT_GE(findings.size(), 2u) << section;
     for (const Finding& finding : findings) EXPECT_GT(finding.line, 0) << finding.sentence();

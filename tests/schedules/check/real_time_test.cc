@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "schedules/exchange/text.h"
 #include "tests/schedules/check/mutation.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::check {
 namespace {
@@ -205,8 +205,8 @@ TEST(RealTime, TheSectionIsReadStrictly) {
       {"no_mapping", "real_time: .*", "real_time: 500 us", {line, "real_time", "500 us", "must be a mapping"}},
   });
   const auto with = [](const std::string& section) {
-    return file::parse_cluster(
-        std::regex_replace(shipped_text("paper_synchronised"), std::regex("\nreal_time: .*"), section), "c.yaml");
+    return file::parse_cluster(support::replaced(shipped_text("paper_synchronised"), "\nreal_time: .*", section),
+                               "c.yaml");
   };
   EXPECT_FALSE(with("").arrival_window.has_value());
   const model::Cluster widest = with("\nreal_time: {early: 0 ns, late: 1 s}");

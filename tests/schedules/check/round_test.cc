@@ -2,19 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 #include <tuple>
 
 #include "core/random.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::check {
 namespace {
 
 std::string counting_to(int last) {
-  return std::regex_replace(shipped_text("paper_synchronised"), std::regex("gCycleCountMax: 63"),
-                            "gCycleCountMax: " + std::to_string(last));
+  return support::replaced(shipped_text("paper_synchronised"), "gCycleCountMax: 63",
+                           "gCycleCountMax: " + std::to_string(last));
 }
 
 std::vector<Finding> findings_of(const std::string& text) {

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
-
 #include "schedules/analysis/ages.h"
 #include "schedules/exchange/text.h"
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::exchange {
 namespace {
@@ -36,7 +35,7 @@ TEST(WrittenCluster, StaysTheSameWithOddNamesAndASharedMapping) {
   std::string text = shipped_text("paper_synchronised");
   const auto replace = [&](const std::string& words, const std::string& by) {
     const std::string before = text;
-    text = std::regex_replace(text, std::regex(words), by);
+    text = support::replaced(text, words, by);
     EXPECT_NE(text, before) << words;
   };
   replace("laser_objects", "'laser: objects, #1'");

@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <regex>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::exchange {
 
@@ -61,50 +63,54 @@ struct DbcFile {
 
 inline DbcFile read_dbc(const std::string& text) {
   static const std::string kName = "([A-Za-z_][A-Za-z0-9_]*)", kNumber = "(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)";
-  static const std::regex kMessage("BO_ ([0-9]+) " + kName + ": ([0-9]+) " + kName);
-  static const std::regex kSignal(" SG_ " + kName + "(?: (M|m[0-9]+))? : ([0-9]+)\\|([0-9]+)@0([+-]) \\(" + kNumber +
-                                  "," + kNumber + "\\) \\[" + kNumber + "\\|" + kNumber +
-                                  "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
-  static const std::regex kComment("CM_ BO_ ([0-9]+) \"([^\"]*)\";");
-  static const std::regex kAttribute("BA_ \"([A-Za-z]+)\" BO_ ([0-9]+) (?:\"([^\"]*)\"|([0-9]+));");
-  static const std::regex kNodes("BU_:((?: [A-Za-z_][A-Za-z0-9_]*)*)");
-  static const std::regex kOther("|VERSION \"[^\"]*\"|NS_ :|BS_:|BA_DEF_ BO_ .*;|BA_DEF_DEF_ .*;|VAL_ .* ;");
+  static const support::Pattern kMessage("BO_ ([0-9]+) " + kName + ": ([0-9]+) " + kName);
+  static const support::Pattern kSignal(" SG_ " + kName + "(?: (M|m[0-9]+))? : ([0-9]+)\\|([0-9]+)@0([+-]) \\(" +
+                                        kNumber + "," + kNumber + "\\) \\[" + kNumber + "\\|" + kNumber +
+                                        "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
+  static const support::Pattern kComment("CM_ BO_ ([0-9]+) \"([^\"]*)\";");
+  static const support::Pattern kAttribute("BA_ \"([A-Za-z]+)\" BO_ ([0-9]+) (?:\"([^\"]*)\"|([0-9]+));");
+  static const support::Pattern kNodes("BU_:((?: [A-Za-z_][A-Za-z0-9_]*)*)");
+  static const support::Pattern kOther("|VERSION \"[^\"]*\"|NS_ :|BS_:|BA_DEF_ BO_ .*;|BA_DEF_DEF_ .*;|VAL_ .* ;");
   DbcFile file;
   DbcMessage* latest = nullptr;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    std::smatch part;
-    const auto number = [&](std::size_t i) { return std::stoul(part[i]); };
-    const auto real = [&](std::size_t i) { return std::stod(part[i]); };
-    if (std::regex_match(line, part, kMessage)) {
+    std::optional<support::Match> match;
+    const auto is = [&](const support::Pattern& pattern) {
+      return (match = support::whole_match(line, pattern)).has_value();
+    };
+    const auto part = [&](std::size_t i) -> const std::string& { return (*match)[i]; };
+    const auto number = [&](std::size_t i) { return std::stoul(part(i)); };
+    const auto real = [&](std::size_t i) { return std::stod(part(i)); };
+    if (is(kMessage)) {
       const auto identifier = static_cast<std::uint32_t>(number(1));
       EXPECT_EQ(file.messages.count(identifier), 0u) << line;
       latest = &file.messages[identifier];
-      latest->name = part[2];
+      latest->name = part(2);
       latest->length = static_cast<int>(number(3));
-      latest->sender = part[4];
-    } else if (std::regex_match(line, part, kSignal) && latest != nullptr) {
-      for (const DbcSignal& other : latest->signals) EXPECT_NE(other.name, part[1]) << line;
-      latest->signals.push_back({.name = part[1],
-                                 .unit = part[10],
-                                 .receivers = part[11],
-                                 .multiplexed = part[2],
-                                 .is_signed = part[5] == "-",
+      latest->sender = part(4);
+    } else if (is(kSignal) && latest != nullptr) {
+      for (const DbcSignal& other : latest->signals) EXPECT_NE(other.name, part(1)) << line;
+      latest->signals.push_back({.name = part(1),
+                                 .unit = part(10),
+                                 .receivers = part(11),
+                                 .multiplexed = part(2),
+                                 .is_signed = part(5) == "-",
                                  .start = static_cast<int>(number(3)),
                                  .bits = static_cast<int>(number(4)),
                                  .factor = real(6),
                                  .offset = real(7),
                                  .low = real(8),
                                  .high = real(9)});
-    } else if (std::regex_match(line, part, kComment)) {
-      file.messages.at(static_cast<std::uint32_t>(number(1))).comment = part[2];
-    } else if (std::regex_match(line, part, kAttribute)) {
-      file.messages.at(static_cast<std::uint32_t>(number(2))).attributes[part[1]] = part[3].str() + part[4].str();
-    } else if (std::regex_match(line, part, kNodes)) {
-      std::istringstream names(part[1]);
+    } else if (is(kComment)) {
+      file.messages.at(static_cast<std::uint32_t>(number(1))).comment = part(2);
+    } else if (is(kAttribute)) {
+      file.messages.at(static_cast<std::uint32_t>(number(2))).attributes[part(1)] = part(3) + part(4);
+    } else if (is(kNodes)) {
+      std::istringstream names(part(1));
       for (std::string name; names >> name;) file.nodes.push_back(name);
     } else {
-      EXPECT_TRUE(std::regex_match(line, kOther)) << line;
+      EXPECT_TRUE(is(kOther)) << line;
     }
   }
   return file;

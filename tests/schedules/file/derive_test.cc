@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <sstream>
 
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -25,7 +25,7 @@ std::string paper_without(const std::vector<std::string>& parameters) {
   std::string text = shipped_text("paper_synchronised");
   for (const std::string& name : parameters) {
     const std::string before = text;
-    text = std::regex_replace(text, std::regex("\n  " + name + ": [^\n]*"), "");
+    text = support::replaced(text, "\n  " + name + ": [^\n]*", "");
     EXPECT_NE(text, before) << name;
   }
   return text;
@@ -50,7 +50,7 @@ TEST(Derive, ThePapersClusterNeedsNoneOfThese) {
                                           "pDelayCompensationA",
                                           "pDelayCompensationB"};
   std::string text = paper_without(left_out);
-  text = std::regex_replace(text, std::regex("flexray: \\{pKeySlotId: [0-9]\\}"), "flexray: {}");
+  text = support::replaced(text, "flexray: \\{pKeySlotId: [0-9]\\}", "flexray: {}");
   const model::Cluster cluster = parse_cluster(text, "cluster.yaml");
   EXPECT_EQ(dump(cluster), dump(load_cluster(shipped_path("paper_synchronised"))));
   EXPECT_TRUE(check::check(cluster).empty());
@@ -95,8 +95,8 @@ TEST(Derive, EquationsByHand) {
                      "pdAcceptedStartupRange", "pMacroInitialOffsetA", "pMacroInitialOffsetB", "pMicroInitialOffsetA",
                      "pMicroInitialOffsetB", "pLatestTx", "gdMinislot", "gdMinislotActionPointOffset",
                      "gdDynamicSlotIdlePhase", "gdNIT"});
-  const model::Cluster cluster = parse_cluster(
-      std::regex_replace(text, std::regex("gNumberOfMinislots: 250"), "gNumberOfMinislots: 60"), "cluster.yaml");
+  const model::Cluster cluster =
+      parse_cluster(support::replaced(text, "gNumberOfMinislots: 250", "gNumberOfMinislots: 60"), "cluster.yaml");
   EXPECT_TRUE(check::check(cluster).empty()) << sentences(check::check(cluster));
   const model::GlobalParameters& g = cluster.flexray;
   EXPECT_EQ(g.gdCASRxLowMax, 79);               // 2 (9 + 30) 1.0015 / 0.9985 = 78.23
@@ -132,7 +132,7 @@ TEST(Derive, WhatNoOtherKeyDeterminesIsMissing) {
 
 TEST(Derive, AValueOutsideItsRangeIsAFinding) {
   const std::string text =
-      std::regex_replace(paper_without({"gdNIT"}), std::regex("gNumberOfStaticSlots: 40"), "gNumberOfStaticSlots: 10");
+      support::replaced(paper_without({"gdNIT"}), "gNumberOfStaticSlots: 40", "gNumberOfStaticSlots: 10");
   const auto findings = findings_of(text);
   ASSERT_FALSE(findings.empty());
   EXPECT_EQ(findings[0].key, "flexray.gdNIT");

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "core/random.h"
 #include "schedules/analysis/ages.h"
 #include "schedules/file/vary.h"
 #include "tests/schedules/left_out/left_out_text.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Clusters, LeftOut, testing::ValuesIn(kScheduled),
 std::string first_finding(const std::string& words, const std::string& by) {
   std::string text = without_derived("paper_planned");
   const std::string before = text;
-  text = std::regex_replace(text, std::regex(words), by, std::regex_constants::format_first_only);
+  text = support::replaced_first(text, words, by);
   EXPECT_NE(text, before) << words;
   const auto findings = findings_of(text);
   return findings.empty() ? "" : findings.front().key + ": " + findings.front().expected;
@@ -138,8 +138,8 @@ TEST(FillIn, ACanWithoutBoundsIsNamed) {
 TEST(FillIn, StatusFramesHaveTheKeySlotOrTheLowestOne) {
   std::string text = without_derived("paper_planned");
   const model::Cluster keyed = parse_cluster(text, "keyed.yaml");
-  text = std::regex_replace(text, std::regex("pKeySlotId: \\d"), "");
-  text = std::regex_replace(text, std::regex("sender: gateway"), "slot: 2, sender: gateway");
+  text = support::replaced(text, "pKeySlotId: \\d", "");
+  text = support::replaced(text, "sender: gateway", "slot: 2, sender: gateway");
   const model::Cluster lowest = parse_cluster(text, "lowest.yaml");
   for (const auto& [name, before, after] :
        {std::tuple{"laser_pre", 1, 1}, {"camera_pre", 2, 3}, {"gateway", 3, 2}, {"fusion", 4, 4}}) {
@@ -151,8 +151,8 @@ TEST(FillIn, StatusFramesHaveTheKeySlotOrTheLowestOne) {
 TEST(PduLikeAnother, HasWhatItLacks) {
   std::string text = shipped_text("paper_planned");
   const model::Cluster whole = parse_cluster(text, "whole.yaml");
-  text = std::regex_replace(text, std::regex("\n  camera_objects:\n( {4,}.*\n)*"),
-                            "\n  camera_objects: {like: laser_objects, sensor: camera, max_elements: 7}\n");
+  text = support::replaced(text, "\n  camera_objects:\n( {4,}.*\n)*",
+                           "\n  camera_objects: {like: laser_objects, sensor: camera, max_elements: 7}\n");
   const model::Cluster alike = parse_cluster(text, "like.yaml");
   const model::PduLayout& one = alike.pdu(*alike.find_pdu("camera_objects"));
   const model::PduLayout& other = whole.pdu(*whole.find_pdu("laser_objects"));
@@ -162,7 +162,7 @@ TEST(PduLikeAnother, HasWhatItLacks) {
   EXPECT_EQ(one.element.size(), other.element.size());
   EXPECT_EQ(one.element_bits, other.element_bits);
   for (const std::string wrong : {"camera_objects", "nothing"}) {
-    const std::string refused = std::regex_replace(text, std::regex("like: laser_objects"), "like: " + wrong);
+    const std::string refused = support::replaced(text, "like: laser_objects", "like: " + wrong);
     const auto findings = findings_of(refused);
     ASSERT_FALSE(findings.empty());
     EXPECT_EQ(findings[0].key, "pdus.camera_objects.like");
@@ -170,8 +170,8 @@ TEST(PduLikeAnother, HasWhatItLacks) {
 }
 
 TEST(FillIn, AStatusFrameKeepsOffTheSlotsOfLists) {
-  std::string text = std::regex_replace(without_derived("paper_planned"), std::regex("pKeySlotId: \\d"), "");
-  text = std::regex_replace(text, std::regex("pdu: image"), "slot: 1, base_cycle: 0, pdu: image");
+  std::string text = support::replaced(without_derived("paper_planned"), "pKeySlotId: \\d", "");
+  text = support::replaced(text, "pdu: image", "slot: 1, base_cycle: 0, pdu: image");
   const model::Cluster cluster = parse_cluster(text, "cluster.yaml");
   EXPECT_EQ(cluster.node(*cluster.find_node("laser_pre")).flexray->pKeySlotId, 14);
 }

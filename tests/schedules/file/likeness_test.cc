@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <set>
 
 #include "schedules/exchange/cluster_yaml.h"
@@ -13,6 +12,7 @@
 #include "schedules/file/vary.h"
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -20,16 +20,16 @@ namespace {
 std::string whole_text(const std::string& name) { return exchange::cluster_yaml(load_cluster(shipped_path(name)), ""); }
 
 // The place of a sensor's keys in a whole text.
-std::smatch entry_of(const std::string& text, const std::string& sensor) {
-  std::smatch found;
-  EXPECT_TRUE(std::regex_search(text, found, std::regex("\n  " + sensor + ":\n    \\{(kind: .*)\\}\n"))) << sensor;
-  return found;
+support::Match entry_of(const std::string& text, const std::string& sensor) {
+  const auto found = support::first_match(text, "\n  " + sensor + ":\n    \\{(kind: .*)\\}\n");
+  EXPECT_TRUE(found) << sensor;
+  return found.value();
 }
 
 std::map<std::string, std::string> keys_of(const std::string& entry) {
   std::map<std::string, std::string> keys;
-  static const std::regex kKey("(\\w+): ([^,]+)");
-  for (std::sregex_iterator at(entry.begin(), entry.end(), kKey), end; at != end; ++at) keys[(*at)[1]] = (*at)[2];
+  static const support::Pattern kKey("(\\w+): ([^,]+)");
+  for (const support::Match& key : support::matches(entry, kKey)) keys[key[1]] = key[2];
   return keys;
 }
 
@@ -39,18 +39,19 @@ class Alike : public testing::TestWithParam<std::string> {};
 TEST_P(Alike, ASensorHasWhatItLacks) {
   const std::string text = whole_text(GetParam());
   const model::Cluster cluster = parse_cluster(text, "whole.yaml");
+  const auto dumped = dump(cluster);
   for (const model::Sensor& sensor : cluster.sensors)
     for (const model::Sensor& other : cluster.sensors) {
       if (sensor.name == other.name || (other.phase && !sensor.phase)) continue;
-      const std::smatch own = entry_of(text, sensor.name);
+      const support::Match own = entry_of(text, sensor.name);
       std::map<std::string, std::string> keys = keys_of(own[1]), others = keys_of(entry_of(text, other.name)[1]);
       std::string differs = "like: " + other.name;
       for (const auto& [key, value] : keys)
         if (others[key] != value) differs += ", " + key + ": " + value;
-      ASSERT_LT(differs.size(), own[1].str().size() + 20);
+      ASSERT_LT(differs.size(), own[1].size() + 20);
       const std::string alike =
-          std::string(own.prefix()) + "\n  " + sensor.name + ": {" + differs + "}\n" + own.suffix().str();
-      EXPECT_EQ(dump(parse_cluster(alike, "like.yaml")), dump(cluster)) << differs;
+          std::string(text).replace(own.at, own.size, "\n  " + sensor.name + ": {" + differs + "}\n");
+      EXPECT_EQ(dump(parse_cluster(alike, "like.yaml")), dumped) << differs;
     }
 }
 INSTANTIATE_TEST_SUITE_P(Clusters, Alike, testing::ValuesIn(shipped_clusters()),
@@ -62,13 +63,13 @@ struct Copied {
 class Copies : public testing::TestWithParam<Copied> {};
 
 std::string with_sensor(const std::string& text, const std::string& entry) {
-  return std::regex_replace(text, std::regex("\nsensors:\n"), "\nsensors:\n  " + entry + "\n");
+  return support::replaced(text, "\nsensors:\n", "\nsensors:\n  " + entry + "\n");
 }
 // Static slots in place of minislots.
 std::string with_room(std::string text) {
-  text = std::regex_replace(text, std::regex(" +gdNIT: .*\n"), "");
-  text = std::regex_replace(text, std::regex("gNumberOfMinislots: \\d+"), "gNumberOfMinislots: 100");
-  return std::regex_replace(text, std::regex("gNumberOfStaticSlots: \\d+"), "gNumberOfStaticSlots: 50");
+  text = support::replaced(text, " +gdNIT: .*\n", "");
+  text = support::replaced(text, "gNumberOfMinislots: \\d+", "gNumberOfMinislots: 100");
+  return support::replaced(text, "gNumberOfStaticSlots: \\d+", "gNumberOfStaticSlots: 50");
 }
 
 // A sensor without device and host gets all that leads to the fusion.
@@ -183,7 +184,7 @@ TEST(Likeness, ACircleIsRefused) {
 TEST(Likeness, AFindingHasTheLineOfItsValue) {
   const std::string text = with_sensor(shipped_text("paper_planned"), "rear: {like: laser}");
   const auto findings =
-      findings_of(std::regex_replace(text, std::regex("repetition: 4, offset: 6495"), "repetition: 3, offset: 6495"));
+      findings_of(support::replaced(text, "repetition: 4, offset: 6495", "repetition: 3, offset: 6495"));
   ASSERT_EQ(findings.size(), 2U) << sentences(findings);
   EXPECT_EQ(findings[0].key, "sensors.rear.repetition");
   EXPECT_EQ(findings[1].key, "sensors.laser.repetition");
@@ -199,8 +200,8 @@ TEST(Likeness, AnExperimentVariesWhatIsInherited) {
 }
 
 TEST(Likeness, APduMayBeLikeOneThatIsLikeAThird) {
-  const std::string text = std::regex_replace(shipped_text("paper_planned"), std::regex("\npdus:\n"),
-                                              "\npdus:\n  a: {like: b, max_elements: 2}\n  b: {like: image}\n");
+  const std::string text = support::replaced(shipped_text("paper_planned"), "\npdus:\n",
+                                             "\npdus:\n  a: {like: b, max_elements: 2}\n  b: {like: image}\n");
   const auto findings = findings_of(text);
   for (const Finding& finding : findings) EXPECT_FALSE(finding.key.ends_with(".like")) << finding.sentence();
   const model::Cluster cluster = parse_cluster(text, "like.yaml");

@@ -3,13 +3,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "schedules/file/parameter_table.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -48,9 +48,9 @@ std::string running_code() {
 
 // Returns the members that the code reads: behind a dot or an arrow, and not assigned to.
 std::set<std::string> members_read(const std::string& code) {
-  static const std::regex member("(?:\\.|->)([gp][A-Za-z]+|baudrate)(?:_ps)?\\b(?!\\s*=[^=])");
+  static const support::Pattern member("(?:\\.|->)([gp][A-Za-z]+|baudrate)(?:_ps)?\\b(?!\\s*=[^=])");
   std::set<std::string> names;
-  for (std::sregex_iterator at(code.begin(), code.end(), member), end; at != end; ++at) names.insert((*at)[1]);
+  for (const support::Match& read : support::matches(code, member)) names.insert(read[1]);
   return names;
 }
 
@@ -59,13 +59,13 @@ std::set<std::string> listed() {
   const std::string page = text_of(TTF_SOURCE_DIR "/docs/architecture/flexray.md");
   const std::size_t begin = page.find("## Parameters without an effect");
   const std::string section = begin == std::string::npos ? "" : page.substr(begin, page.find("\n## ", begin) - begin);
-  static const std::regex name("`([A-Za-z]+)`");
+  static const support::Pattern name("`([A-Za-z]+)`");
   std::set<std::string> names;
   std::istringstream lines(section);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("| `")) continue;
     const std::string column = line.substr(0, line.find('|', 1));
-    for (std::sregex_iterator at(column.begin(), column.end(), name), end; at != end; ++at) names.insert((*at)[1]);
+    for (const support::Match& listed : support::matches(column, name)) names.insert(listed[1]);
   }
   return names;
 }

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -66,9 +66,9 @@ constexpr AnnexB kRanges[] = {
 
 // The loader's refusal (not the checker's) of the parameter with this value.
 std::string refusal(const std::string& name, int value) {
+  static const std::string kShipped = shipped_text("paper_unsynchronised");
   const std::string text =
-      std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("\\b" + name + ": [0-9.]+"),
-                         name + ": " + std::to_string(value), std::regex_constants::format_first_only);
+      support::replaced_first(kShipped, "\\b" + name + ": [0-9.]+", name + ": " + std::to_string(value));
   try {
     parse_cluster(text, "cluster.yaml");
   } catch (const InputError& error) {
@@ -95,15 +95,14 @@ TEST(Ranges, CoverEveryNumberOfTheFile) {
       "gdBit",          "baudrate",    "gdMaxPropagationDelay", "gdMinPropagationDelay",
       "gdMaxMicrotick", "pdMicrotick", "pSamplesPerMicrotick"};
   const std::string text = shipped_text("paper_unsynchronised");
-  const std::regex parameter("\\n  ([gp]d?[A-Z][A-Za-z]+|baudrate): [0-9]");
-  int found = 0;
-  for (std::sregex_iterator it(text.begin(), text.end(), parameter), end; it != end; ++it, ++found) {
-    const std::string name = (*it)[1];
+  const auto parameters = support::matches(text, "\\n  ([gp]d?[A-Z][A-Za-z]+|baudrate): [0-9]");
+  for (const support::Match& parameter : parameters) {
+    const std::string& name = parameter[1];
     const bool listed =
         std::any_of(std::begin(kRanges), std::end(kRanges), [&](const AnnexB& r) { return name == r.name; });
     EXPECT_NE(listed, std::count(own_rules.begin(), own_rules.end(), name) == 1) << name;
   }
-  EXPECT_EQ(found, 52);  // pKeySlotId stands with the nodes
+  EXPECT_EQ(parameters.size(), 52U);  // pKeySlotId stands with the nodes
 }
 
 }  // namespace

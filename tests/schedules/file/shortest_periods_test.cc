@@ -2,20 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
 
 // The text without the shortest periods of messages; those of sensors stay.
 std::string without_periods(const std::string& text) {
-  static const std::regex kPeriod(R"((identifier: [^}\n]*), shortest_period: [^,}\n]*)");
-  return std::regex_replace(text, kPeriod, "$1");
+  static const support::Pattern kPeriod(R"((identifier: [^}\n]*), shortest_period: [^,}\n]*)");
+  return support::replaced(text, kPeriod, "$1");
 }
 
 TEST(ShortestPeriods, AreTheLargestThatTheCheckAccepts) {

@@ -3,16 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
 
 ClusterText paper_lacking(const std::string& parameter) {
   const std::string text = shipped_text("paper_synchronised");
-  return {std::regex_replace(text, std::regex("\n  " + parameter + ": [^\n]*"), ""), "cluster.yaml", {}};
+  return {support::replaced(text, "\n  " + parameter + ": [^\n]*", ""), "cluster.yaml", {}};
 }
 
 TEST(Vary, OnlyAKeyThatAnotherDeterminesMayBeAbsent) {
@@ -36,7 +36,7 @@ TEST(Vary, TheKeyHasItsValueAndNothingElseIsChanged) {
 
 TEST(Vary, DerivedValuesFollowVariedOnes) {
   ClusterText text = paper_lacking("gdNIT");
-  text.text = std::regex_replace(text.text, std::regex("gNumberOfStaticSlots: 40"), "gNumberOfStaticSlots: 38");
+  text.text = support::replaced(text.text, "gNumberOfStaticSlots: 40", "gNumberOfStaticSlots: 38");
   EXPECT_EQ(parse_cluster(text).flexray.gdNIT, 386 + 2 * 84);
 }
 

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
 
 #include "core/errors.h"
 #include "schedules/synthesis/plan/loader.h"
+#include "tests/support/patterns.h"
 #include "tests/support/refusals.h"
 
 namespace ttf::schedules::synthesis {
@@ -26,8 +26,7 @@ inline std::string plan_text(const std::string& name) {
 
 // Returns the plan's text with the first match of a pattern replaced.
 inline std::string changed(const std::string& text, const std::string& pattern, const std::string& replacement) {
-  const std::string made =
-      std::regex_replace(text, std::regex(pattern), replacement, std::regex_constants::format_first_only);
+  const std::string made = support::replaced_first(text, pattern, replacement);
   EXPECT_NE(made, text) << pattern << " does not occur";
   return made;
 }
@@ -40,7 +39,7 @@ inline std::string without_instants(std::string text) {
       {"slot: \\d+, ((?:channels: \\w+, )?sender: \\w+), base_cycle: \\d+, (repetition: \\d+, pdu: \\w+)(?:, "
        "fragments: \\d+)?",
        "$1, $2"}};
-  for (const auto& [pattern, replacement] : left_out) text = std::regex_replace(text, std::regex(pattern), replacement);
+  for (const auto& [pattern, replacement] : left_out) text = support::replaced(text, pattern, replacement);
   return text;
 }
 

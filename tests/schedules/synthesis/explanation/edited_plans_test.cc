@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <map>
-#include <regex>
 
 #include "schedules/check/checker.h"
 #include "schedules/file/inherit.h"
@@ -12,6 +11,7 @@
 #include "schedules/synthesis/instants/synthesize.h"
 #include "tests/fuzz/edits.h"
 #include "tests/schedules/synthesis/plans.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::synthesis::explanation {
 namespace {
@@ -19,8 +19,7 @@ namespace {
 // Returns the text's keys, and how often it has each.
 std::map<std::string, int> keys_of(const std::string& text) {
   std::map<std::string, int> keys;
-  const std::regex key("([A-Za-z_]\\w*):");
-  for (std::sregex_iterator at(text.begin(), text.end(), key), end; at != end; ++at) ++keys[(*at)[1]];
+  for (const support::Match& key : support::matches(text, "([A-Za-z_]\\w*):")) ++keys[key[1]];
   return keys;
 }
 
@@ -69,12 +68,10 @@ TEST(Explain, APlanWithOneValueChangedIsSolvedExplainedOrRefused) {
       if (times == 1) break;
     }
   // Times that are possible, but others.
-  const std::regex time("(\\d+) ms");
-  for (std::sregex_iterator at(text.begin(), text.end(), time), end; at != end; ++at)
+  for (const support::Match& time : support::matches(text, "(\\d+) ms"))
     for (const double factor : {0.5, 0.9, 1.1, 2.0}) {
-      const std::string other = fmt::format("{} us", std::lround(std::stod((*at)[1]) * factor * 1'000));
-      const auto place = static_cast<std::size_t>(at->position());
-      note(fmt::format("{} at {}", other, place), std::string(text).replace(place, at->str().size(), other));
+      const std::string other = fmt::format("{} us", std::lround(std::stod(time[1]) * factor * 1'000));
+      note(fmt::format("{} at {}", other, time.at), std::string(text).replace(time.at, time.size, other));
     }
   EXPECT_GT(fates[Fate::kSolved], 100);
   EXPECT_GE(fates[Fate::kExplained], 3);
