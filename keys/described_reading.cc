@@ -18,7 +18,7 @@ DescribedReading::DescribedReading(Answers answers, Numbers numbers)
 KeyValue DescribedReading::decide(const std::string& name, const KeyQuestion& question, KeyValue usual) {
   const auto given = answers_.find(name);
   KeyValue answer = given == answers_.end() ? std::move(usual) : given->second;
-  if (decided_.insert(name).second) decisions_.push_back({name, question, answer});
+  if (numbers_ == Numbers::kUsual && decided_.insert(name).second) decisions_.push_back({name, question, answer});
   return answer;
 }
 
@@ -42,12 +42,13 @@ KeyValue DescribedReading::answer(const KeyQuestion& question) {
   }
   if (question.type == KeyType::kIsMap) return decide(path + "{}", question, true);
 
-  KeyQuestion noted = question;
-  if (asked_for_.contains(path)) noted.optional = true;
-  if (!noted.optional) required_.insert(path);
-  const bool is_first = std::none_of(map.questions.begin(), map.questions.end(),
-                                     [&](const KeyQuestion& q) { return q.key == question.key; });
-  if (is_first) map.questions.push_back(std::move(noted));
+  const bool optional = question.optional || asked_for_.contains(path);
+  if (!optional) required_.insert(path);
+  if (std::none_of(map.questions.begin(), map.questions.end(),
+                   [&](const KeyQuestion& q) { return q.key == question.key; })) {
+    map.questions.push_back(question);
+    map.questions.back().optional = optional;
+  }
 
   switch (question.type) {
     case KeyType::kBoolean: return decide(path, question, question.fallback.value_or(false));

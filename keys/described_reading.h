@@ -40,6 +40,7 @@ class DescribedReading final : public KeyAnswers {
 
   const std::map<std::string, Map>& maps() const { return maps_; }  // by their path
   const std::vector<std::string>& order() const { return order_; }  // the maps' order, as they were met
+  // Only a reading with the usual numbers has any.
   const std::vector<Decision>& decisions() const { return decisions_; }
 
  private:
