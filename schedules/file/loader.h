@@ -14,7 +14,8 @@
 //   node_parameters: {pSamplesPerMicrotick: 2, ...}   defaults for all nodes
 //   pdus:   {NAME: {like, sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
-//   sensors: {NAME: {like, raw, objects, preprocessing}}      others as another one (schedules/file/likeness/inherit_alike.h)
+//   sensors: {NAME: {like, raw, objects, preprocessing, ...}}   like another one, but for its own keys (likeness/inherit_alike.h);
+//             without device and host both are copied (likeness/sensor_copy.h)
 //         or {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
 //         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}
 //         or {NAME: {kind, device, host, measurement: completion, after: TASK_OF_HOST,

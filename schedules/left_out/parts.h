@@ -30,12 +30,11 @@ struct List {
   int base_cycle = 0, repetition = 1, slot = 1;  // placeholders where they are left out
   Instant at;
   int line = 0;
-  std::optional<int> entry =
-      std::nullopt;       // its number in the file's list `frames`; none for a list of a copied sensor
-  bool anywhere = false;  // takes the first free slots: its sensor measures freely
+  std::optional<int> entry = std::nullopt;  // in the file's list `frames`; none: of a copied sensor
+  bool anywhere = false;                    // takes the first free slots: its sensor measures freely
 };
 
-// As a file would have it.
+// Returns the list's place for findings: "frames[3]", or "frames (rear_objects)" for a list of a copied sensor.
 std::string path_of(const model::Cluster& cluster, const List& list);
 
 // All that a file leaves out.

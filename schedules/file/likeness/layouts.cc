@@ -1,7 +1,6 @@
 #include "schedules/file/likeness/layouts.h"
 
 #include <cmath>
-#include <string>
 #include <utility>
 #include <vector>
 

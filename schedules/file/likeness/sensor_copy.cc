@@ -20,6 +20,8 @@ namespace ttf::schedules::file::likeness {
 namespace {
 
 constexpr std::uint32_t kIdentifiers = 2048;  // of 11 bits
+constexpr std::int64_t kMostRaw = 3'584;      // 256 fragments of 14 points, those of a laser's scan
+constexpr std::int64_t kMostObjects = 255;    // counted by a byte of the list's header
 
 class Copier {
  public:
@@ -45,7 +47,8 @@ class Copier {
           fmt::format("must be a sensor whose device and host have no tasks of other sensors; {} is none", old_.name));
     if (cluster_.nodes.size() + 2 > model::kMostNamed || cluster_.pdus.size() + 2 > model::kMostNamed ||
         cluster_.can_buses.size() + 1 > model::kMostCans)
-      return like(fmt::format("has no room beside {} others", model::kMostNamed));
+      return like(fmt::format("needs room for its copies: a cluster has at most {} nodes, {} PDUs and {} CANs",
+                              model::kMostNamed, model::kMostNamed, model::kMostCans));
     if (const std::string taken = taken_name(); !taken.empty())
       return like(fmt::format("needs a {}, a name that is taken", taken));
     for (const model::Node& node : cluster_.nodes)
@@ -323,8 +326,8 @@ class Copier {
 
 void read_differences(YamlMap& map, SensorCopy& copy) {
   const auto number = [](auto value) { return value ? std::optional(static_cast<int>(*value)) : std::nullopt; };
-  copy.raw = number(map.integer_if("raw", {1, 3'584}));
-  copy.objects = number(map.integer_if("objects", {1, 255}));
+  copy.raw = number(map.integer_if("raw", {1, kMostRaw}));
+  copy.objects = number(map.integer_if("objects", {1, kMostObjects}));
   copy.preprocessing = map.duration_if("preprocessing", {Duration::microseconds(1), Duration::milliseconds(1'000)});
 }
 

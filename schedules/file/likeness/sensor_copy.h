@@ -38,10 +38,11 @@ struct Unfinished {
   std::vector<std::vector<bool>>& shortest_periods;
 };
 
-// Returns the key that cannot be, and why; none if the sensor can be copied.
+// The key that forbids a copy, and its sentence.
 struct Refusal {
   std::string key, expected;
 };
+// Returns nothing if the sensor can be copied.
 std::optional<Refusal> refusal(const Unfinished& schedule, const SensorCopy& copy);
 
 // Gives the sensor `made` its device, its host and all that leads to the fusion. New nodes, PDUs, CANs and lists stand behind the

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -125,7 +124,7 @@ class Filler {
     auto sensors = root_.named_maps("sensors");
     for (auto& [name, map] : sensors)
       if (map.has("like") && map.lacks("device") && map.lacks("host"))
-        findings_.add({map.file(), map.line("like"), map.path() + ".like", "",
+        findings_.add({map.file(), map.line("like"), map.path() + ".like", map.text("like"),
                        "needs device and host beside it: plan.sensors has the sensors whose nodes are copies"});
     (void)file::likeness::inherit_alike(sensors, "sensor");
     for (auto& [name, map] : sensors) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
@@ -152,6 +151,9 @@ TEST(Likeness, EachMistakeIsOneSentence) {
       {"rear: {like: laser, kind: mono_camera}", "rear.kind", "must be one of laser, camera, radar"},
       {"rear: {like: camera, raw: 64}", "rear.raw", "must be at most 63"},
       {"rear: {like: laser, objects: 256}", "rear.objects", "1..255"},
+      {"fusion: {like: laser}", "fusion.like", "needs a node fusion, a name that is taken"},
+      {"las: {like: laser, device: laser, host: laser_pre}\n  rear: {like: las}", "rear.like",
+       "must be a sensor whose device and host have no tasks of other sensors; las is none"},
       {"rear: {like: laser, mounting: 1}", "rear.mounting", "is not a known key"},
       {"rear: {like: laser, measurement: free}", "rear.period", "is missing"},
       {"rear: {like: laser, offset: 90000}", "rear.offset", "must be"},
