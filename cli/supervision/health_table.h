@@ -24,7 +24,7 @@ struct NodeHealth {
   std::optional<std::uint64_t> drops;
   std::string state;      // in the node's own words: "normal active"
   std::string can_state;  // the worst of its controllers on private CANs: "bus off"; empty before their first report
-  bool is_active = true, is_can_active = true;  // by these words, as far as it has said any
+  bool is_active = true, is_can_active = true;  // by these words; true before the first ones
 };
 
 // The state of an external node (cli/supervision/supervisor.h), as the launch hears it.

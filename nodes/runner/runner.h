@@ -65,8 +65,8 @@ struct Health {
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
   Duration largest_offset{};               // the largest correction by clock synchronisation, either sign
   std::optional<bus::poc::PocKind> state;  // the controller's; none off FlexRay
-  // Its interfaces to private CANs report error frames, and their controllers' states. The
-  // worst present state is unknown before the first report.
+  // Its interfaces to private CANs report error frames, and their controllers' states. The worst present state is unknown
+  // before the first report.
   std::uint64_t can_errors = 0;
   std::optional<recording::records::CanState> can_state;
   std::optional<vehicle::Counts> vehicle;  // its line's

@@ -1,5 +1,5 @@
-// The enumerations of the records that have words, each with its words. Numbers are part of the logs' format. A number
-// without an enumerator, as in a damaged log, has no words.
+// Enumerations of the records, each with the words of its enumerators. Numbers are part of the logs' format: append only. A
+// number without an enumerator, as in a damaged log, has no words of its own.
 #pragma once
 
 #include <cstdint>
@@ -52,7 +52,7 @@ constexpr std::string_view to_text(CanError error) {
   return "";
 }
 
-// Its state of error confinement.
+// The state of error confinement of such a controller.
 enum class CanState : std::uint8_t { kActive = 0, kPassive = 1, kBusOff = 2 };
 constexpr std::string_view to_text(CanState state) {
   switch (state) {
@@ -79,7 +79,7 @@ inline std::string to_text(ChannelState state) {
                    {"header CRC wrong", "frame CRC wrong", "undecodable", "cut off", "reached no receiver"});
 }
 
-// The status of a slot on one channel (FlexRay 2.1A vSS): bits, and at the end the host's view of a valid frame.
+// The status of a slot on one channel (FlexRay 2.1A vSS): bits. The last one is the host's view of a valid frame.
 enum SlotStatus : std::uint8_t {
   kValidFrame = 0,
   kSyntaxError = 1,
@@ -98,6 +98,7 @@ inline std::string to_text(SlotStatus status) {
   return text.empty() ? "status " + std::to_string(unsigned{status}) : text;
 }
 
+// A step of a list on its way from task to task.
 enum class Hop : std::uint8_t {
   kWritten = 1,      // a task's output became visible in a CNI
   kSent = 2,         // its last frame has left
@@ -178,6 +179,7 @@ constexpr std::string_view to_text(Symbol symbol) {
   return "symbol";
 }
 
+// A missed instant in real time.
 enum class TimingFault : std::uint8_t {
   kLateWakeUp = 1,  // an act was due for longer than the arrival window allows
   kSlotMissed = 2,  // too late to send in an own slot
