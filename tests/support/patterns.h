@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/patterns.h"
-
 namespace ttf::support {
 
 // An expression, compiled once. The functions below take its text, too; a loop keeps a Pattern.
