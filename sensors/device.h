@@ -17,8 +17,7 @@
 
 namespace ttf::sensors {
 
-// The sides of a sensor that its own vehicle hides: sectors of azimuths, in the sensor's axes. Nothing is measured there.
-// From `from` to `to` [rad], counter-clockwise.
+// A sector of azimuths in the sensor's axes: from `from` to `to` [rad], counter-clockwise.
 struct BlindSector {
   double from = 0.0, to = 0.0;
   bool holds(double azimuth) const {
@@ -26,6 +25,7 @@ struct BlindSector {
   }
 };
 
+// The sides of a sensor that its own vehicle hides. Nothing is measured there.
 struct BlindSides {
   static constexpr std::size_t kMost = 4;
   std::array<BlindSector, kMost> sectors{};

@@ -49,7 +49,8 @@ std::optional<double> told(const std::optional<Duration>& bound) {
   return bound ? std::optional(in_ms(*bound)) : std::nullopt;
 }
 
-// The latency by stage of a drive, from its log and the attached cluster. Returns nothing if the log has no sound cluster; a warning tells of one that cannot be read.
+// The latency by stage of a drive, from its log and the attached cluster. Returns nothing if the log has no sound cluster; a
+// warning tells of one that cannot be read.
 std::vector<ToldStages> told_stages(const recording::merge::MergedLogs& drive, std::vector<std::string>& warnings) {
   const Attached attached = attached_to(drive, "the latency by stage is left out", warnings);
   if (!attached.cluster || !schedules::check::check(*attached.cluster).empty()) return {};

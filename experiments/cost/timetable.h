@@ -1,8 +1,8 @@
 // The expected quadratic cost of a control loop whose stages are executed at known instants.
 //
-// No delay is random. A round has jumps at instants. Between them the state flows. So a
-// round maps the second moment by M -> A M A' + R. The sum of A^k R A'^k is stationary. Doubling the number of rounds
-// finds it (Smith: "Matrix equation XA + BX = C", SIAM Journal on Applied Mathematics 16, 1968).
+// No delay is random. A round has jumps at instants (control_loop.h). Between them the state flows (flow.h). So a round maps
+// the second moment by M -> A M A' + R. The sum of A^k R A'^k is stationary. Doubling the number of rounds finds it (Smith:
+// "Matrix equation XA + BX = C", SIAM Journal on Applied Mathematics 16, 1968).
 #pragma once
 
 #include <vector>

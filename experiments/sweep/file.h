@@ -50,7 +50,8 @@
 
 namespace ttf::experiments::sweep {
 
-// Comparisons of an experiment: of paradigms, of the values of one axis, and of an axis's effects on two paradigms.
+// An experiment compares paradigms, the values of one axis, or an axis's effects on two paradigms.
+
 // Each paradigm at a value of the axis is compared with itself at the axis's baseline, all else equal.
 struct AxisComparison {
   std::size_t axis = 0;      // in SweepFile::grid()

@@ -36,8 +36,8 @@ struct InterestConfig {
   double object_height_m = 1.5;  // the image does not say it
 };
 
-// Returns the region of interest: the object's predicted box with a margin. It grows about its middle to a share of the picture's area, and moves
-// into the picture. A pinhole camera sees a point at depth x, y to the left and z over ground, at
+// Returns the region of interest: the object's predicted box with a margin. It grows about its middle to a share of the
+// picture's area, and moves into the picture. A pinhole camera sees a point at depth x, y to the left and z over ground, at
 //   column -f y / x,  row f (h - z) / x.
 // The object is in the vehicle's axes. There is no region if the middle of its box is not in the picture.
 std::optional<vision::Region> region_of(const Picture& picture, const InterestConfig& config,

@@ -29,7 +29,8 @@ bool is_variant_name(std::string_view name) {
          name.find_first_not_of(kAllowed) == std::string_view::npos;
 }
 
-// The variants of a vehicle by name, as a column of a file of signals has them: "base|sport". Numbers the variants in the order of their first line.
+// The variants of a vehicle by name, as a column of a file of signals has them: "base|sport". Numbers the variants in the order
+// of their first line.
 class VariantNames {
  public:
   // Returns the variants of a row: all, also those of later lines, if the field is blank. Adds a finding for a name

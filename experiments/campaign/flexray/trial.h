@@ -1,9 +1,9 @@
 // A trial: one fault in one cluster. It simulates controllers on clocks of their own, with the fault and the
 // judge.
 //
-// Every host writes its lists anew in every cycle, and restarts a halted controller after the
-// campaign's delay (trial_simulation.h). A trial is a pure function of campaign, wiring and index: clocks, times of
-// power-on and the fault's draws come from streams of that index.
+// Every host writes its lists anew in every cycle, and restarts a halted controller after the campaign's delay
+// (trial_simulation.h). A trial is a pure function of campaign, wiring and index: clocks, times of power-on and the
+// fault's draws come from streams of that index.
 #pragma once
 
 #include <cstdint>
