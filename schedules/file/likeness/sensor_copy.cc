@@ -9,7 +9,9 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "schedules/file/likeness/layouts.h"
 #include "schedules/left_out/tasks.h"
@@ -45,15 +47,23 @@ class Copier {
     if (old_.device == old_.host || !is_alone(old_.device) || !is_alone(old_.host))
       return like(
           fmt::format("must be a sensor whose device and host have no tasks of other sensors; {} is none", old_.name));
-    if (cluster_.nodes.size() + 2 > model::kMostNamed || cluster_.pdus.size() + 2 > model::kMostNamed ||
-        cluster_.can_buses.size() + 1 > model::kMostCans)
+    const auto& [nodes, pdus, cans] = std::tie(cluster_.nodes, cluster_.pdus, cluster_.can_buses);
+    const auto lists =
+        std::count_if(pdus.begin(), pdus.end(), [&](const auto& pdu) { return pdu.sensor == copy_.from; });
+    const auto copies = std::count_if(cans.begin(), cans.end(), [&](const auto& can) { return is_copied(can); });
+    if (nodes.size() + 2 > model::kMostNamed || pdus.size() + static_cast<std::size_t>(lists) > model::kMostNamed ||
+        cans.size() + static_cast<std::size_t>(copies) > model::kMostCans)
       return like(fmt::format("needs room for its copies: a cluster has at most {} nodes, {} PDUs and {} CANs",
                               model::kMostNamed, model::kMostNamed, model::kMostCans));
+    for (const model::CanBus& bus : cans)
+      if (!is_copied(bus) && bus.messages.size() + own_messages(bus) > kIdentifiers)
+        return like(fmt::format("needs free identifiers on {}, which has {} messages", bus.name, bus.messages.size()));
     if (const std::string taken = taken_name(); !taken.empty())
       return like(fmt::format("needs a {}, a name that is taken", taken));
-    for (const model::Node& node : cluster_.nodes)
-      if (node.tasks.size() >= model::kMostTasks && reads_own(node))
-        return like(fmt::format("needs another task of {}, which has {}", node.name, model::kMostTasks));
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (const std::size_t more = tasks_of_its_own(n).size(); nodes[n].tasks.size() + more > model::kMostTasks)
+        return like(fmt::format("needs {} more tasks of {}, which has {} of at most {}", more, nodes[n].name,
+                                nodes[n].tasks.size(), model::kMostTasks));
     return too_many();
   }
 
@@ -79,10 +89,13 @@ class Copier {
   bool all_own(const std::vector<model::PortBinding>& bindings) const {
     return std::all_of(bindings.begin(), bindings.end(), [&](const auto& one) { return own(one.pdu); });
   }
-  bool reads_own(const model::Node& node) const {
-    return std::any_of(node.tasks.begin(), node.tasks.end(), [&](const model::Task& task) {
-      return std::any_of(task.reads.begin(), task.reads.end(), [&](const auto& in) { return own(in.pdu); });
-    });
+  // The tasks beside device and host that have lists of this sensor alone: each is copied.
+  std::vector<const model::Task*> tasks_of_its_own(std::size_t node) const {
+    std::vector<const model::Task*> found;
+    if (node == index_of(old_.device) || node == index_of(old_.host)) return found;
+    for (const model::Task& task : cluster_.nodes[node].tasks)
+      if (!task.reads.empty() && all_own(task.reads) && all_own(task.writes)) found.push_back(&task);
+    return found;
   }
   // Whether all lists of the node's tasks, or of the CAN, are the sensor's.
   bool is_alone(NodeId id) const {
@@ -94,6 +107,11 @@ class Copier {
   bool is_alone(const model::CanBus& bus) const {
     return std::all_of(bus.messages.begin(), bus.messages.end(), [&](const auto& one) { return own(one.pdu); });
   }
+  bool is_copied(const model::CanBus& bus) const { return !bus.messages.empty() && is_alone(bus); }
+  std::size_t own_messages(const model::CanBus& bus) const {
+    return static_cast<std::size_t>(
+        std::count_if(bus.messages.begin(), bus.messages.end(), [&](const auto& one) { return own(one.pdu); }));
+  }
 
   std::string renamed(const std::string& text) const {
     const std::size_t at = text.find(old_.name);
@@ -101,7 +119,7 @@ class Copier {
                                    : std::string(text).replace(at, old_.name.size(), copy_.name);
   }
 
-  // Returns a node, PDU or CAN that has a name of the copy's.
+  // Returns a node, PDU, CAN or task that has a name of the copy's.
   std::string taken_name() const {
     for (const NodeId node : {old_.device, old_.host})
       if (const std::string name = renamed(cluster_.node(node).name); cluster_.find_node(name)) return "node " + name;
@@ -109,7 +127,11 @@ class Copier {
       if (pdu.sensor == copy_.from && cluster_.find_pdu(renamed(pdu.name))) return "PDU " + renamed(pdu.name);
     for (const model::CanBus& bus : cluster_.can_buses)
       for (const model::CanBus& other : cluster_.can_buses)
-        if (!bus.messages.empty() && is_alone(bus) && other.name == renamed(bus.name)) return "CAN " + other.name;
+        if (is_copied(bus) && other.name == renamed(bus.name)) return "CAN " + other.name;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      for (const model::Task* copied : tasks_of_its_own(n))
+        for (const model::Task& other : cluster_.nodes[n].tasks)
+          if (other.name == renamed(copied->name)) return "task " + other.name;
     return "";
   }
 
@@ -177,7 +199,7 @@ class Copier {
     const std::size_t before = cluster_.can_buses.size();
     for (std::size_t c = 0; c < before; ++c) {
       new_cans_.push_back(c);
-      if (cluster_.can_buses[c].messages.empty() || !is_alone(cluster_.can_buses[c])) {
+      if (!is_copied(cluster_.can_buses[c])) {
         share_can(c);
         continue;
       }

@@ -9,6 +9,7 @@
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/file/loader.h"
 #include "schedules/file/vary.h"
+#include "schedules/model/limits.h"
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/support/patterns.h"
@@ -116,6 +117,28 @@ TEST(SensorCopy, SharesACanAndAGateway) {
   EXPECT_EQ(gateway[2].name, "forward_rear");
   EXPECT_EQ(gateway[2].reads[0].port, "in");
   EXPECT_EQ(cluster.pdu(gateway[2].writes[0].pdu).name, "rear_objects");
+}
+
+// The refusal comes before anything is made.
+TEST(SensorCopy, WithoutRoomIsRefused) {
+  const std::string shipped = with_room(shipped_text("paper_synchronised"));
+  const auto refused = [](const std::string& text) {
+    const auto findings = findings_of(with_sensor(text, "rear: {like: camera}"));
+    return findings.empty() ? std::string() : findings[0].key + " " + findings[0].expected;
+  };
+  EXPECT_EQ(refused(support::replaced(shipped, "forward_laser", "forward_rear")),
+            "sensors.rear.like needs a task forward_rear, a name that is taken");
+  const std::size_t before = parse_cluster(shipped, "shipped.yaml").pdus.size();
+  const auto with_pdus = [&](std::size_t count) {
+    std::string more = "\npdus:\n";
+    for (std::size_t n = before; n < count; ++n) more += "  more_" + std::to_string(n) + ": {like: image}\n";
+    return support::replaced_first(shipped, "\npdus:\n", more);
+  };
+  const std::string no_room = "sensors.rear.like needs room for its copies: a cluster has at most 200 nodes";
+  const std::size_t lists =
+      parse_cluster(with_sensor(shipped, "rear: {like: camera}"), "copy.yaml").pdus.size() - before;
+  EXPECT_TRUE(refused(with_pdus(model::kMostNamed - lists + 1)).starts_with(no_room));
+  EXPECT_FALSE(refused(with_pdus(model::kMostNamed - lists)).starts_with(no_room));
 }
 
 TEST(SensorCopy, HasTheDifferencesThatItSays) {
