@@ -1,11 +1,18 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer: the preset asan-ubsan) and runs
 # each for a while, two at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
-#   tools/fuzz.sh [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
+#   tools/fuzz.sh [--changed] [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
+# --changed: only targets that are touched (tools/touched.py) by what differs from the commit on which the check `fuzz` of
+# tools/long_checks.sh last passed.
 # A run begins with the seeds, the inputs that earlier runs found (build/fuzz/corpus), and the kept corpus
 # (tests/fuzz/corpus, an archive per target). --keep writes the kept corpus anew: the fewest inputs that reach the same code.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+since=
+if [[ ${1:-} == --changed ]]; then
+  since=$(tools/last_passed.sh fuzz)
+  shift
+fi
 keep=0
 if [[ ${1:-} == --keep ]]; then
   keep=1
@@ -21,6 +28,11 @@ if [[ ${#targets[@]} -eq 0 ]]; then
   for file in tests/fuzz/*_fuzz.cc; do targets+=("$(basename "$file" _fuzz.cc)"); done
 fi
 tools/install_deps.sh --gates
+if [[ -n $since ]]; then
+  tools/build.sh asan-ubsan --target help >/dev/null   # configured, nothing built
+  mapfile -t targets < <(tools/touched.py build/asan-ubsan "$since" "${targets[@]/#/fuzz_}" | sed 's/^fuzz_//')
+  [[ ${#targets[@]} -gt 0 ]] || { echo "fuzz: nothing of the targets has changed since $since"; exit 0; }
+fi
 tools/build.sh asan-ubsan --target fuzz
 
 programs=$PWD/build/asan-ubsan/tests/fuzz

@@ -9,8 +9,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 if [[ ${1:-} == --changed ]]; then
   shift
-  since=$(sed -n 's/^plain_g++ \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
-  git cat-file -e "${since:-none}^{commit}" 2>/dev/null || since=HEAD~1
+  since=$(tools/last_passed.sh plain_g++)
+  since=${since:-HEAD~1}
   mapfile -t asking < <(git grep -l TTF_WITH_ -- '*.cc' '*.h')
   changed=$(git diff --name-only "$since" -- CMakeLists.txt CMakePresets.json cmake cli/CMakeLists.txt experiments/mpi cli/node_set \
     tools/plain_build.sh "${asking[@]}")

@@ -3,12 +3,13 @@
 
     results.py drive PAGE ... [--jobs N]    runs each page's commands, fills its tables, keeps its first replications
     results.py fill PAGE ...                fills an edited page's tables from the kept answer
-    results.py check [PAGE ...] [--jobs N]  drives a part of each page, and holds it against what the page prints
+    results.py check [PAGE ...] [--jobs N] [--replications 1..3]
+                                            drives a part of each page, and holds it against what the page prints
     results.py printed [PAGE ...]           holds each page's tables against the kept answer, without a drive
 
 The pages say what their tables are (result_tables.py). Kept are the answer of each page's drive, and the first
-replications of each paradigm and point (tests/golden/results). The check drives the same ones. Their mean must not be
-further from the kept one than the printed interval is wide to one side. The random numbers are the same, so any
+replications of each paradigm and point (tests/golden/results). The check drives the same ones, or fewer of them. Their
+mean must not be further from the kept one than the printed interval is wide to one side. The random numbers are the same, so any
 difference is the program's. A small change of the program passes. One that a table would show does not.
 """
 import argparse
@@ -59,12 +60,12 @@ def drive(experiment, options, folder, jobs):
     return done.returncode == 0
 
 
-def first_replications(folder, measures):
+def first_replications(folder, measures, replications=REPLICATIONS):
     """(point, paradigm) -> measure -> the values of the first replications."""
     found = {}
     with open(pathlib.Path(folder) / "runs.csv", encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
-            if int(row["replication"]) >= REPLICATIONS or row["status"] != "done":
+            if int(row["replication"]) >= replications or row["status"] != "done":
                 continue
             cell = found.setdefault((int(row["point"]), row["paradigm"]), {m: [] for m in measures})
             for measure in measures:
@@ -122,10 +123,12 @@ def keep(page):
                 out.writerow([point, paradigm, r, *(f"{cell[m][r]:.6g}" for m in measures)])
 
 
-def kept_rows(page):
+def kept_rows(page, replications):
     found = {}
     with open(page.kept, encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
+            if int(row["replication"]) >= replications:
+                continue
             cell = found.setdefault((int(row["point"]), row["paradigm"]), {})
             for measure in measures_of(page):
                 cell.setdefault(measure, []).append(float(row[measure]))
@@ -152,8 +155,8 @@ def printed_cells(table):
     return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in table.splitlines()[2:]]
 
 
-def contradictions(page, today, answer):
-    then, found = kept_rows(page), []
+def contradictions(page, today, answer, replications):
+    then, found = kept_rows(page, replications), []
     for directive, text in page.tables:
         table = result_tables.Table(directive, answer)
         in_page = printed_cells(text)
@@ -173,7 +176,7 @@ def contradictions(page, today, answer):
                            else STEADY * abs(a) + 1e-9)
                 if not (abs(b - a) <= allowed or (math.isnan(a) and math.isnan(b))):
                     where = ", ".join(f"{k} {v}" for k, v in cell.point["axes"].items())
-                    found.append(f"{cell.measure} of {cell.paradigm}, {where}: replications 0 to {REPLICATIONS - 1} "
+                    found.append(f"{cell.measure} of {cell.paradigm}, {where}: replications 0 to {replications - 1} "
                                  f"give {b:.4g}, and gave {a:.4g} for the table, which prints {said}")
     return found
 
@@ -189,16 +192,17 @@ def tell(page, found):
     return bool(found)
 
 
-def check(pages, jobs):
+def check(pages, replications, jobs):
     failed, driven = False, set()
     with tempfile.TemporaryDirectory() as top:
         for page in pages:
             folder = pathlib.Path(top) / page.driven.name
             if page.driven not in driven:  # pages may share an experiment
                 driven.add(page.driven)
-                drive(page.experiment, ["--replications", str(REPLICATIONS)], folder, jobs)
+                drive(page.experiment, ["--replications", str(replications)], folder, jobs)
             answer = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
-            found = contradictions(page, first_replications(folder, measures_of(page)), answer)
+            today = first_replications(folder, measures_of(page), replications)
+            found = contradictions(page, today, answer, replications)
             failed = tell(page, found) or failed
     return failed
 
@@ -208,13 +212,14 @@ def main():
     parser.add_argument("what", choices=["drive", "fill", "check", "printed"])
     parser.add_argument("pages", nargs="*")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--replications", type=int, default=REPLICATIONS, choices=range(1, REPLICATIONS + 1))
     asked = parser.parse_args()
     paths = [pathlib.Path(p).resolve() for p in asked.pages] or sorted((TOP / "docs/results").glob("*.md"))
     pages = [page for page in map(Page, paths) if page.tables and page.experiment]
     driven = set()
     try:
         if asked.what == "check":
-            sys.exit(1 if printed(pages) or check(pages, asked.jobs) else 0)
+            sys.exit(1 if printed(pages) or check(pages, asked.replications, asked.jobs) else 0)
         if asked.what == "printed":
             sys.exit(1 if printed(pages) else 0)
         for page in pages:

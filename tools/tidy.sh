@@ -14,10 +14,8 @@ until=$((SECONDS + 100000))
 case ${1:-} in
   --changed)
     until=$((SECONDS + 70))
-    since=$(sed -n 's/^tidy \([0-9a-f]*\).*/\1/p' tools/long_checks.passed)
-    range=HEAD~1..HEAD
-    git cat-file -e "${since:-none}^{commit}" 2>/dev/null && range=$since..HEAD
-    changed=$(git log --format= --name-only --diff-filter=AM "$range" -- '*.h' '*.cc' ':!tests')
+    since=$(tools/last_passed.sh tidy)
+    changed=$(git log --format= --name-only --diff-filter=AM "${since:-HEAD~1}..HEAD" -- '*.h' '*.cc' ':!tests')
     mapfile -t files < <(awk 'NF && !seen[$0]++' <<<"$changed")
     ;;
   "") mapfile -t files < <(git ls-files '*.h' '*.cc' ':!tests') ;;

@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""Prints which tests a change touches, each with the targets that it needs, or which of some targets.
+
+    touched.py BUILD COMMIT [OPTION...]   of the tests that these options of ctest choose: one line each, its name and its targets
+    touched.py BUILD COMMIT TARGET...     of these targets
+
+A change is what differs from COMMIT. A program is touched if a source that it or its modules are made of differs, or a
+header that one of them sees, directly or through others. A script's test is touched if the script or a program of the
+build folder that it gets differs. Tests that get nothing of the build folder are left out: they are the same in every
+build. Without COMMIT ('') everything is touched, as after a change of how all is compiled. The build folder must be configured.
+"""
+import functools
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+FOR_ALL = ("cmake/", "CMakeLists.txt", "CMakePresets.json", "tools/build.sh", "tools/install_deps.sh", "tools/sanitize.sh",
+           "tools/threads.sh")
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+
+
+def output(*command):
+    return subprocess.run(command, cwd=TOP, check=True, capture_output=True, text=True).stdout
+
+
+class Touched:
+    def __init__(self, build, commit):
+        self.build = build
+        self.changed = set(output("git", "diff", "--name-only", commit).split()) if commit else set()
+        self.all = not commit or any(file.startswith(FOR_ALL) for file in self.changed)
+        self.known = {line.split(":")[0] for line in output("ninja", "-C", build, "-t", "targets", "all").splitlines()}
+
+    @functools.cache
+    def seen_from(self, file):
+        """The files that a file includes, as far as they are the project's or the generator's."""
+        if not file.is_file():
+            return frozenset()
+        names = INCLUDE.findall(file.read_text(encoding="utf-8", errors="replace"))
+        return frozenset(TOP / name if (TOP / name).is_file() else file.parent / name for name in names)
+
+    @functools.cache
+    def program_is(self, target):
+        """Whether a program or library is touched. Sources of a unity file are what it includes."""
+        if self.all:
+            return True
+        inputs = [(self.build / one).resolve() for one in output("ninja", "-C", self.build, "-t", "inputs", target).splitlines()]
+        open_files = [file for file in inputs if file.suffix in (".cc", ".cxx", ".c", ".proto", ".idl")]
+        seen = set(open_files)
+        while open_files:
+            for file in self.seen_from(open_files.pop()):
+                if (file := file.resolve()) not in seen:
+                    seen.add(file)
+                    open_files.append(file)
+        return any(file.relative_to(TOP).as_posix() in self.changed for file in seen if file.is_relative_to(TOP))
+
+    def tests(self, options):
+        listed = json.loads(output("ctest", "--test-dir", self.build, "--show-only=json-v1", *options))["tests"]
+        for test in listed:
+            # A program that is not built yet has no command.
+            words = [pathlib.Path(word) for word in test.get("command", [])] or [pathlib.Path(test["name"])]
+            targets = [str(word.relative_to(self.build)) for word in words if word.is_relative_to(self.build)]
+            targets = [target for target in targets + [word.name for word in words[:1]] if target in self.known]
+            scripts = {str(word.relative_to(TOP)) for word in words if word.is_relative_to(TOP)}
+            if targets and (self.all or scripts & self.changed or any(map(self.program_is, targets))):
+                yield test["name"], targets
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    build, commit, *rest = sys.argv[1:]
+    touched = Touched(pathlib.Path(build).resolve(), commit)
+    if not rest or rest[0].startswith("-"):
+        for name, targets in touched.tests(rest):
+            print(name, *targets)
+        return
+    for target in rest:
+        if target not in touched.known:
+            sys.exit(f"error: {build} has no target {target}")
+        if touched.program_is(target):
+            print(target)
+
+
+if __name__ == "__main__":
+    main()
