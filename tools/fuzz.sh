@@ -2,8 +2,7 @@
 # Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer: the preset asan-ubsan) and runs
 # each for a while, two at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
 #   tools/fuzz.sh [--changed] [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
-# --changed: only targets that are touched (tools/touched.py) by what differs from the commit on which the check `fuzz` of
-# tools/long_checks.sh last passed.
+# --changed: only the targets that are touched (tools/touched.py) by the changes since the long checks last passed `fuzz`.
 # A run begins with the seeds, the inputs that earlier runs found (build/fuzz/corpus), and the kept corpus
 # (tests/fuzz/corpus, an archive per target). --keep writes the kept corpus anew: the fewest inputs that reach the same code.
 set -euo pipefail

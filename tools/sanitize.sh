@@ -4,8 +4,8 @@
 # a launch by the wall clock have three tries, as in tools/slow_tests.sh. The golden drives must give the same bits as with g++.
 # tools/fuzz.sh uses the same build.
 #   tools/sanitize.sh [--changed | --slow]
-# --changed: only tests that are touched (tools/touched.py) by what differs from the commit on which tools/long_checks.sh last
-# passed them all. --slow: also what is slow, and by the wall clock.
+# --changed: only the tests that are touched (tools/touched.py) by the changes since the long checks last passed all of them.
+# --slow: also the slow tests, and those by the wall clock.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh --gates

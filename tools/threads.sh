@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Builds tests with ThreadSanitizer and runs them. A race ends them, and this script with exit code 1.
 #   tools/threads.sh [--changed] [TEST...]      default: test_threads, the tests of all code with threads (tests/CMakeLists.txt)
-# --changed: only tests that are touched (tools/touched.py) by what differs from the commit on which the check `threads` of
-# tools/long_checks.sh last passed.
+# --changed: only the tests that are touched (tools/touched.py) by the changes since the long checks last passed `threads`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 since=
