@@ -154,10 +154,4 @@ const std::vector<Document>& documents() {
   return kDocuments;
 }
 
-const Document* document_of(const std::string& kind) {
-  const auto& all = documents();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Document& one) { return one.kind == kind; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 }  // namespace ttf::keys

@@ -30,6 +30,5 @@ struct Document {
 };
 
 const std::vector<Document>& documents();
-const Document* document_of(const std::string& kind);  // null if there is no such kind
 
 }  // namespace ttf::keys

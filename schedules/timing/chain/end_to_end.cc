@@ -66,10 +66,8 @@ class Segment {
   Figure reaction(std::span<const Stage> chain) const {
     const Timetable& first = links_.front().jobs;
     const auto missed = [&](const Way& way) { return first.reads(way.front() - 1); };
-    Way longest = forwards(0);
-    for (std::int64_t job = 1; job < first.jobs_in(hyperperiod_); ++job)
-      if (Way way = forwards(job); written(way) - missed(way) > written(longest) - missed(longest))
-        longest = std::move(way);
+    const Way longest =
+        longest_of(first, &Segment::forwards, [&](const Way& way) { return written(way) - missed(way); });
     Figure figure = along(chain, longest);
     const Duration waits = sampled(longest) - missed(longest);
     figure.time += waits;
@@ -77,19 +75,14 @@ class Segment {
     return figure;
   }
   Figure reduced_reaction(std::span<const Stage> chain) const {
-    Way longest = forwards(0);
-    for (std::int64_t job = 1; job < links_.front().jobs.jobs_in(hyperperiod_); ++job)
-      if (Way way = forwards(job); written(way) - sampled(way) > written(longest) - sampled(longest))
-        longest = std::move(way);
-    return along(chain, longest);
+    return along(chain, longest_of(links_.front().jobs, &Segment::forwards,
+                                   [this](const Way& way) { return written(way) - sampled(way); }));
   }
   Figure age(std::span<const Stage> chain) const {
     const Timetable& last = links_.back().jobs;
     const auto replaced = [&](const Way& way) { return last.writes(way.back() + 1); };
-    Way longest = backwards(0);
-    for (std::int64_t job = 1; job < last.jobs_in(hyperperiod_); ++job)
-      if (Way way = backwards(job); replaced(way) - sampled(way) > replaced(longest) - sampled(longest))
-        longest = std::move(way);
+    const Way longest =
+        longest_of(last, &Segment::backwards, [&](const Way& way) { return replaced(way) - sampled(way); });
     Figure figure = along(chain, longest);
     const Duration stays = replaced(longest) - written(longest);
     figure.time += stays;
@@ -97,16 +90,21 @@ class Segment {
     return figure;
   }
   Figure reduced_age(std::span<const Stage> chain) const {
-    Way longest = backwards(0);
-    for (std::int64_t job = 1; job < links_.back().jobs.jobs_in(hyperperiod_); ++job)
-      if (Way way = backwards(job); written(way) - sampled(way) > written(longest) - sampled(longest))
-        longest = std::move(way);
-    return along(chain, longest);
+    return along(chain, longest_of(links_.back().jobs, &Segment::backwards,
+                                   [this](const Way& way) { return written(way) - sampled(way); }));
   }
 
  private:
   using Way = std::vector<std::int64_t>;  // the job of each link
 
+  // The longest way of the jobs in a hyperperiod.
+  template <class Length>
+  Way longest_of(const Timetable& jobs, Way (Segment::*way_of)(std::int64_t) const, const Length& length) const {
+    Way longest = (this->*way_of)(0);
+    for (std::int64_t job = 1; job < jobs.jobs_in(hyperperiod_); ++job)
+      if (Way way = (this->*way_of)(job); length(way) > length(longest)) longest = std::move(way);
+    return longest;
+  }
   Way forwards(std::int64_t first_job) const {
     Way way{first_job};
     for (std::size_t l = 1; l < links_.size(); ++l)
