@@ -12,15 +12,18 @@ clang_warnings() {                                                     # everyth
   cmake --preset release -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
   cmake --build build/clang --target all benchmarks slow_tests
 }
-sanitizers() { tools/sanitize.sh --slow; }                             # slow tests, and those by the wall clock
-threads() {                                                            # the thread sanitizer, all of these modules' tests
-  tools/threads.sh test_threads test_sweep test_experiments test_runner test_recording test_dds test_dds_network test_dds_live
+slow() { tools/slow_tests.sh; }                                        # all slow tests, and those by the wall clock
+sanitizers() { tools/sanitize.sh; }                                    # all tests of which .ci/run has the touched ones
+sanitizers_slow() { tools/sanitize.sh --slow; }                        # slow tests, and those by the wall clock
+threads() { tools/threads.sh; }                                        # as sanitizers
+threads_wide() {                                                       # the thread sanitizer, all of these modules' tests
+  tools/threads.sh test_sweep test_experiments test_runner test_recording test_dds test_dds_network test_dds_live
 }
 tidy() { tools/tidy.sh; }                                              # every source and header of the modules
 fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
 results() { tools/results.py check; }                                  # all kept replications of every page
 
-all=(plain_g++ plain_clang++ clang_warnings sanitizers threads tidy fuzz results)
+all=(plain_g++ plain_clang++ clang_warnings slow sanitizers sanitizers_slow threads threads_wide tidy fuzz results)
 [[ $# -gt 0 ]] || set -- "${all[@]}"
 tools/install_deps.sh --gates
 [[ -z $(git status --porcelain) ]] || { echo "error: commit first: what passes is kept with its commit" >&2; exit 2; }

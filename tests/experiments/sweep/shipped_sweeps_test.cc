@@ -28,12 +28,27 @@ std::set<std::string> shipped() {
   return names;
 }
 
+// A page of docs/results has tables of this experiment, its first one. `tools/results.py check` drives all of their points.
+bool has_a_page(const std::string& name) {
+  const std::string command = "\n    build/release/ttfusion experiment ";
+  for (const auto& entry : std::filesystem::directory_iterator(TTF_SOURCE_DIR "/docs/results")) {
+    const std::string page = read_file(entry.path().string());
+    const std::size_t first = page.find(command);
+    if (first != std::string::npos && page.find("<!-- table") != std::string::npos &&
+        page.compare(first + command.size(), name.size() + 17, "experiments/" + name + ".yaml") == 0)
+      return true;
+  }
+  return false;
+}
+
 TEST(ShippedSweeps, CanBeDriven) {
-  EXPECT_GE(shipped().size(), 7u);
+  std::size_t without_page = 0;
   for (const std::string& name : shipped()) {
     const SweepFile sweep = load_sweep(kFolder + name + ".yaml");
     EXPECT_EQ(sweep.name, name);
     EXPECT_EQ(sweep.question.back(), '?') << name;
+    if (has_a_page(name)) continue;
+    ++without_page;
     const SweepDrives drives(sweep);
     const auto last = static_cast<std::uint32_t>(sweep.points() - 1);
     for (const std::uint32_t point : {std::uint32_t{0}, last})
@@ -43,6 +58,7 @@ TEST(ShippedSweeps, CanBeDriven) {
         EXPECT_TRUE(std::isfinite(row.values.front())) << name << " " << sweep.label_of(point);
       }
   }
+  EXPECT_GE(without_page, 3u);
 }
 
 // Whether a sensor sees there. The whole car must be ahead of it.
@@ -82,7 +98,8 @@ TEST(ShippedSweeps, NoCarStandsStillOrLeavesTheSensorsRange) {
       std::size_t standing = 0, gone = 0;
       for (std::uint32_t replication = 0; replication < sweep.replications; ++replication) {
         const sim::world::World world(drive.scenario.world, sweep.seed, replication);
-        for (Duration at{}; at <= drive.scenario.duration; at = at + Duration::milliseconds(20)) {
+        // Seen from the vehicle, a car moves by about a metre between two looks.
+        for (Duration at{}; at <= drive.scenario.duration; at = at + Duration::milliseconds(100)) {
           const sim::world::ObjectState car = world.state_of(ObjectId{0}, TrueTime{} + at);
           standing += car.speed + drive.scenario.world.own_speed <= 0.0;
           if (short_sighted) continue;
