@@ -34,9 +34,7 @@ void FlexRayController::State::send_static(Microticks at) {
   const Microticks end = at + static_frame;
   if (slot.network_management && !null_frame) network_management.combine(network_management.own());
   const bool sync_frame = p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
-  const auto quiet = [this](Channel channel) { return !port.wants_bytes(channel); };
-  if (slot.channels == schedules::model::Channels::kAB && !events.wants_bytes() && quiet(Channel::kA) &&
-      quiet(Channel::kB)) {
+  if (slot.channels == schedules::model::Channels::kAB && !in_bytes(Channel::kA) && !in_bytes(Channel::kB)) {
     send_on_both(slot, at, end, content, null_frame);
     if (sync_frame) sync.own(slot.slot, slot.channels);
     return;
@@ -82,8 +80,7 @@ bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
                                           const cni::Cni::Fragment& content, bool null_frame, bool last) {
   if (!port.may_leave(channel, slot.slot, at)) return false;
   const wire::DecodedFrame said = frame_of(slot, content, null_frame);
-  const bool in_bytes = port.wants_bytes(channel) || events.wants_bytes();
-  const std::size_t size = in_bytes ? wire::encode_frame(said.header, channel, said.payload, frame) : 0;
+  const std::size_t size = in_bytes(channel) ? wire::encode_frame(said.header, channel, said.payload, frame) : 0;
   const ports::Transmission transmission{
       channel, ports::Signal::kFrame, at, end, slot.slot, std::span<const std::byte>(frame).first(size), said};
   sending_from[index_of(channel)] = at;
@@ -100,7 +97,7 @@ void FlexRayController::State::send_on_both(const FrameSlot& slot, Microticks at
       Channel::kA, ports::Signal::kFrame, at, end, slot.slot, {}, frame_of(slot, content, null_frame)};
   sending_from = {at, at};
   sending_to = {end, end};
-  port.transmit_on_both(transmission);
+  by_content->transmit_on_both(transmission);
   for (const Channel channel : schedules::model::kBothChannels) {
     transmission.channel = channel;
     events.frame_sent(transmission, clock->cycle(), null_frame, slot.pdu, content.sequence, slot.fragment,

@@ -24,6 +24,7 @@ struct FlexRayController::State {
   const schedules::model::NodeParameters& p;
   NodeId node;
   ports::FlexRayPort& port;
+  ports::ContentPort* const by_content;  // null: every frame is sent in bytes
   ControllerEvents& events;
   const poc::PocParameters poc_parameters;
   const SlotTable slots;
@@ -135,6 +136,10 @@ struct FlexRayController::State {
   // Returns the frame of a slot, built in `payload`.
   wire::DecodedFrame frame_of(const schedules::model::FrameSlot& slot, const cni::Cni::Fragment& content,
                               bool null_frame);
+  // Returns whether the medium or the log needs the next frame's bytes.
+  bool in_bytes(schedules::model::Channel channel) const {
+    return by_content == nullptr || by_content->wants_bytes(channel) || events.wants_bytes();
+  }
   // Returns false if it was too late to send.
   bool send_frame(const schedules::model::FrameSlot& slot, schedules::model::Channel channel, Microticks at,
                   Microticks end, const cni::Cni::Fragment& content, bool null_frame, bool last);

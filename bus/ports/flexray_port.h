@@ -69,15 +69,21 @@ inline Reception on_b(Reception reception) {
   return reception;
 }
 
+// The fast way beside the contract, in virtual time alone: every frame may leave, and the medium may carry its content in
+// place of its bytes (docs/architecture/engines.md).
+class ContentPort {
+ public:
+  virtual ~ContentPort() = default;
+  // Returns whether the medium needs the next transmission's bytes.
+  virtual bool wants_bytes(schedules::model::Channel channel) const = 0;
+  // Sends one frame on both channels at once, without bytes; `transmission` says channel A.
+  virtual void transmit_on_both(const Transmission& transmission) = 0;
+};
+
 class FlexRayPort {
  public:
   virtual ~FlexRayPort() = default;
   virtual void transmit(const Transmission& transmission) = 0;
-  // Sends one frame on both channels at once, without bytes; `transmission` says channel A.
-  virtual void transmit_on_both(const Transmission& transmission) {
-    transmit(transmission);
-    transmit(on_b(transmission));
-  }
   // Returns whether a frame, or in slot 0 a symbol, may still leave at `start`; otherwise it is not sent. Only
   // a medium in real time can be too late.
   virtual bool may_leave(schedules::model::Channel channel, int slot, Microticks start) {
@@ -88,9 +94,8 @@ class FlexRayPort {
   virtual Microticks handed_over_within() const { return {}; }
   // Returns whether a signal is arriving now.
   virtual bool carrier(schedules::model::Channel channel) const = 0;
-  // Returns whether the medium needs the next transmission's bytes. In virtual time a medium may carry the
-  // content alone if every frame may leave.
-  virtual bool wants_bytes(schedules::model::Channel channel) const { return (void)channel, true; }
+  // Returns the medium's fast way, or null if it has none.
+  virtual ContentPort* by_content() { return nullptr; }
 };
 
 }  // namespace ttf::bus::ports

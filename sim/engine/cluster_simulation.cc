@@ -65,7 +65,10 @@ struct ClusterSimulation::FlexRayTap final : EnginePort {
     happens(transmission);
   }
   void transmit_on_both(const bus::ports::Transmission& transmission) override {
-    if (simulation.others_ != nullptr) return bus::ports::FlexRayPort::transmit_on_both(transmission);
+    if (simulation.others_ != nullptr) {
+      transmit(transmission);
+      return transmit(bus::ports::on_b(transmission));
+    }
     simulation.frames_sent_ += 2;
     EnginePort::transmit_on_both(transmission);
   }

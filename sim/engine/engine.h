@@ -154,13 +154,14 @@ class Engine : public Plant {
 };
 
 // The port of a node's controller on the simulated FlexRay.
-class EnginePort : public bus::ports::FlexRayPort {
+class EnginePort : public bus::ports::FlexRayPort, public bus::ports::ContentPort {
  public:
   EnginePort(Engine& engine, NodeId node) : engine_(engine), node_(node) {}
   void transmit(const bus::ports::Transmission& transmission) override;
   void transmit_on_both(const bus::ports::Transmission& transmission) override;
   bool carrier(schedules::model::Channel channel) const override;
   bool wants_bytes(schedules::model::Channel channel) const override;
+  bus::ports::ContentPort* by_content() override { return this; }
 
  private:
   Engine& engine_;
