@@ -26,8 +26,8 @@ timebase::Divisor nominal_slot(const schedules::model::GlobalParameters& g, cons
 
 FlexRayController::State::State(const schedules::model::Cluster& c, NodeId n, ports::FlexRayPort& medium,
                                 ControllerEvents& host)
-    : cluster(c), g(c.flexray), p(parameters(c, n)), node(n), port(medium), by_content(medium.by_content()), events(host),
-      poc_parameters(poc::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
+    : cluster(c), g(c.flexray), p(parameters(c, n)), node(n), port(medium), by_content(medium.by_content()),
+      events(host), poc_parameters(poc::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
       minislots(c.flexray), geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
       told_of_receptions(host.wants_receptions()), nominal_slot(controller::nominal_slot(g, p)),
       static_frame(bits(schedules::model::frame_bits(g, g.gPayloadLengthStatic))), longest_cas(bits(g.gdCASRxLowMax)),
