@@ -31,9 +31,11 @@ inline std::string bits_text(unsigned bits, std::initializer_list<std::string_vi
   }
   return text;
 }
-// Returns the enumerator with these words.
+// Returns the enumerator with these words. Those of a number without an enumerator name none.
 template <class Enum> constexpr std::optional<Enum> from_text(std::string_view words) {
-  for (unsigned number = 0; number <= 0xff && !words.empty(); ++number)
+  constexpr unsigned kNobodys = 0xff;
+  if (words.empty() || words == to_text(static_cast<Enum>(kNobodys))) return std::nullopt;
+  for (unsigned number = 0; number < kNobodys; ++number)
     if (const auto one = static_cast<Enum>(number); to_text(one) == words) return one;
   return std::nullopt;
 }
