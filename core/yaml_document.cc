@@ -4,6 +4,7 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include <sstream>
+#include <string_view>
 
 #include "core/errors.h"
 
@@ -46,13 +47,33 @@ void check_one_document(const std::string& text, const std::string& name) {
     throw InputError({name, start.line, "", "", "must be one YAML document: another one begins here"});
 }
 
+// Whether the text is one document if it is a mapping: its first key begins a line, and no line has a mark of documents.
+// The mapping then ends with the text. All other texts are read once more, to see whether more follows.
+bool is_surely_one_mapping(const std::string& text) {
+  if (text.find('\r') != std::string::npos) return false;  // the parser's lines may be others
+  bool first = true;                                       // no key has been seen
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = std::string_view(text).substr(at);
+    if (rest.starts_with("---") || rest.starts_with("...") || rest.starts_with('%')) return false;
+    const char begin = rest.front();
+    if (first && begin != '#' && begin != '\n') {
+      if (!((begin >= 'a' && begin <= 'z') || (begin >= 'A' && begin <= 'Z'))) return false;
+      first = false;
+    }
+    const std::size_t end = text.find('\n', at);
+    at = end == std::string::npos ? text.size() : end + 1;
+  }
+  return !first;
+}
+
 }  // namespace
 
 YAML::Node parse_document(const std::string& text, const std::string& name) {
   check_characters(text, name);
   try {
-    check_one_document(text, name);
-    return YAML::Load(text);
+    YAML::Node root = YAML::Load(text);
+    if (!root.IsMap() || !is_surely_one_mapping(text)) check_one_document(text, name);
+    return root;
   } catch (const YAML::Exception& error) {
     throw InputError({name, error.mark.line + 1, "", "", "is not valid YAML: " + error.msg});
   }

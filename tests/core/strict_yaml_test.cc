@@ -101,6 +101,11 @@ TEST(StrictYaml, OneDocumentToItsEnd) {
   EXPECT_EQ(sentence_of("a: 1\n...\n"), "accepted");
   EXPECT_EQ(sentence_of("---\na: 1\t# tabs and line ends are fine\r\n"), "accepted");
   EXPECT_EQ(sentence_of("a: 1\n---\nb: 2\n"), "c.yaml:2: must be one YAML document: another one begins here");
+  EXPECT_EQ(sentence_of("# x\na: 1\n...\nb: 2\n"), "c.yaml:4: must be one YAML document: another one begins here");
+  // Mappings that end without a mark.
+  EXPECT_EQ(sentence_of("!t\n  a: 1\nb: 2\n"), "c.yaml:3: must be one YAML document: another one begins here");
+  EXPECT_EQ(sentence_of("{a: 1}\nb: 2\n"), "c.yaml:2: must be one YAML document: another one begins here");
+  EXPECT_EQ(sentence_of(" a: 1\nb: 2\n"), "c.yaml:2: must be one YAML document: another one begins here");
   // Here the parser sees empty documents without end.
   EXPECT_EQ(sentence_of(", "), "c.yaml:1: must be one YAML document: another one begins here");
   // The parser takes this character for the end of the file.
