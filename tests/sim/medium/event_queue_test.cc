@@ -46,6 +46,10 @@ TEST(EventQueue, TheSameAsASortedList) {
     RandomStream draw({1, 0, Purpose::kTest, seed, 0});
     EventQueue<int> queue(4);
     std::vector<std::pair<EventOrder, int>> sorted;
+    const auto add = [&sorted](const EventOrder& order, int payload) {
+      const auto before = [](const EventOrder& one, const auto& other) { return one < other.first; };
+      sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), order, before), {order, payload});
+    };
     TrueTime now{};
     for (int i = 0; i < 2'000; ++i) {
       ASSERT_EQ(queue.empty(), sorted.empty());
@@ -55,8 +59,7 @@ TEST(EventQueue, TheSameAsASortedList) {
         const auto node = static_cast<std::uint8_t>(draw.integer(0, 3));
         const auto rank = static_cast<std::uint16_t>(draw.integer(0, 2));
         const std::uint64_t sequence = queue.schedule(at, phase, node, i, rank);
-        sorted.push_back({{at, phase, node, rank, sequence}, i});
-        std::sort(sorted.begin(), sorted.end());
+        add({at, phase, node, rank, sequence}, i);
         continue;
       }
       ASSERT_EQ(queue.next(), sorted.front().first);
@@ -69,8 +72,7 @@ TEST(EventQueue, TheSameAsASortedList) {
       order.node = 4;
       ASSERT_EQ(queue.is_first(order), sorted.empty() || order < sorted.front().first);
       queue.go_on(order, payload);
-      sorted.push_back({order, payload});
-      std::sort(sorted.begin(), sorted.end());
+      add(order, payload);
     }
   }
 }

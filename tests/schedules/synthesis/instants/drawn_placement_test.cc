@@ -161,6 +161,15 @@ class Exhaustion {
       if (one.fixed && !take(a, *one.fixed)) return;
       if (!one.fixed && one.resource) moving.push_back(a);
     }
+    for (const Chain& chain : problem_.chains) {
+      const auto moves = [&](std::size_t a) { return std::ranges::count(moving, a) > 0; };
+      std::size_t last = kNone;
+      for (const std::size_t a : chain.activities)
+        if (moves(a) && (last == kNone || a > last)) last = a;
+      last_.push_back(last);
+    }
+    for (std::size_t resource = 0; resource < busy_.size(); ++resource)
+      if (!has_room(resource, moving, 0)) return;
     descend(moving, 0);
   }
 
@@ -216,16 +225,41 @@ class Exhaustion {
     busy_[*one.resource] |= bits;
     return true;
   }
-  void descend(const std::vector<std::size_t>& moving, std::size_t depth) {
-    if (depth == moving.size()) return measure(0);
-    const Activity& one = problem_.activities[moving[depth]];
+  // Calls `then` with the activity at each of its places that is free.
+  template <class Then> void at_each_place(std::size_t a, const Then& then) {
+    const Activity& one = problem_.activities[a];
     const bool list = *one.resource == kStaticSegment;
     for (Ticks at = 0; at < one.period; at += list ? kSlotTicks : 1) {
       if (list && at % kTwelve > one.grid.last) continue;
       const std::uint32_t before = busy_[*one.resource];
-      if (take(moving[depth], at)) descend(moving, depth + 1);
+      if (take(a, at)) then();
       busy_[*one.resource] = before;
     }
+  }
+  // Whether this resource has room for all its activities.
+  bool has_room(std::size_t resource, const std::vector<std::size_t>& moving, std::size_t depth) {
+    while (depth < moving.size() && problem_.activities[moving[depth]].resource != resource) ++depth;
+    bool found = depth == moving.size();
+    if (!found) at_each_place(moving[depth], [&] { found = found || has_room(resource, moving, depth + 1); });
+    return found;
+  }
+  void descend(const std::vector<std::size_t>& moving, std::size_t depth) {
+    if (depth == moving.size()) return measure(0);
+    at_each_place(moving[depth], [&] {
+      if (!is_too_old(moving[depth])) descend(moving, depth + 1);
+    });
+  }
+  // Whether a chain that stands from its list on, by its last activity, is no younger than the best, however late its sensor
+  // measures. What is placed later does not change its age.
+  bool is_too_old(std::size_t placed) {
+    for (std::size_t c = 0; c < problem_.chains.size(); ++c) {
+      if (last_[c] != placed) continue;
+      const Chain& chain = problem_.chains[c];
+      const std::size_t sensor = chain.activities[0];
+      if (!problem_.activities[sensor].fixed) offsets_[sensor] = offsets_[chain.activities[1]] - chain.gaps[0];
+      if (age(problem_, chain, chain.activities.size() - 1, offsets_) >= best_) return true;
+    }
+    return false;
   }
   // Sensors measure at any tick, the latest one first.
   void measure(std::size_t c) {
@@ -251,7 +285,9 @@ class Exhaustion {
   const Problem& problem_;
   const Limits& limits_;
   std::vector<Ticks> offsets_;
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::vector<std::uint32_t> busy_;  // by resource: its ticks
+  std::vector<std::size_t> last_;    // by chain: its activity that is placed last
   Ticks best_ = kNoLimit;
 };
 

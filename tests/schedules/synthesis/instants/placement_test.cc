@@ -79,21 +79,22 @@ Ticks exhausted(const Reading& reading) {
   };
   std::vector<std::vector<Ticks>> allowed;
   for (const std::size_t a : moving) allowed.push_back(choices(a));
-  const auto descend = [&](const auto& self, std::size_t depth) -> void {
+  const auto age_of = [&](const Chain& chain) {
+    // From the sensor, which is free, as late as its list allows; to the use, which is as early as may be.
+    const Ticks start = offsets[chain.activities[1]];
+    Ticks at = start;
+    for (std::size_t i = 2; i + 1 < chain.activities.size(); ++i) {
+      at += problem.activities[chain.activities[i - 1]].duration + chain.gaps[i - 1];
+      at += modulo(offsets[chain.activities[i]] - at, kCycle);
+    }
+    return problem.activities[chain.activities[0]].duration + chain.gaps[0] + at - start +
+           problem.activities[chain.activities[3]].duration + chain.gaps[3];
+  };
+  // `oldest`: of the chains that stand. A chain stands with its task: image and list come before it.
+  const auto descend = [&](const auto& self, std::size_t depth, Ticks oldest) -> void {
+    if (oldest >= best) return;
     if (depth == moving.size()) {
-      Ticks worst = 0;
-      for (const Chain& chain : problem.chains) {
-        // From the sensor, which is free, as late as its list allows; to the use, which is as early as may be.
-        Ticks at = offsets[chain.activities[1]], age = problem.activities[chain.activities[0]].duration + chain.gaps[0];
-        const Ticks start = at;
-        for (std::size_t i = 2; i + 1 < chain.activities.size(); ++i) {
-          at += problem.activities[chain.activities[i - 1]].duration + chain.gaps[i - 1];
-          at += modulo(offsets[chain.activities[i]] - at, kCycle);
-        }
-        age += at - start + problem.activities[chain.activities[3]].duration + chain.gaps[3];
-        worst = std::max(worst, age);
-      }
-      best = std::min(best, worst);
+      best = oldest;
       return;
     }
     for (const Ticks at : allowed[depth]) {
@@ -104,10 +105,14 @@ Ticks exhausted(const Reading& reading) {
         free = one.resource != other.resource || (one.lanes & other.lanes) == 0 ||
                in_the_way(one, at, other, offsets[moving[d]], true) == 0;
       }
-      if (free) self(self, depth + 1);
+      if (!free) continue;
+      Ticks older = oldest;
+      for (const Chain& chain : problem.chains)
+        if (chain.activities[2] == moving[depth]) older = std::max(older, age_of(chain));
+      self(self, depth + 1, older);
     }
   };
-  descend(descend, 0);
+  descend(descend, 0, 0);
   return best;
 }
 
