@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "experiments/cost/dense.h"
 
 namespace ttf::experiments::cost {
 
@@ -67,15 +68,15 @@ Flow ControlLoop::flow() const {
   for (Block block = 0; block < blocks_.size(); ++block) {
     const Entry& entry = blocks_[block];
     const RowVectorXd output = output_of(block);
-    flow.q += entry.cost * output.transpose() * output;
+    flow.q += outer(entry.cost * output.transpose(), output);
     if (!entry.continuous || entry.system.a.rows() == 0) continue;  // discrete, or an output alone
     const StateSpace& system = entry.system;
     flow.a.block(entry.first, entry.first, entry.states, entry.states) = system.a;
     for (std::size_t input = 0; input < entry.inputs.size(); ++input)
       flow.a.middleRows(entry.first, entry.states) +=
-          system.b.col(static_cast<Index>(input)) * output_of(entry.inputs[input]);
+          outer(system.b.col(static_cast<Index>(input)), output_of(entry.inputs[input]));
     flow.noise.block(entry.first, entry.first, entry.states, entry.states) =
-        entry.noise_density * system.b * system.b.transpose();
+        entry.noise_density * product(system.b, system.b.transpose());
   }
   return flow;
 }
@@ -93,9 +94,9 @@ Jump ControlLoop::executes_as(Block block, const StateSpace& system) const {
   jump.e.block(entry.first, entry.first, rows, entry.states) = of_state;
   for (std::size_t input = 0; input < entry.inputs.size(); ++input) {
     const Eigen::VectorXd column = of_input.col(static_cast<Index>(input));
-    jump.e.middleRows(entry.first, rows) += column * output_of(entry.inputs[input]);
+    jump.e.middleRows(entry.first, rows) += outer(column, output_of(entry.inputs[input]));
     jump.noise.block(entry.first, entry.first, rows, rows) +=
-        blocks_.at(entry.inputs[input]).measurement_variance * column * column.transpose();
+        outer(blocks_.at(entry.inputs[input]).measurement_variance * column, column.transpose());
   }
   return jump;
 }
@@ -104,8 +105,8 @@ Jump ControlLoop::executes(const std::vector<Block>& blocks) const {
   Jump all{MatrixXd::Identity(size_, size_), MatrixXd::Zero(size_, size_)};
   for (const Block block : blocks) {
     const Jump one = executes_as(block, blocks_.at(block).system);
-    all.noise = MatrixXd(one.e * all.noise * one.e.transpose() + one.noise);
-    all.e = MatrixXd(one.e * all.e);
+    all.noise = propagated(one.e, all.noise) + one.noise;
+    all.e = product(one.e, all.e);
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "experiments/cost/dense.h"
 
 namespace ttf::experiments::cost {
 
@@ -22,15 +23,14 @@ double timetable_cost(const Flow& flow, double round, const std::vector<TimedJum
   }
   MatrixXd a = MatrixXd::Identity(n, n), moment = MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < jumps.size(); ++i) {
-    const MatrixXd through = steps[i].phi * jumps[i].jump.e;
-    moment = MatrixXd(through * moment * through.transpose() +
-                      steps[i].phi * jumps[i].jump.noise * steps[i].phi.transpose() + steps[i].noise);
-    a = MatrixXd(through * a);
+    const MatrixXd through = product(steps[i].phi, jumps[i].jump.e);
+    moment = propagated(through, moment) + propagated(steps[i].phi, jumps[i].jump.noise) + steps[i].noise;
+    a = product(through, a);
   }
   bool stable = false;
   for (int doubling = 0; doubling < kMostDoublings && !stable; ++doubling) {
-    moment = MatrixXd(moment + a * moment * a.transpose());
-    a = MatrixXd(a * a);
+    moment += propagated(a, moment);
+    a = product(a, a);
     const double left = a.cwiseAbs().maxCoeff();
     if (!(left < 1e100)) break;
     stable = left < 1e-18;
@@ -38,9 +38,9 @@ double timetable_cost(const Flow& flow, double round, const std::vector<TimedJum
   if (!stable) return std::numeric_limits<double>::infinity();
   double cost = 0.0;
   for (std::size_t i = 0; i < jumps.size(); ++i) {
-    moment = MatrixXd(jumps[i].jump.e * moment * jumps[i].jump.e.transpose() + jumps[i].jump.noise);
-    cost += steps[i].q.cwiseProduct(moment).sum() + steps[i].constant;
-    moment = MatrixXd(steps[i].phi * moment * steps[i].phi.transpose() + steps[i].noise);
+    moment = propagated(jumps[i].jump.e, moment) + jumps[i].jump.noise;
+    cost += inner(steps[i].q, moment) + steps[i].constant;
+    moment = propagated(steps[i].phi, moment) + steps[i].noise;
   }
   return cost / round;
 }

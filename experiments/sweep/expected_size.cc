@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/cost/dense.h"
+
 namespace ttf::experiments::sweep {
 namespace {
 
@@ -85,13 +87,14 @@ void SizeRecursion::see(const SizeLook& look) {
 
   const auto at = static_cast<Eigen::Index>(2 + look.sensor), known = moments_.rows();
   if (at >= known) {
-    moments_.conservativeResizeLike(Eigen::MatrixXd::Zero(at + 1, at + 1));
-    moments_.diagonal().tail(at + 1 - known).setOnes();
+    const Eigen::MatrixXd before = moments_;
+    moments_ = Eigen::MatrixXd::Identity(at + 1, at + 1);
+    moments_.topLeftCorner(known, known) = before;
   }
   Eigen::MatrixXd step = Eigen::MatrixXd::Identity(moments_.rows(), moments_.cols());
   step.topLeftCorner<2, 2>() = rest;
   step.block<2, 1>(0, at) = std::sqrt(c) * gain;
-  moments_ = (step * moments_ * step.transpose()).eval();
+  moments_ = cost::propagated(step, moments_);
   moments_.topLeftCorner<2, 2>() += look.white * gain * gain.transpose();
 }
 
