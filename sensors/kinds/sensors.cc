@@ -9,6 +9,13 @@ std::string_view name_of(const schedules::model::Cluster& cluster, SensorId sens
 
 }  // namespace
 
+Sensors::Sensors() = default;
+Sensors::Sensors(const Sensors&) = default;
+Sensors::Sensors(Sensors&&) noexcept = default;
+Sensors& Sensors::operator=(const Sensors&) = default;
+Sensors& Sensors::operator=(Sensors&&) noexcept = default;
+Sensors::~Sensors() = default;
+
 const Device& Sensors::device_of(const schedules::model::Sensor& sensor) const {
   return of_kind(*this, sensor.kind,
                  [&](const auto& kind) -> const Device& { return kind.of(sensor.name).model.device; });

@@ -67,6 +67,14 @@ struct Sensors {
   SensorsOfKind<mono_camera::Kind> mono_cameras;
   SensorsOfKind<odometry::Kind> odometries;
 
+  // Defaulted in the source: inline they would be compiled wherever a scenario is copied.
+  Sensors();
+  Sensors(const Sensors&);
+  Sensors(Sensors&&) noexcept;
+  Sensors& operator=(const Sensors&);
+  Sensors& operator=(Sensors&&) noexcept;
+  ~Sensors();
+
   // Calls `visit` with the SensorsOfKind of each kind.
   template <class Self, class Visit> static void each(Self& sensors, Visit visit) {
     visit(sensors.lasers);

@@ -9,6 +9,13 @@
 
 namespace ttf::sim::drives {
 
+Scenario::Scenario() = default;
+Scenario::Scenario(const Scenario&) = default;
+Scenario::Scenario(Scenario&&) noexcept = default;
+Scenario& Scenario::operator=(const Scenario&) = default;
+Scenario& Scenario::operator=(Scenario&&) noexcept = default;
+Scenario::~Scenario() = default;
+
 Scenario read_scenario(const StrictYaml& yaml) {
   expect_kind(yaml, FileKind::kScenario);
   const std::string& path = yaml.name();

@@ -41,6 +41,14 @@ struct StepSection {
 };
 
 struct Scenario {
+  // Defaulted in the source, as its members' are long.
+  Scenario();
+  Scenario(const Scenario&);
+  Scenario(Scenario&&) noexcept;
+  Scenario& operator=(const Scenario&);
+  Scenario& operator=(Scenario&&) noexcept;
+  ~Scenario();
+
   std::string name;
   std::string description;
   std::string file;
