@@ -67,7 +67,7 @@ struct Sensors {
   SensorsOfKind<mono_camera::Kind> mono_cameras;
   SensorsOfKind<odometry::Kind> odometries;
 
-  // Defaulted in the source: inline they would be compiled wherever a scenario is copied.
+  // Defaulted in the source. Inline, each user would compile them.
   Sensors();
   Sensors(const Sensors&);
   Sensors(Sensors&&) noexcept;

@@ -127,9 +127,9 @@ class Check(unittest.TestCase):
         rows = {(point, paradigm): {"error": [2.0, 1.9, 2.1]} for point in range(4) for paradigm in ("tt", "free")}
         today = {key: {"error": [v + (shift if key == (0, "free") else 0.0) for v in cell["error"]]}
                  for key, cell in rows.items()}
-        was, results.kept_rows = results.kept_rows, lambda _: rows
+        was, results.kept_rows = results.kept_rows, lambda *_: rows
         try:
-            return results.contradictions(page, today, answer())
+            return results.contradictions(page, today, answer(), results.REPLICATIONS)
         finally:
             results.kept_rows = was
 

@@ -250,7 +250,7 @@ class Exhaustion {
     });
   }
   // Whether a chain that stands from its list on, by its last activity, is no younger than the best, however late its sensor
-  // measures. What is placed later does not change its age.
+  // measures. Later places do not change its age.
   bool is_too_old(std::size_t placed) {
     for (std::size_t c = 0; c < problem_.chains.size(); ++c) {
       if (last_[c] != placed) continue;
