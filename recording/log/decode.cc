@@ -2,7 +2,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -34,13 +33,14 @@ template <class Item, std::size_t columns> struct ColumnItems {
 template <class Record, class Item, class... Fields>
 ColumnItems<Item, sizeof...(Fields)> storage_for(const records::Columns<Record, Item, Fields...>&);
 
-template <class... Entries>
-std::tuple<decltype(storage_for(std::declval<Entries>()))...> storage(std::tuple<Entries...>);
+template <class Places, class... Listed>
+records::Entries<decltype(storage_for(std::declval<Listed>()))...> storage(records::EntriesAt<Places, Listed...>);
 template <class Described>
 using Storage = decltype(storage(std::declval<decltype(records::kDescription<Described>.fields)>()));
 
+template <class Places> struct OfKinds;
 template <std::size_t... i>
-std::tuple<Storage<records::RecordAt<i + 1>>...> storage_of_kinds(std::index_sequence<i...>);  // only its type counts
+struct OfKinds<std::index_sequence<i...>> : records::Placed<i, Storage<records::RecordAt<i + 1>>>... {};
 
 // Converts to every type. It is only named, so it has no definition.
 struct Anything {
@@ -55,16 +55,25 @@ using detail::Anything;
 using detail::Nothing;
 using detail::Storage;
 
-// The number of a struct's members: the most values that can initialise it. Fewer may fail, as some types have no
-// default.
 template <class T, std::size_t... i> constexpr bool takes(std::index_sequence<i...>) {
   return requires { T{(static_cast<void>(i), Anything{})...}; };
 }
+template <class T, std::size_t count> constexpr bool kTakes = takes<T>(std::make_index_sequence<count>{});
+
+// The number of a struct's members: the most values that can initialise it. Fewer may fail, as some types have no
+// default.
 template <class T, std::size_t most = 30> constexpr std::size_t members_of() {
-  if constexpr (takes<T>(std::make_index_sequence<most>{}))
+  if constexpr (kTakes<T, most>)
     return most;
   else
     return members_of<T, most - 1>();
+}
+// Whether a struct has so many members. If it can be initialised with no value, it can be with any number up to theirs.
+template <class T, std::size_t count> constexpr bool has_members() {
+  if constexpr (kTakes<T, 0>)
+    return kTakes<T, count> && !kTakes<T, count + 1>;
+  else
+    return members_of<T>() == count;
 }
 
 template <class Described> Described empty() { return {}; }
@@ -76,7 +85,7 @@ template <> records::TrackState empty() {
 // Reads the fields of one record, or of a part of it, and remembers whether all of them fitted.
 template <class Described> class Decoding {
  public:
-  static_assert(members_of<Described>() == std::tuple_size_v<Storage<Described>>, "a member without a field");
+  static_assert(has_members<Described, Storage<Described>::kCount>(), "a member without a field");
 
   Decoding(Described& out, Storage<Described>& lists) : out_(out), lists_(lists) {}
 
@@ -115,12 +124,7 @@ template <class Described> class Decoding {
   bool sound() const { return sound_; }
 
  private:
-  template <class F> void each(F&& f) {
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (f(std::get<i>(records::kDescription<Described>.fields), std::get<i>(lists_)), ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<Storage<Described>>>{});
-  }
+  template <class F> void each(F&& f) { records::kDescription<Described>.fields.each_with(lists_, f); }
   void must(bool holds) { ok_ = ok_ && holds; }
 
   template <class Member, class Range, class List>
@@ -161,12 +165,10 @@ template <class Described> class Decoding {
   }
   template <class Item, class... Columns, class List>
   bool take(const records::Columns<Described, Item, Columns...>& all, List& list, std::uint32_t tag, WireReader& in) {
-    return std::apply(
-        [&](const auto&... column) {
-          std::size_t at = 0;
-          return (take_column(column, list, at++, tag, in) || ...);
-        },
-        all.columns);
+    std::size_t at = 0;
+    bool taken = false;
+    all.columns.each([&](const auto& column) { taken = taken || take_column(column, list, at, tag, in), ++at; });
+    return taken;
   }
   template <class Item, class Member, class Range, class List>
   bool take_column(const records::Field<Item, Member, Range>& column, List& list, std::size_t at, std::uint32_t tag,
@@ -263,7 +265,7 @@ template <class Described> class Decoding {
 }  // namespace
 
 struct Decoder::Lists {
-  decltype(detail::storage_of_kinds(std::make_index_sequence<records::kKindCount>{})) of_kind;
+  detail::OfKinds<std::make_index_sequence<records::kKindCount>> of_kind;
 };
 
 Decoder::Decoder() : lists_(std::make_unique<Lists>()) {}
@@ -273,7 +275,9 @@ bool Decoder::decode(records::RecordKind kind, std::string_view bytes, records::
   bool decoded = false;
   records::for_kind(kind, [&]<class Record>() {
     Record record = empty<Record>();
-    Decoding<Record> fields(record, std::get<records::number_of(records::kKindOf<Record>) - 1>(lists_->of_kind));
+    constexpr std::size_t kPlace = records::number_of(records::kKindOf<Record>) - 1;
+    Decoding<Record> fields(record,
+                            static_cast<records::Placed<kPlace, detail::Storage<Record>>&>(lists_->of_kind).entry);
     fields.clear();
     decoded = fields.read(bytes);
     if (decoded) sink.on(record);

@@ -35,7 +35,7 @@ class Encoding {
   }
   template <class Record, class Item, class... Columns>
   void write(const Record& in, const records::Columns<Record, Item, Columns...>& list) {
-    std::apply([&](const auto&... column) { (write_column(in.*list.member, column), ...); }, list.columns);
+    list.columns.each([&](const auto& column) { write_column(in.*list.member, column); });
   }
   template <class Item, class Member, class Range>
   void write_column(std::span<const Item> items, const records::Field<Item, Member, Range>& column) {

@@ -4,7 +4,7 @@
 // A description names the record's message in the published schema (recording/log/log.proto), its instant, and each
 // field with its number and name there. Numbers are part of the format: fields are appended, never renumbered, and stand
 // in the order of their numbers, in which they are written. A test compares all descriptions with the schema; a member
-// without a field does not compile (recording/log/codec.cc).
+// without a field does not compile (recording/log/decode.cc).
 #pragma once
 
 #include <array>
@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "recording/records/lateness_bins.h"
@@ -65,14 +64,32 @@ constexpr Elements<Record, count> elements(std::uint32_t first, const std::array
   return {first, names, member};
 }
 
+// Entries of any types, each in a base of its own: a std::tuple of so many is dear to compile.
+template <std::size_t place, class Entry> struct Placed { Entry entry; };
+template <class Places, class... Listed> struct EntriesAt;
+template <std::size_t... place, class... Listed>
+struct EntriesAt<std::index_sequence<place...>, Listed...> : Placed<place, Listed>... {
+  static constexpr std::size_t kCount = sizeof...(Listed);
+
+  template <class F> constexpr void each(F&& f) const {
+    (f(static_cast<const Placed<place, Listed>&>(*this).entry), ...);
+  }
+  // The same with what stands in the same place among others.
+  template <class... Others, class F>
+  constexpr void each_with(EntriesAt<std::index_sequence<place...>, Others...>& others, F&& f) const {
+    (f(static_cast<const Placed<place, Listed>&>(*this).entry, static_cast<Placed<place, Others>&>(others).entry), ...);
+  }
+};
+template <class... Listed> using Entries = EntriesAt<std::index_sequence_for<Listed...>, Listed...>;
+
 // A list whose items' members are lists of their own, of one length.
 template <class Record, class Item, class... Fields> struct Columns {
   std::span<const Item> Record::*member;
-  std::tuple<Fields...> columns;
+  Entries<Fields...> columns;
 };
 template <class Record, class Item, class... Fields>
 constexpr Columns<Record, Item, Fields...> columns(std::span<const Item> Record::*member, Fields... fields) {
-  return {member, {fields...}};
+  return {member, {{fields}...}};
 }
 
 // The instant of a record without a stamp: the true time, and the global time and node if it has them.
@@ -89,11 +106,11 @@ struct NoInstant {};  // a part of records has none
 template <class Instant, class... Fields> struct Description {
   std::string_view message;  // its name in the schema
   Instant instant;           // the record's Stamp, At or NoInstant
-  std::tuple<Fields...> fields;
+  Entries<Fields...> fields;
 };
 template <class Instant, class... Fields>
 constexpr Description<Instant, Fields...> message(std::string_view name, Instant instant, Fields... fields) {
-  return {name, instant, {fields...}};
+  return {name, instant, {{fields}...}};
 }
 
 template <class Described> struct Is {};
@@ -372,8 +389,6 @@ template <class Described> constexpr auto description() {
 template <class Described> inline constexpr auto kDescription = description<Described>();
 
 // Calls `f` with each entry of a description, in the order of the numbers.
-template <class Described, class F> constexpr void for_each_field(F&& f) {
-  std::apply([&](const auto&... entry) { (f(entry), ...); }, kDescription<Described>.fields);
-}
+template <class Described, class F> constexpr void for_each_field(F&& f) { kDescription<Described>.fields.each(f); }
 
 }  // namespace ttf::recording::records

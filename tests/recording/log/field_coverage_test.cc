@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -271,7 +270,7 @@ class Schema {
     const auto column = [&]<class Member, class Range>(const records::Field<Item, Member, Range>& field) {
       one<Member>(field.number, field.name, true);
     };
-    std::apply([&](const auto&... each) { (column(each), ...); }, list.columns);
+    list.columns.each(column);
   }
   int fields() const { return fields_; }
 
