@@ -23,6 +23,14 @@ constexpr std::uint16_t kLastKind = 255;  // kinds are numbered in a byte
 
 std::uint64_t unsigned_time(std::int64_t ns) { return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)); }
 
+void add_kind(mcap::McapWriter& mcap, records::RecordKind kind, std::string_view message) {
+  const auto* type = ttfusion::Stamp::descriptor()->file()->FindMessageTypeByName(std::string(message));
+  TTF_CHECK(type != nullptr, "the schema has no message {}", message);
+  const auto id = static_cast<std::uint16_t>(kind);
+  mcap.add_schema(id, type->full_name(), "protobuf", mcap::protobuf_schema(*type));
+  mcap.add_channel(id, id, records::topic_of(kind), "protobuf");
+}
+
 }  // namespace
 
 std::string ContentHash::text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
@@ -58,15 +66,8 @@ LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writi
     : impl_(std::make_unique<Impl>(path)), encoder_(encoder([this](const Encoded& record) { impl_->write(record); })) {
   mcap::McapWriter& mcap = impl_->mcap;
   mcap.add_metadata(kManifestName, manifest_entries(manifest));
-  const google::protobuf::FileDescriptor& schema = *ttfusion::Stamp::descriptor()->file();
-  records::for_each_kind([&]<class Record>() {
-    const std::string name(records::kDescription<Record>.message);
-    const auto* type = schema.FindMessageTypeByName(name);
-    TTF_CHECK(type != nullptr, "the schema has no message {}", name);
-    const auto id = static_cast<std::uint16_t>(records::kKindOf<Record>);
-    mcap.add_schema(id, type->full_name(), "protobuf", mcap::protobuf_schema(*type));
-    mcap.add_channel(id, id, records::topic_of(records::kKindOf<Record>), "protobuf");
-  });
+  records::for_each_kind(
+      [&]<class Record>() { add_kind(mcap, records::kKindOf<Record>, records::kDescription<Record>.message); });
   if (writing == Writing::kBehind) impl_->behind.emplace([this](const LogMessage& message) { impl_->store(message); });
 }
 

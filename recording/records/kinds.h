@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -24,32 +23,24 @@ template <class F> constexpr void for_each_kind(F&& f) {
   (std::make_index_sequence<kKindCount>{});
 }
 
+template <class Record, class F> void call_for(F& f) { f.template operator()<Record>(); }
 // Calls `f` for the record of one kind. Returns false if the number is no kind.
-template <class F> constexpr bool for_kind(RecordKind kind, F&& f) {
-  return [&]<std::size_t... i>(std::index_sequence<i...>) {
-    return ((number_of(kind) == i + 1 && (f.template operator()<RecordAt<i + 1>>(), true)) || ...);
+template <class F> bool for_kind(RecordKind kind, F&& f) {
+  using Call = void (*)(std::remove_reference_t<F>&);
+  static constexpr auto kCalls = []<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array<Call, kKindCount>{&call_for<RecordAt<i + 1>, std::remove_reference_t<F>>...};
   }
   (std::make_index_sequence<kKindCount>{});
+  if (!is_kind(number_of(kind))) return false;
+  kCalls[number_of(kind) - 1](f);
+  return true;
 }
 
-template <class Record> constexpr RecordKind kind_of() {
-  std::size_t number = 0, at = 0;
-  for_each_kind([&]<class Other>() {
-    ++at;
-    if (std::is_same_v<Record, Other>) number = at;
-  });
-  return static_cast<RecordKind>(number);
-}
-template <class Record> inline constexpr RecordKind kKindOf = kind_of<Record>();
+template <class Record> inline constexpr RecordKind kKindOf = static_cast<RecordKind>(kKinds.number_of<Record>());
 
 // Indexed by number - 1.
-inline constexpr auto kTopics =
-    std::apply([](const auto&... kind) { return std::array<std::string_view, kKindCount>{kind.topic...}; }, kKinds);
+inline constexpr auto kTopics = kKinds.topics;
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[number_of(kind) - 1]; }
-constexpr bool counts_in_hash(RecordKind kind) {
-  constexpr auto kInHash =
-      std::apply([](const auto&... each) { return std::array<bool, kKindCount>{each.in_hash...}; }, kKinds);
-  return kInHash[number_of(kind) - 1];
-}
+constexpr bool counts_in_hash(RecordKind kind) { return kKinds.in_hash[number_of(kind) - 1]; }
 
 }  // namespace ttf::recording::records

@@ -12,6 +12,7 @@
 #include <span>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 
 #include "core/ids.h"
 #include "core/time.h"
@@ -501,7 +502,6 @@ struct MediumCounts {
 // the content hash covers it, so a new kind goes to the end and no row ever moves. The log, the merge of logs
 // and the place of a record in it treat every kind: each fails to compile if it misses a row.
 template <class Record> struct Kind {
-  using Type = Record;
   std::string_view topic;  // its name in a log
   bool in_hash = true;
 };
@@ -509,7 +509,23 @@ template <class Record> struct Kind {
 // separate processes lacks.
 inline constexpr bool kNotInHash = false;
 
-inline constexpr std::tuple kKinds{
+template <class... Records> struct KindList {
+  using Types = std::tuple<Records...>;  // only named: to make it is dear to compile
+  static constexpr std::size_t kCount = sizeof...(Records);
+
+  constexpr explicit KindList(Kind<Records>... kinds) : topics{kinds.topic...}, in_hash{kinds.in_hash...} {}
+  // A kind's number; 0 if it is not in the list.
+  template <class Record> static constexpr std::size_t number_of() {
+    std::size_t number = 0, row = 0;
+    ((++row, number = std::is_same_v<Record, Records> ? row : number), ...);
+    return number;
+  }
+
+  std::array<std::string_view, kCount> topics;  // indexed by number - 1, as the next
+  std::array<bool, kCount> in_hash;
+};
+
+inline constexpr KindList kKinds{
     Kind<Measured>{"/measured"},
     Kind<CanFrameSent>{"/can_frame"},
     Kind<SlotFrameSent>{"/slot_frame"},
@@ -547,8 +563,8 @@ inline constexpr std::tuple kKinds{
     Kind<SequencePlanned>{"/sequence"},
     Kind<PlanMade>{"/plan"},
 };
-inline constexpr std::size_t kKindCount = std::tuple_size_v<decltype(kKinds)>;
-template <std::size_t number> using RecordAt = typename std::tuple_element_t<number - 1, decltype(kKinds)>::Type;
+inline constexpr std::size_t kKindCount = kKinds.kCount;
+template <std::size_t number> using RecordAt = std::tuple_element_t<number - 1, decltype(kKinds)::Types>;
 
 // The port: one function per kind of record, in the order of the list. An implementation overrides those it
 // needs.
