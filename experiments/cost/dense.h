@@ -10,8 +10,10 @@ namespace ttf::experiments::cost {
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 // Returns a' b.
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-// Returns a p a': a covariance p behind the map a.
+// Returns a p a': a covariance p behind the map a. The last bits are those of (a (a p)')'.
 Eigen::MatrixXd propagated(const Eigen::MatrixXd& a, const Eigen::MatrixXd& p);
+// Returns p + a q a'. The last bits are those of p + (a q) a'.
+Eigen::MatrixXd plus_propagated(const Eigen::MatrixXd& p, const Eigen::MatrixXd& a, const Eigen::MatrixXd& q);
 // Returns column row.
 Eigen::MatrixXd outer(const Eigen::VectorXd& column, const Eigen::RowVectorXd& row);
 // Returns the trace of a b, both symmetric.

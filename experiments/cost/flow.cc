@@ -38,7 +38,7 @@ namespace {
 FlowStep twice(const FlowStep& half) {
   FlowStep step;
   step.phi = product(half.phi, half.phi);
-  step.noise = half.noise + propagated(half.phi, half.noise);
+  step.noise = plus_propagated(half.noise, half.phi, half.noise);
   step.q = half.q + product(transposed_product(half.phi, half.q), half.phi);
   step.constant = 2.0 * half.constant + inner(half.noise, half.q);
   return step;

@@ -29,7 +29,7 @@ double timetable_cost(const Flow& flow, double round, const std::vector<TimedJum
   }
   bool stable = false;
   for (int doubling = 0; doubling < kMostDoublings && !stable; ++doubling) {
-    moment += propagated(a, moment);
+    moment = plus_propagated(moment, a, moment);
     a = product(a, a);
     const double left = a.cwiseAbs().maxCoeff();
     if (!(left < 1e100)) break;
