@@ -9,8 +9,13 @@ namespace ttf::fusion {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
-MatrixXd solve(const MatrixXd& a, const MatrixXd& b) { return a.ldlt().solve(b); }
+Dense Dense::transpose() const { return MatrixXd::transpose(); }
+Dense operator*(const Dense& a, const Dense& b) { return a.lazyProduct(b); }
+Dense operator+(const Dense& a, const Dense& b) { return a.MatrixXd::operator+(b); }
+Dense operator-(const Dense& a, const Dense& b) { return a.MatrixXd::operator-(b); }
+
+Dense inverse(const MatrixXd& a) { return a.inverse(); }
+Dense solve(const MatrixXd& a, const MatrixXd& b) { return a.ldlt().solve(b); }
 double norm_squared(const VectorXd& e, const MatrixXd& p) { return e.dot(p.ldlt().solve(e)); }
 double least_eigenvalue(const MatrixXd& a) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues()(0);  // ascending

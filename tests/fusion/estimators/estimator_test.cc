@@ -38,15 +38,14 @@ TEST(Predict, MatchesTheIntegratedNoise) {
       start.p = root * root.transpose();
       for (int i = 0; i < 6; ++i) start.x(i) = stream.normal();
       if (motion == config::MotionModel::kConstantVelocity) start = without_acceleration(start);
-      const Covariance f = transition(motion, dt);
-      const State x = f * start.x;
-      const Covariance p = f * start.p * f.transpose() + driving_noise(motion, 2.5, dt);
+      const Dense f = transition(motion, dt), x = f * Dense(start.x);
+      const Dense p = f * Dense(start.p) * f.transpose() + Dense(driving_noise(motion, 2.5, dt));
       const auto estimator = make_estimator(config_of(motion, 2.5));
       Estimate estimate = estimate_of(motion, start.x, start.p);
       estimator->predict(estimate, dt);
       const Cartesian moved = estimator->cartesian(estimate);
-      EXPECT_LT((moved.x - x).norm(), 1e-12 * (1.0 + x.norm()));
-      EXPECT_LT((moved.p - p).norm(), 1e-12 * (1.0 + p.norm()));
+      EXPECT_LT((Dense(moved.x) - x).norm(), 1e-12 * (1.0 + x.norm()));
+      EXPECT_LT((Dense(moved.p) - p).norm(), 1e-12 * (1.0 + p.norm()));
       EXPECT_EQ(moved.p, moved.p.transpose().eval());
     }
 }
@@ -113,19 +112,19 @@ TEST(Kalman, EqualsBatchLeastSquares) {
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero((steps + 1) * n, (steps + 1) * n);
     Eigen::VectorXd right = Eigen::VectorXd::Zero((steps + 1) * n);
     information.topLeftCorner(n, n) = inverse(start.p.topLeftCorner(n, n));
-    right.head(n) = information.topLeftCorner(n, n) * start.x.head(n);
+    right.head(n) = Dense(information.topLeftCorner(n, n)) * Dense(start.x.head(n));
     for (int k = 1; k <= steps; ++k) {
       const double dt = 0.2 + 0.3 * stream.uniform();
-      const Eigen::MatrixXd f = transition(motion, dt).topLeftCorner(n, n);
-      const Eigen::MatrixXd weight = inverse(driving_noise(motion, 2.0, dt).topLeftCorner(n, n));
+      const Dense f = transition(motion, dt).topLeftCorner(n, n);
+      const Dense weight = inverse(driving_noise(motion, 2.0, dt).topLeftCorner(n, n));
       information.block((k - 1) * n, (k - 1) * n, n, n) += f.transpose() * weight * f;
       information.block((k - 1) * n, k * n, n, n) -= f.transpose() * weight;
       information.block(k * n, (k - 1) * n, n, n) -= weight * f;
       information.block(k * n, k * n, n, n) += weight;
       sensors::Observation z = position(stream.normal(), stream.normal(), 0.4);
       z.r(0, 1) = z.r(1, 0) = 0.05;
-      const Eigen::MatrixXd r_inverse = inverse(z.r.topLeftCorner<2, 2>());
-      const Eigen::VectorXd measured = z.z.head<2>();
+      const Dense r_inverse = inverse(z.r.topLeftCorner<2, 2>());
+      const Dense measured = z.z.head<2>();
       information.block(k * n, k * n, 2, 2) += r_inverse;
       right.segment(k * n, 2) += r_inverse * measured;
       estimator->predict(estimate, dt);

@@ -12,46 +12,40 @@
 namespace ttf::fusion::tracks {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
-
 // The state at k after the measurement at k, with the values that the update keeps.
 struct AtK {
-  Vector x, nu;
-  Matrix p, prior_p, h, s;
+  Dense x, nu, p, prior_p, h, s;
 };
 // The late measurement z at tau <= t(k): its h and r, the way back fb = F(tau, k), the noise q = Q(k, tau).
 struct Late {
-  Vector z;
-  Matrix h, r, fb, q;
+  Dense z, h, r, fb, q;
 };
 struct Updated {
-  Vector x;
-  Matrix p, w, p_tau, mse;  // mse: the true error covariance; p may differ
+  Dense x, p, w, p_tau, mse;  // mse: the true error covariance; p may differ
 };
 
-AtK update_at_k(const Vector& prior_x, const Matrix& prior_p, const Vector& z, const Matrix& h, const Matrix& r) {
+AtK update_at_k(const Dense& prior_x, const Dense& prior_p, const Dense& z, const Dense& h, const Dense& r) {
   AtK k;
   k.prior_p = prior_p;
   k.h = h;
   k.s = h * prior_p * h.transpose() + r;
   k.nu = z - h * prior_x;
-  const Matrix gain = prior_p * h.transpose() * inverse(k.s);
+  const Dense gain = prior_p * h.transpose() * inverse(k.s);
   k.x = prior_x + gain * k.nu;
   k.p = prior_p - gain * k.s * gain.transpose();
   return k;
 }
 
 Updated algorithm(char which, const AtK& k, const Late& late) {
-  const Matrix s_inverse = inverse(k.s), b = k.h.transpose() * s_inverse * k.h;
-  const Matrix p_xv = late.q - k.prior_p * b * late.q;
+  const Dense s_inverse = inverse(k.s), b = k.h.transpose() * s_inverse * k.h;
+  const Dense p_xv = late.q - k.prior_p * b * late.q;
   Updated u;
-  Vector x_tau = late.fb * k.x;
-  Matrix c = (k.p - p_xv) * late.fb.transpose() * late.h.transpose();
-  const Matrix true_c = c;
+  Dense x_tau = late.fb * k.x;
+  Dense c = (k.p - p_xv) * late.fb.transpose() * late.h.transpose();
+  const Dense true_c = c;
   if (which == 'A') {
     x_tau = late.fb * (k.x - late.q * k.h.transpose() * s_inverse * k.nu);
-    const Matrix p_vv = late.q - late.q * b * late.q;
+    const Dense p_vv = late.q - late.q * b * late.q;
     u.p_tau = late.fb * (k.p + p_vv - p_xv - p_xv.transpose()) * late.fb.transpose();
   } else if (which == 'B') {
     u.p_tau = late.fb * (k.p + late.q - p_xv - p_xv.transpose()) * late.fb.transpose();
@@ -59,23 +53,23 @@ Updated algorithm(char which, const AtK& k, const Late& late) {
     u.p_tau = late.fb * k.p * late.fb.transpose();
     c = k.p * late.fb.transpose() * late.h.transpose();
   }
-  const Matrix s = late.h * u.p_tau * late.h.transpose() + late.r;
+  const Dense s = late.h * u.p_tau * late.h.transpose() + late.r;
   u.w = c * inverse(s);
   u.x = k.x + u.w * (late.z - late.h * x_tau);
   u.p = k.p - u.w * s * u.w.transpose();
-  const Matrix e =
-      which == 'A' ? u.p_tau : Matrix(late.fb * (k.p + late.q - p_xv - p_xv.transpose()) * late.fb.transpose());
+  const Dense e =
+      which == 'A' ? u.p_tau : Dense(late.fb * (k.p + late.q - p_xv - p_xv.transpose()) * late.fb.transpose());
   u.mse = k.p - u.w * true_c.transpose() - true_c * u.w.transpose() +
           u.w * (late.h * e * late.h.transpose() + late.r) * u.w.transpose();
   return u;
 }
 
-Matrix scalar(double value) { return Matrix::Constant(1, 1, value); }
+Dense scalar(double value) { return Eigen::MatrixXd::Constant(1, 1, value); }
 
 // Scalar random walk with unit measurement noise and P(k-1|k-1) = 1, the late measurement half-way.
 Updated random_walk(char which, double q) {
-  const AtK k = update_at_k(Vector::Zero(1), scalar(1.0 + q), Vector::Ones(1), scalar(1), scalar(1));
-  return algorithm(which, k, {Vector::Constant(1, 0.5), scalar(1), scalar(1), scalar(1), scalar(0.5 * q)});
+  const AtK k = update_at_k(scalar(0), scalar(1.0 + q), scalar(1), scalar(1), scalar(1));
+  return algorithm(which, k, {scalar(0.5), scalar(1), scalar(1), scalar(1), scalar(0.5 * q)});
 }
 
 TEST(OutOfSequence, ThePaperTableI) {
@@ -135,22 +129,22 @@ TEST(OutOfSequence, RewindingEqualsAlgorithmA) {
     const config::MotionModel motion = config.motion;
     const double whole = 1.0, back = 1.0 - 1e-3 * static_cast<double>(tau);
     const estimators::Cartesian start = seen_as(timeline.estimator().initial(first));
-    const Matrix f = transition(motion, whole).topLeftCorner<4, 4>();
-    const Matrix prior_p = f * Matrix(start.p.topLeftCorner<4, 4>()) * f.transpose() +
-                           Matrix(driving_noise(motion, config.process_noise, whole).topLeftCorner<4, 4>());
-    Matrix h = Matrix::Zero(2, 4);
+    const Dense f = transition(motion, whole).topLeftCorner<4, 4>();
+    const Dense prior_p = f * Dense(start.p.topLeftCorner<4, 4>()) * f.transpose() +
+                          Dense(driving_noise(motion, config.process_noise, whole).topLeftCorner<4, 4>());
+    Dense h = Eigen::MatrixXd::Zero(2, 4);
     h(0, 0) = h(1, 1) = 1.0;
-    const AtK k = update_at_k(f * Vector(start.x.head<4>()), prior_p, Vector(last.z.head<2>()), h,
-                              Matrix(last.r.topLeftCorner<2, 2>()));
-    const Late late{Vector(between.z.head<2>()), h, Matrix(between.r.topLeftCorner<2, 2>()),
-                    Matrix(transition(motion, -back).topLeftCorner<4, 4>()),
-                    Matrix(driving_noise(motion, config.process_noise, back).topLeftCorner<4, 4>())};
+    const AtK k = update_at_k(f * Dense(start.x.head<4>()), prior_p, Dense(last.z.head<2>()), h,
+                              Dense(last.r.topLeftCorner<2, 2>()));
+    const Late late{Dense(between.z.head<2>()), h, Dense(between.r.topLeftCorner<2, 2>()),
+                    Dense(transition(motion, -back).topLeftCorner<4, 4>()),
+                    Dense(driving_noise(motion, config.process_noise, back).topLeftCorner<4, 4>())};
     const Updated a = algorithm('A', k, late), c = algorithm('C', k, late);
-    EXPECT_LT((Vector(rewound.x.head<4>()) - a.x).norm(), 1e-10) << "tau " << tau;
-    EXPECT_LT((Matrix(rewound.p.topLeftCorner<4, 4>()) - a.p).norm(), 1e-10) << "tau " << tau;
+    EXPECT_LT((Dense(rewound.x.head<4>()) - a.x).norm(), 1e-10) << "tau " << tau;
+    EXPECT_LT((Dense(rewound.p.topLeftCorner<4, 4>()) - a.p).norm(), 1e-10) << "tau " << tau;
     // The comparison can fail: the approximation differs, and is too sure of itself.
     if (tau > 1 && tau < 900) {
-      EXPECT_GT((Vector(rewound.x.head<4>()) - c.x).norm(), 1e-3) << "tau " << tau;
+      EXPECT_GT((Dense(rewound.x.head<4>()) - c.x).norm(), 1e-3) << "tau " << tau;
       EXPECT_GT(rewound.p(2, 2), c.p(2, 2) + 1e-3) << "tau " << tau;
     }
   }
