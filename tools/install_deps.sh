@@ -8,7 +8,7 @@ packages=(
   # libraries
   libeigen3-dev libfmt-dev libyaml-cpp-dev libpugixml-dev libcli11-dev nlohmann-json3-dev
   libzstd-dev zlib1g-dev protobuf-compiler libprotobuf-dev
-  librsvg2-dev libcairo2-dev fonts-dejavu-core
+  librsvg2-dev libcairo2-dev libpng-dev fonts-dejavu-core
   libsqlite3-dev libboost-dev libopenmpi-dev openmpi-bin
   cyclonedds-dev cyclonedds-tools
   # tests
