@@ -7,14 +7,14 @@ source=$2
 source "$(dirname "$0")/expect.sh"
 source "$(dirname "$0")/small_sweep.sh"
 
-small_sweep 40 "700 ms" "400 ms" >"$work/small.yaml"
+small_sweep 20 "700 ms" "400 ms" >"$work/small.yaml"
 file=$work/small.yaml
 
 expect 0 'position_rmse_truth of tt is less than that of adva at|no difference of position_rmse_truth between tt and adva' experiment "$file" --out "$work/whole"
 [[ $(cd "$work/whole" && echo *) == "answer.json answer.txt results.sqlite runs.csv summary.csv" ]] ||
   fail "other files: $(cd "$work/whole" && echo *)"
 [[ -s $work/whole/answer.json && -s $work/whole/summary.csv ]] || fail "an empty file"
-[[ $(wc -l <"$work/whole/runs.csv") -eq 161 ]] || fail "not 160 runs: $(wc -l <"$work/whole/runs.csv")"
+[[ $(wc -l <"$work/whole/runs.csv") -eq 81 ]] || fail "not 80 runs: $(wc -l <"$work/whole/runs.csv")"
 expect 2 'results.sqlite: exists already: --resume continues it' experiment "$file" --out "$work/whole"
 
 # ---- killed before there was a store: the options are lost, and --resume says so
@@ -22,55 +22,53 @@ expect 2 '--resume: needs .*/not_begun/results.sqlite, which is not there: begin
   experiment "$file" --out "$work/not_begun" --resume
 [[ -e $work/not_begun ]] && fail "what is refused leaves a folder behind"
 
-# ---- killed twice at any point, and resumed with the same result; long enough to be killed, since finished
-# runs are written twice a second
-small_sweep 200 "2 s" "400 ms" >"$work/long.yaml"
-expect 0 '' experiment "$work/long.yaml" --out "$work/undisturbed"
-for round in 1 2; do
-  resume=()
-  [[ $round -eq 1 ]] || resume=(--resume)
-  "$program" experiment "$work/long.yaml" --out "$work/killed" --jobs 2 "${resume[@]}" >/dev/null 2>&1 &
-  victim=$!
-  for _ in $(seq 200); do
-    rows=$(python3 -c "import sqlite3, sys
-try: print(sqlite3.connect('file:' + sys.argv[1] + '?mode=ro', uri=True).execute('select count(*) from runs').fetchone()[0])
-except sqlite3.Error: print(0)" "$work/killed/results.sqlite")
-    [[ $rows -ge $((round * 20)) ]] && break
-    sleep 0.05
-  done
-  kill -9 "$victim" 2>/dev/null || fail "round $round: it was done before it could be killed"
-  wait "$victim" 2>/dev/null
-done
-expect 0 '^wrote ' experiment "$work/long.yaml" --out "$work/killed" --resume
-for name in runs.csv summary.csv answer.txt answer.json; do
-  cmp "$work/undisturbed/$name" "$work/killed/$name" || fail "$name of a run that was killed twice is another"
-done
-
-[[ $(cd "$work/killed" && echo results.sqlite*) == results.sqlite ]] || fail "a finished store has files beside it"
-
-# ---- a reader that does not let go
-"$program" experiment "$work/long.yaml" --out "$work/read" >"$work/words" 2>&1 &
-sweep=$!
-python3 - "$work/read/results.sqlite" "$sweep" <<'END' || fail "the store cannot be read while it is written"
+# watch STORE PID ROWS [hold]: waits until the process has written more rows than these, and prints their number.
+# "hold": then reads one row, and does not let go until the process ends.
+watch() {
+  python3 - "$@" <<'END'
 import sqlite3, sys, time
-path, sweep = sys.argv[1:]
+store, sweep, before, *hold = sys.argv[1:]
 def is_there():  # and no zombie
     try: return open(f"/proc/{sweep}/stat").read().split()[2] != "Z"
     except OSError: return False
 rows = 0
-while rows == 0 and is_there():
+while rows <= int(before) and is_there():
     try:
-        reader = sqlite3.connect(f"file:{path}?mode=ro", uri=True).cursor()
+        reader = sqlite3.connect(f"file:{store}?mode=ro", uri=True).cursor()
         rows = reader.execute("select count(*) from runs").fetchone()[0]
     except sqlite3.Error:
         time.sleep(0.01)
-reader.execute("select * from runs")
-row = reader.fetchone()
-while is_there(): time.sleep(0.05)
-sys.exit(row is None)
+    time.sleep(0.02)
+print(rows)
+if hold:
+    row = reader.execute("select * from runs").fetchone()
+    while is_there(): time.sleep(0.05)
+    sys.exit(row is None)
 END
+}
+
+# ---- a reader that does not let go; long enough to be read, since finished runs are written twice a second
+small_sweep 100 "2 s" "400 ms" >"$work/long.yaml"
+"$program" experiment "$work/long.yaml" --out "$work/read" >"$work/words" 2>&1 &
+sweep=$!
+watch "$work/read/results.sqlite" "$sweep" 0 hold >/dev/null || fail "the store cannot be read while it is written"
 wait "$sweep" || fail "a reader ends the sweep: $(cat "$work/words")"
-cmp "$work/undisturbed/runs.csv" "$work/read/runs.csv" || fail "the rows of a store that was read are others"
+
+# ---- killed twice at any point, and resumed with the same result
+rows=0
+for resume in "" --resume; do
+  # shellcheck disable=SC2086
+  "$program" experiment "$work/long.yaml" --out "$work/killed" --jobs 1 $resume >/dev/null 2>&1 &
+  victim=$!
+  rows=$(watch "$work/killed/results.sqlite" "$victim" "$rows")
+  kill -9 "$victim" 2>/dev/null || fail "it was done before it could be killed: $resume"
+  wait "$victim" 2>/dev/null
+done
+expect 0 '^wrote ' experiment "$work/long.yaml" --out "$work/killed" --resume
+for name in runs.csv summary.csv answer.txt answer.json; do
+  cmp "$work/read/$name" "$work/killed/$name" || fail "$name of a run that was read is not that of one that was killed twice"
+done
+[[ $(cd "$work/killed" && echo results.sqlite*) == results.sqlite ]] || fail "a finished store has files beside it"
 
 # ---- in two shards
 expect 0 '' experiment "$file" --shard 1/2 --out "$work/first"
@@ -79,29 +77,29 @@ expect 0 '' experiment "$file" --merge "$work/second" "$work/first" --out "$work
 cmp "$work/whole/runs.csv" "$work/both/runs.csv" || fail "two shards put together are not the whole"
 
 # ---- fewer for a quick look, and the missing ones later; in shards, too
-expect 0 '' experiment "$file" --replications 10 --out "$work/quick"
-[[ $(wc -l <"$work/quick/runs.csv") -eq 41 ]] || fail "10 replications are not 40 runs"
-cp "$work/quick/runs.csv" "$work/ten.csv"
-expect 0 '10 replications' experiment "$file" --out "$work/quick" --resume
-cmp "$work/ten.csv" "$work/quick/runs.csv" || fail "going on forgets how many were asked for"
-expect 2 '--replications = 9: must be at least 10, as in .*quick/results.sqlite' \
-  experiment "$file" --out "$work/quick" --resume --replications 9
-expect 0 '' experiment "$file" --out "$work/quick" --resume --replications 40
+expect 0 '' experiment "$file" --replications 5 --out "$work/quick"
+[[ $(wc -l <"$work/quick/runs.csv") -eq 21 ]] || fail "5 replications are not 20 runs"
+cp "$work/quick/runs.csv" "$work/five.csv"
+expect 0 '5 replications' experiment "$file" --out "$work/quick" --resume
+cmp "$work/five.csv" "$work/quick/runs.csv" || fail "going on forgets how many were asked for"
+expect 2 '--replications = 4: must be at least 5, as in .*quick/results.sqlite' \
+  experiment "$file" --out "$work/quick" --resume --replications 4
+expect 0 '' experiment "$file" --out "$work/quick" --resume --replications 20
 for name in runs.csv summary.csv answer.txt answer.json; do
-  cmp "$work/whole/$name" "$work/quick/$name" || fail "$name of 10 replications and the rest is another"
+  cmp "$work/whole/$name" "$work/quick/$name" || fail "$name of 5 replications and the rest is another"
 done
-expect 0 '' experiment "$file" --shard 1/2 --replications 10 --out "$work/ten_first"
-expect 0 '' experiment "$file" --shard 2/2 --replications 10 --out "$work/ten_second"
-expect 0 '' experiment "$file" --merge "$work/ten_first" "$work/ten_second" --out "$work/ten"
-cmp "$work/ten.csv" "$work/ten/runs.csv" || fail "two shards of 10 replications put together are others"
-expect 1 '20 of 60 runs are missing' \
-  experiment "$file" --merge "$work/ten_first" "$work/ten_second" --replications 15 --out "$work/fifteen"
-expect 2 'must be at least 10' experiment "$file" --merge "$work/ten_first" --replications 5 --out "$work/never"
+expect 0 '' experiment "$file" --shard 1/2 --replications 5 --out "$work/five_first"
+expect 0 '' experiment "$file" --shard 2/2 --replications 5 --out "$work/five_second"
+expect 0 '' experiment "$file" --merge "$work/five_first" "$work/five_second" --out "$work/five"
+cmp "$work/five.csv" "$work/five/runs.csv" || fail "two shards of 5 replications put together are others"
+expect 1 '12 of 32 runs are missing' \
+  experiment "$file" --merge "$work/five_first" "$work/five_second" --replications 8 --out "$work/eight"
+expect 2 'must be at least 5' experiment "$file" --merge "$work/five_first" --replications 3 --out "$work/never"
 expect 2 '--replications = 10000000: must make at most 100000000 drives' \
   experiment "$source/experiments/process_noise.yaml" --replications 10000000 --out "$work/never"
 expect 2 '--replications = 5: is for sweeps' experiment "$source/experiments/fault_campaign.yaml" --replications 5
-expect 0 'noise 40, tt, replication 40: done' experiment "$file" --replay 1/tt/40 --replications 41
-expect 2 'replications 0..39' experiment "$file" --replay 1/tt/40
+expect 0 'noise 40, tt, replication 20: done' experiment "$file" --replay 1/tt/20 --replications 21
+expect 2 'replications 0..19' experiment "$file" --replay 1/tt/20
 [[ -e $work/never ]] && fail "a count that cannot be leaves a folder behind"
 
 # ---- one run again is the row
@@ -109,7 +107,7 @@ expect 0 'noise 40, tt, replication 7: done' experiment "$file" --replay 1/tt/7 
 value=$("$program" experiment "$file" --replay 1/tt/7 | awk '$1 == "position_rmse_truth" {print $2}')
 grep -q "^1,40,7,tt,done,$value," "$work/whole/runs.csv" || fail "the run that is driven again is another: $value"
 expect 0 '' diagram "$work/one/tt.mcap" --from 0.5 --to 0.55 -o "$work/one.svg"
-expect 2 '--replay = 1/tt: must be point/paradigm/replication, of points 0..1 and replications 0..39' \
+expect 2 '--replay = 1/tt: must be point/paradigm/replication, of points 0..1 and replications 0..19' \
   experiment "$file" --replay 1/tt
 expect 2 'must be point/paradigm/replication' experiment "$file" --replay 2/tt/0
 expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff/0
@@ -123,7 +121,7 @@ expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$wo
   --out "$work/none"
 expect 2 '--shard = 3/2' experiment "$file" --shard 3/2 --out "$work/none"
 [[ -e $work/none ]] && fail "what is refused leaves a folder behind"
-expect 1 '80 of 160 runs are missing: --resume drives them' experiment "$file" --merge "$work/first" \
+expect 1 '40 of 80 runs are missing: --resume drives them' experiment "$file" --merge "$work/first" \
   --out "$work/half"
 expect 0 '' experiment "$file" --out "$work/half" --resume
 cmp "$work/whole/runs.csv" "$work/half/runs.csv" || fail "a shard and the rest are not the whole"
@@ -132,7 +130,7 @@ python3 -c "import sqlite3, sys
 with sqlite3.connect(sys.argv[1]) as store: store.execute('update runs set paradigm = 5 where point = 1 and replication = 0 and paradigm = 1')" \
   "$work/foreign/results.sqlite"
 expect 2 'runs = 1/5/0: must be a run of this experiment' experiment "$file" --out "$work/foreign" --resume
-sed 's/replications: 40/replications: 4/' "$file" >"$work/few.yaml"
+sed 's/replications: 20/replications: 4/' "$file" >"$work/few.yaml"
 echo "expect: [{measure: age_fused, less: adva, than: tt}, {measure: age_fused, less: tt, than: adva}]" >>"$work/few.yaml"
 expect 1 'than of adva: does not hold$' experiment "$work/few.yaml" --out "$work/few"
 echo "surplus: 1" >>"$work/few.yaml"
