@@ -17,6 +17,8 @@ expect() {
   actual=$?
   [[ $actual -eq $code ]] || fail "$asked exits with $actual, not $code: $output"
   says "$pattern"
+  local LC_ALL=C
+  [[ $output =~ [^$'\n']{101} ]] || return 0
   # A table has gaps of blanks. A sentence may be longer, also behind its instant.
   local wide
   wide=$(awk 'length > 100 && /[^ ]  +[^ ].*[^ ]  +[^ ]/ && !/^ *[0-9.]+ ms  /' <<<"$output")
@@ -32,5 +34,16 @@ expect_full() {
 # says PATTERN...: checks patterns in the output of the last expect.
 says() {
   local pattern
-  for pattern; do grep -Eq -- "$pattern" <<<"$output" || fail "$asked does not say '$pattern': $output"; done
+  for pattern; do has_line "$pattern" || fail "$asked does not say '$pattern': $output"; done
+}
+# Like grep -Eq, without a process for each pattern.
+has_line() {
+  local line lines
+  [[ -z $1 ]] && return
+  local IFS=$'\n' -
+  set -f
+  # shellcheck disable=SC2206
+  lines=($output)
+  for line in "${lines[@]}"; do [[ $line =~ $1 ]] && return; done
+  return 1
 }
