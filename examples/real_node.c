@@ -1,5 +1,5 @@
 // A real node for a launched cluster, with SocketCAN alone: it takes the place of camera_pre in
-// schedules/paper_synchronised.yaml (docs/media/attach_a_node.md). `launch --external camera_pre --dry-run` says its numbers.
+// schedules/paper_synchronised.yaml (docs/media/own_code.md). `launch --external camera_pre --dry-run` says its numbers.
 //   cc -O2 -o real_node examples/real_node.c
 //   ./real_node CHANNEL_A CHANNEL_B CAMERA_CAN OBSERVATION_CAN [FAULT...]
 // A FAULT is a number of us by which its frames of slot 2 come too late, or `spoil`, which breaks their frame CRCs. One

@@ -1,5 +1,5 @@
 // A real node for a launched cluster over DDS, with Cyclone DDS and the type of a sample alone: it takes the place of
-// camera_pre in schedules/paper_synchronised.yaml (docs/media/attach_a_node.md), as real_node.c does on CANs.
+// camera_pre in schedules/paper_synchronised.yaml (docs/media/own_code.md), as real_node.c does on CANs.
 //   idlc bus/dds/live/live_sample.idl
 //   cc -O2 -I . -o real_node_dds examples/real_node_dds.c live_sample.c -lddsc
 //   CYCLONEDDS_URI=file://$PWD/bus/dds/loopback.xml ./real_node_dds SESSION [TIME_SCALE [FAULT...]]

@@ -156,7 +156,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
       "--session", arguments.session,
       "Name of the drive on dds, for all its nodes and no others (default: ttfusion; launch: a new one)");
   command.add_option("--external", arguments.external,
-                     "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/media/attach_a_node.md)");
+                     "NODE[,NODE]: real nodes that take these nodes' places on the bus (docs/media/own_code.md)");
   command.add_flag("--virtual-time", arguments.virtual_time,
                    "Drive in virtual time, as fast as possible, instead of in real time");
   command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/media/dds.md) in real time");
@@ -165,7 +165,7 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
                      "Seconds to drive, instead of the scenario's; 0: until it is stopped, an hour at most");
   command
       .add_option("--truth", arguments.truth,
-                  "ASAM OSI trace in place of the scenario's objects (docs/reference/osi.md)")
+                  "ASAM OSI trace in place of the scenario's objects (docs/reference/exchange.md)")
       ->check(named());
   drive::add_step_options(command, arguments.steps);
 }

@@ -54,7 +54,7 @@ std::set<std::string> members_read(const std::string& code) {
   return names;
 }
 
-// Returns the first column of the table in docs/architecture/flexray.md.
+// Returns the first column of the table in docs/develop/flexray_model.md.
 std::set<std::string> listed() {
   const std::string page = text_of(TTF_SOURCE_DIR "/docs/architecture/flexray.md");
   const std::size_t begin = page.find("## Parameters without an effect");
