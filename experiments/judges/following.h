@@ -1,6 +1,6 @@
 // The gap error of a vehicle that follows another one, under a schedule's instants.
 //
-// The loop is that of docs/schedules/control_cost.md. Adaptive cruise control has the default gains of nodes/control/time_gap.h.
+// The loop is that of docs/schedules/expected_error.md. Adaptive cruise control has the default gains of nodes/control/time_gap.h.
 // The drive train has a lag. White noise drives the speed of the lead, which forgets. The loop is linear: it has no
 // limits, no tracker, and no noise of sensors. A sensor's measurement samples the gap and the speeds. The command of a
 // use rests on the newest sample that the use knows. It acts from there on.

@@ -108,7 +108,7 @@ constexpr PublishedServo kServo[] = {{1,
                                        "156.473", "202.511", "100.384", "109.638", "118.155", "125.202"}}};
 
 // The page's tables are computed anew.
-std::string page() { return read_file(std::string(TTF_SOURCE_DIR) + "/docs/schedules/control_cost.md"); }
+std::string page() { return read_file(std::string(TTF_SOURCE_DIR) + "/docs/schedules/expected_error.md"); }
 
 TEST(ExpectedCost, OfTheServoIsThePublishedOneAndThePagesTable) {
   const std::string text = page();

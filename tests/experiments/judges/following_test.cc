@@ -1,4 +1,4 @@
-// The gap error under a schedule's instants: against the loop of docs/schedules/control_cost.md with its delays on a grid.
+// The gap error under a schedule's instants: against the loop of docs/schedules/expected_error.md with its delays on a grid.
 #include "experiments/judges/following.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ TEST(GapError, OfOneAgeIsThatOfStages) {
     }
 }
 
-// docs/schedules/control_cost.md, "Age against jitter of a command": the column steady.
+// docs/schedules/expected_error.md, "Age against jitter of a command": the column steady.
 TEST(GapError, OfOneAgeIsThePagesColumn) {
   const std::pair<int, double> column[] = {{0, 0.4359}, {40, 0.4599}, {80, 0.4876}, {160, 0.5546}};
   for (const auto& [more, gap] : column)

@@ -298,7 +298,7 @@ TEST(GapErrorOfAPlan, IsLeastAtTheLeastWorstAge) {
   EXPECT_FALSE(gap.supposes.empty());
   EXPECT_EQ(made.cluster.cycle(), by_age.cluster.cycle());
   EXPECT_DOUBLE_EQ(gap.value, judging::judged(GapJudge(plan), {1.0}, plan, by_age.cluster));
-  // An age of 54.9 ms and a period of 34 ms lie between the rows of 40 ms and 80 ms of docs/schedules/control_cost.md.
+  // An age of 54.9 ms and a period of 34 ms lie between the rows of 40 ms and 80 ms of docs/schedules/expected_error.md.
   EXPECT_GT(std::sqrt(gap.value), 0.40);
   EXPECT_LT(std::sqrt(gap.value), 0.4359);
 }

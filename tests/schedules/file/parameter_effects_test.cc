@@ -56,7 +56,7 @@ std::set<std::string> members_read(const std::string& code) {
 
 // Returns the first column of the table in docs/develop/flexray_model.md.
 std::set<std::string> listed() {
-  const std::string page = text_of(TTF_SOURCE_DIR "/docs/architecture/flexray.md");
+  const std::string page = text_of(TTF_SOURCE_DIR "/docs/develop/flexray_model.md");
   const std::size_t begin = page.find("## Parameters without an effect");
   const std::string section = begin == std::string::npos ? "" : page.substr(begin, page.find("\n## ", begin) - begin);
   static const support::Pattern name("`([A-Za-z]+)`");
