@@ -39,7 +39,7 @@ configure_package_config_file(cmake/ttfusionConfig.cmake.in ${PROJECT_BINARY_DIR
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ttfusionConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ttfusionConfig.cmake ${PROJECT_BINARY_DIR}/ttfusionConfigVersion.cmake
   DESTINATION ${package})
-install(FILES nodes/foreign/ttfusion_step.h DESTINATION ${headers})   # for steps of one's own: docs/fusion/own_step.md
+install(FILES nodes/foreign/ttfusion_step.h DESTINATION ${headers})   # for steps of one's own: docs/media/own_code.md
 install(FILES LICENSE cmake/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(NOT TTF_BUILD_PROGRAM)
   return()

@@ -29,7 +29,7 @@ constexpr Description kCluster[] = {
     {"nodes.NAME.tasks", "The node has these tasks."},
     {"nodes.NAME.tasks.NAME.step",
      "The task runs this code: a step of sim/drives/step_catalog.h, or a library's file name that ends in .so "
-     "(docs/fusion/own_step.md).",
+     "(docs/media/own_code.md).",
      "fusion"},
     {"nodes.NAME.tasks.NAME.activation", "The task is activated like this."},
     {"nodes.NAME.tasks.NAME.activation.kind",

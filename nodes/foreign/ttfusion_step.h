@@ -3,7 +3,7 @@
  *   step: distance.so            in the cluster file; loaded only from the folder that the command line allows:
  *   ttfusion run my_scenario.yaml --steps FOLDER
  *
- * C99, and C++ as well. docs/fusion/own_step.md has an example and the command that builds it.
+ * C99, and C++ as well. docs/media/own_code.md has an example and the command that builds it.
  *
  * A step is pure: its outputs are a function of its inputs, its instants and its own state. It asks no clock, reads no
  * file and draws no numbers of its own. Then a drive in virtual time has the same records each time.

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A stranger's questions are answered in two links: the README leads to docs/develop/questions.md, and each question there leads
-to a page or file that exists.
+"""A stranger's questions are answered in two links: the README leads to "Ten questions" in docs/README.md, and each
+question there leads to a page or file that exists.
 
     questions_test.py REPOSITORY      exit 1 and one line for every question without its links
 """
@@ -10,7 +10,8 @@ import sys
 
 import links_test
 
-QUESTIONS = "docs/develop/questions.md"
+QUESTIONS = "docs/README.md"
+SECTION = QUESTIONS + "#ten-questions"
 ITEM = re.compile(r"^(?:\d+\.|\*) \*\*(?P<question>[^*]+\?)\*\*(?P<answer>.*?)(?=^\d+\. |^\* |^\n|\Z)", re.DOTALL | re.MULTILINE)
 LEAST = 10
 
@@ -18,8 +19,8 @@ LEAST = 10
 def problems(root: pathlib.Path) -> list[str]:
     page = root / QUESTIONS
     found = [f"{QUESTIONS}: {problem}" for problem in links_test.broken(page)]
-    if QUESTIONS not in links_test.LINK.findall((root / "README.md").read_text()):
-        found.append(f"README.md has no link to {QUESTIONS}")
+    if SECTION not in links_test.LINK.findall((root / "README.md").read_text()):
+        found.append(f"README.md has no link to {SECTION}")
     items = list(ITEM.finditer(page.read_text()))
     if len(items) < LEAST:
         found.append(f"{QUESTIONS} has {len(items)} questions, and needs {LEAST}")
