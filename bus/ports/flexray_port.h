@@ -70,7 +70,7 @@ inline Reception on_b(Reception reception) {
 }
 
 // The fast way beside the contract, in virtual time alone: every frame may leave, and the medium may carry its content in
-// place of its bytes (docs/architecture/engines.md).
+// place of its bytes (docs/architecture.md).
 class ContentPort {
  public:
   virtual ~ContentPort() = default;

@@ -74,7 +74,7 @@ struct EntriesAt<std::index_sequence<place...>, Listed...> : Placed<place, Liste
   template <class F> constexpr void each(F&& f) const {
     (f(static_cast<const Placed<place, Listed>&>(*this).entry), ...);
   }
-  // The same with what stands in the same place among others.
+  // The same, with the others that stand in the same places.
   template <class... Others, class F>
   constexpr void each_with(EntriesAt<std::index_sequence<place...>, Others...>& others, F&& f) const {
     (f(static_cast<const Placed<place, Listed>&>(*this).entry, static_cast<Placed<place, Others>&>(others).entry), ...);
