@@ -42,6 +42,8 @@ std::vector<Page> pages_of_summary(const std::string& format) {
 }
 
 int print_keys(const KeysOptions& options) {
+  if (options.out.empty() && options.kind.empty() && options.format == "json-schema")
+    throw InputError({"command line", 0, "--format", options.format, "goes with one kind of file, or with --out"});
   std::vector<Page> pages;
   for (const Document& document : ttf::keys::documents())
     if (options.kind.empty() || options.kind == document.kind)
@@ -49,8 +51,6 @@ int print_keys(const KeysOptions& options) {
   if (options.kind.empty() || options.kind == ttf::keys::summary::kKind)
     for (Page& page : pages_of_summary(options.format)) pages.push_back(std::move(page));
   const bool one_file = !options.kind.empty() && options.format != "markdown";
-  if (options.out.empty() && options.kind.empty() && options.format == "json-schema")
-    throw InputError({"command line", 0, "--format", options.format, "goes with one kind of file, or with --out"});
   if (!options.out.empty() && !one_file) create_folder(options.out);
   for (const Page& page : pages)
     if (options.out.empty())
@@ -75,7 +75,7 @@ void add_keys(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("keys", "Every key of the files that the other commands read, and of summary.json");
   command->footer(
-      "Examples: ttfusion keys scenario\n"
+      "Examples: ttfusion keys cluster\n"
       "          ttfusion keys cluster --format json-schema -o cluster.schema.json\n"
       "          ttfusion keys --format markdown -o out/keys");
   command->add_option("kind", options->kind, "Kind of file (default: all kinds)")->check(one_of(kinds()));

@@ -27,7 +27,7 @@ says '^  with noise 10000 +0\.731[0-9] m2 +1\.0009[0-9] times the least, 0\.000[
 sed 's/objective: .*/objective: [gap_error]/' "$plans/paper.yaml" >"$work/gap.yaml"
 expect 0 '^gap_error +0\.1884 m2 +0\.1884 m2  best, if the error grows with the age$' schedule synthesize "$work/gap.yaml"
 # With so long a delay of commands no loop is stable.
-sed 's/objective: .*/objective: [gap_error]\n  gap_error: {delay: 1.5 s}/' "$plans/paper.yaml" >"$work/unstable.yaml"
+sed 's/objective: .*/objective: [gap_error]\n  gap_error: {delay: 1 s}/' "$plans/paper.yaml" >"$work/unstable.yaml"
 expect 0 '^gap_error +unbounded +unbounded  the loop was stable at no instants$' schedule synthesize "$work/unstable.yaml"
 sed 's/objective: .*/objective: [error]/' "$plans/paper.yaml" >"$work/no_error.yaml"
 expect 2 'plan.error: must have process_noise and sigma' schedule synthesize "$work/no_error.yaml"

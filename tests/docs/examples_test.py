@@ -20,6 +20,8 @@ LEFT_OUT = {
     r"^ttfusion node .*--virtual-time": "waits for the processes of the other nodes",
     r"--bus socketcan": "needs CANs, and the processes of the other nodes",
     r"^mpirun": "needs MPI, which refuses root",
+    r"^ttfusion schedule synthesize schedules/plans/paper.yaml --binding --trade-off out/trade_off.svg$":
+        "tests/cli/schedule_synthesize_test.sh runs it, and compares the picture",
 }
 FIRST = ["run", "experiment"]   # other examples read their output
 # Beside them: a log, folders of results, and a launch's folder.
@@ -40,7 +42,7 @@ def shorten(folder: pathlib.Path) -> None:
     del sweep["expect"]
     file.write_text(yaml.safe_dump(sweep, sort_keys=False))
     scenario = folder / "scenarios/dynamics.yaml"
-    text = re.sub("^duration: .*", "duration: 700 ms", scenario.read_text(), flags=re.MULTILINE)
+    text = re.sub("^duration: .*", "duration: 500 ms", scenario.read_text(), flags=re.MULTILINE)
     scenario.write_text(re.sub("^evaluate_from: .*", "evaluate_from: 400 ms", text, flags=re.MULTILINE))
 
 

@@ -4,6 +4,7 @@
     schemas_test.py PROGRAM SOURCE_FOLDER
 """
 
+import functools
 import json
 import pathlib
 import re
@@ -18,7 +19,7 @@ import yaml
 PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 
 
-class Loader(yaml.SafeLoader):
+class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):   # libyaml, where PyYAML has it
     """YAML 1.2, as editors read it: PyYAML takes `yes` for a flag and 1e-3 for a text. Keys are texts."""
 
     yaml_implicit_resolvers = {}
@@ -38,6 +39,7 @@ Loader.add_constructor("tag:yaml.org,2002:float", lambda loader, node: float(nod
 SCHEMAS = {path.name.split(".")[0]: json.loads(path.read_text()) for path in (SOURCE / "keys/schemas").glob("*.json")}
 
 
+@functools.cache   # many mistakes are made in one right file
 def refusals(kind: str, text: str) -> list[str]:
     """One line for each mistake, with its path."""
     validator = jsonschema.Draft7Validator(SCHEMAS[kind])
