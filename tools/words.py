@@ -40,10 +40,11 @@ HASH_SUFFIXES = {".sh", ".py", ".cmake", ".toml", ".yaml", ".yml"}
 def commented(path, marker):
     """Lines (number, text) of comments; None ends a block. A comment behind code is a block of its own."""
     previous = 0
+    comment = re.compile(r"^(.*?)(?:^|\s)(" + marker + r"+)(?!\d)\s?(.*)$")
     for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
-        if line.startswith("#!"):
+        if marker not in line or line.startswith("#!"):
             continue
-        match = re.match(r"^(.*?)(?:^|\s)(" + marker + r")(?!\d)\s?(.*)$", line)
+        match = comment.match(line)
         if not match or match[1].count('"') % 2 or match[1].count("'") % 2:
             continue
         alone = not match[1].strip()
@@ -77,9 +78,9 @@ def lines_of(path):
     if path.suffix == ".md":
         yield from markdown(path)
     elif path.suffix in CODE_SUFFIXES:
-        yield from commented(path, "//+")
+        yield from commented(path, "//")
     else:
-        yield from commented(path, "#+")
+        yield from commented(path, "#")
         if path.suffix == ".py":
             yield from docstrings(path)
 
@@ -87,7 +88,7 @@ def lines_of(path):
 def is_prose(line):
     """Neither a drawing, nor a formula, nor a line of code or of a table."""
     text = line.strip()
-    letters = sum(c.isalpha() or c.isspace() for c in text)
+    letters = sum(map(str.isalpha, text)) + sum(map(str.isspace, text))
     return len(text) > 0 and letters >= 0.7 * len(text) and not re.search(r"[;{}]$|^NOLINT|clang-format|\s{3,}\S", text)
 
 
@@ -108,9 +109,10 @@ def sentences(path):
     for number, line in lines_of(path):
         item = line is not None and re.match(r"^\s*([*+-]|\d+[.)]) ", line)
         indented = line is not None and re.match(r"^\s{2,}\S", line) and not item and path.suffix != ".md"
-        if line is None or not is_prose(line) or item or indented:
+        prose = line is not None and is_prose(line)
+        if not prose or item or indented:
             yield from flush()
-        if line is None or not is_prose(line) or indented:
+        if not prose or indented:
             continue
         text = re.sub(r"^\s*([*+-]|\d+[.)]) ", "", line).strip()
         if not block:

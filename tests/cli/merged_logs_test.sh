@@ -7,9 +7,9 @@ source=$2
 split_log=$3
 source "$(dirname "$0")/expect.sh"
 
-expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --seed 3 --no-pictures --out "$work/a"
-expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy adva --seed 3 --no-pictures --out "$work/a"
-expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --seed 4 --no-pictures --out "$work/c"
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --seed 3 --duration 1.6 --no-pictures --out "$work/a"
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy adva --seed 3 --duration 1.6 --no-pictures --out "$work/a"
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --strategy tt --seed 4 --duration 1.6 --no-pictures --out "$work/c"
 mkdir "$work/b" "$work/nodes"
 cp "$work/a/tt.mcap" "$work/b/"
 "$split_log" "$work/a/tt.mcap" 5 "$work/nodes" || fail "split_log fails"

@@ -116,7 +116,7 @@ PY
 expect 1 'error: .*/file/x: cannot be created: Not a directory' run "$source/scenarios/paper_scenario2.yaml" \
   --out "$work/file/x"
 mkdir -p "$work/w1/summary.json" "$work/w2/tt.mcap" "$work/w3/index.html" "$work/w4/tt_timing.png"
-tt=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt)
+tt=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt --duration 1.6)
 expect 1 'error: .*/w1/summary.json: cannot be written: Is a directory' "${tt[@]}" --no-log --out "$work/w1"
 expect 1 'error: .*/w2/tt.mcap: cannot be created: Is a directory' "${tt[@]}" --out "$work/w2"
 # The folders of several scenarios are tried before the first drive.
