@@ -11,6 +11,7 @@ No source calls a C function whose state threads share.
 tests/tools/check_layers_test.py tries the ways around.
 """
 
+import functools
 import pathlib
 import re
 import subprocess
@@ -54,6 +55,7 @@ class Modules:
         self.threads = table.get("threads", {}).get("allowed", [])
         self.many_sources = table.get("more_than_25_sources", {})
 
+    @functools.cache   # each header is seen by many files
     def module_of(self, path: str) -> str | None:
         matches = [module for module in self.allowed if path.startswith(module + "/")]
         return max(matches, key=len) if matches else None
