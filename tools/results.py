@@ -3,7 +3,7 @@
 
     results.py drive PAGE ... [--jobs N]    runs each page's commands, fills its tables, keeps its first replications
     results.py fill PAGE ...                fills an edited page's tables from the kept answer
-    results.py check [PAGE ...] [--jobs N] [--replications 1..3]
+    results.py check [PAGE ...] [--jobs N] [--replications 2..3]
                                             drives a part of each page, and holds it against what the page prints
     results.py printed [PAGE ...]           holds each page's tables against the kept answer, without a drive
 
@@ -212,7 +212,7 @@ def main():
     parser.add_argument("what", choices=["drive", "fill", "check", "printed"])
     parser.add_argument("pages", nargs="*")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--replications", type=int, default=REPLICATIONS, choices=range(1, REPLICATIONS + 1))
+    parser.add_argument("--replications", type=int, default=REPLICATIONS, choices=range(2, REPLICATIONS + 1))
     asked = parser.parse_args()
     paths = [pathlib.Path(p).resolve() for p in asked.pages] or sorted((TOP / "docs/results").glob("*.md"))
     pages = [page for page in map(Page, paths) if page.tables and page.experiment]
