@@ -4,10 +4,11 @@
     touched.py BUILD COMMIT [OPTION...]   of the tests that these options of ctest choose: one line each, its name and its targets
     touched.py BUILD COMMIT TARGET...     of these targets
 
-A change is what differs from COMMIT. A program is touched if a source that it or its modules are made of differs, or a
-header that one of them sees, directly or through others. A script's test is touched if the script or a program of the
-build folder that it gets differs. Tests that get nothing of the build folder are left out: they are the same in every
-build. Without COMMIT ('') everything is touched, as after a change of how all is compiled. The build folder must be configured.
+A change is what differs from COMMIT. Without COMMIT ('') everything is touched. A program is touched if one of these differs:
+a source of it or of its modules, a header that one of them sees, directly or through others, or the CMakeLists.txt of a folder
+above one of them. A script's test is touched with the programs that it gets, and by all files of the script's folder but C++.
+Every other file but Markdown and tools touches everything: data, pages, CMake's own. Tests that get nothing of the build folder are
+left out: they are the same in every build. The build folder must be configured.
 """
 import functools
 import json
@@ -17,8 +18,9 @@ import subprocess
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
-FOR_ALL = ("cmake/", "CMakeLists.txt", "CMakePresets.json", "tools/build.sh", "tools/install_deps.sh", "tools/sanitize.sh",
-           "tools/threads.sh")
+CODE = (".cc", ".cxx", ".c", ".h", ".proto", ".idl")
+FOR_ALL = ("cmake/", "CMakeLists.txt", "CMakePresets.json", "tools/build.sh", "tools/install_deps.sh")   # beginnings of paths
+FOR_NONE = (".ci/", "docs/", "tools/")   # the quick tests have what looks at these
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 
@@ -30,8 +32,16 @@ class Touched:
     def __init__(self, build, commit):
         self.build = build
         self.changed = set(output("git", "diff", "--name-only", commit).split()) if commit else set()
-        self.all = not commit or any(file.startswith(FOR_ALL) for file in self.changed)
+        self.lists = {TOP / file for file in self.changed if file.endswith("/CMakeLists.txt")}
+        self.all = not commit or any(map(self.is_for_all, self.changed))
         self.known = {line.split(":")[0] for line in output("ninja", "-C", build, "-t", "targets", "all").splitlines()}
+
+    @staticmethod
+    def is_for_all(file):
+        if file.startswith(FOR_ALL):
+            return True
+        of_a_script = file.startswith("tests/") and file.endswith((".sh", ".py"))
+        return not (file.startswith(FOR_NONE) or file.endswith((*CODE, ".md", "CMakeLists.txt")) or of_a_script)
 
     @functools.cache
     def seen_from(self, file):
@@ -47,14 +57,20 @@ class Touched:
         if self.all:
             return True
         inputs = [(self.build / one).resolve() for one in output("ninja", "-C", self.build, "-t", "inputs", target).splitlines()]
-        open_files = [file for file in inputs if file.suffix in (".cc", ".cxx", ".c", ".proto", ".idl")]
+        open_files = [file for file in inputs if file.suffix in CODE]
         seen = set(open_files)
         while open_files:
             for file in self.seen_from(open_files.pop()):
                 if (file := file.resolve()) not in seen:
                     seen.add(file)
                     open_files.append(file)
-        return any(file.relative_to(TOP).as_posix() in self.changed for file in seen if file.is_relative_to(TOP))
+        return any(file.relative_to(TOP).as_posix() in self.changed for file in seen if file.is_relative_to(TOP)) or any(
+            file.is_relative_to(listed.parent) for listed in self.lists for file in seen)
+
+    def script_is(self, script):
+        """Whether a file beside a script differs that is no C++: it may use it."""
+        folder = script.relative_to(TOP).parent.as_posix()
+        return any(file.rpartition("/")[0] == folder and not file.endswith(CODE) for file in self.changed)
 
     def tests(self, options):
         listed = json.loads(output("ctest", "--test-dir", self.build, "--show-only=json-v1", *options))["tests"]
@@ -63,8 +79,8 @@ class Touched:
             words = [pathlib.Path(word) for word in test.get("command", [])] or [pathlib.Path(test["name"])]
             targets = [str(word.relative_to(self.build)) for word in words if word.is_relative_to(self.build)]
             targets = [target for target in targets + [word.name for word in words[:1]] if target in self.known]
-            scripts = {str(word.relative_to(TOP)) for word in words if word.is_relative_to(TOP)}
-            if targets and (self.all or scripts & self.changed or any(map(self.program_is, targets))):
+            scripts = [word for word in words if word.suffix in (".sh", ".py") and word.is_relative_to(TOP)]
+            if targets and (self.all or any(map(self.script_is, scripts)) or any(map(self.program_is, targets))):
                 yield test["name"], targets
 
 

@@ -16,7 +16,7 @@ Eigen::MatrixXd propagated(const Eigen::MatrixXd& a, const Eigen::MatrixXd& p);
 Eigen::MatrixXd plus_propagated(const Eigen::MatrixXd& p, const Eigen::MatrixXd& a, const Eigen::MatrixXd& q);
 // Returns column row.
 Eigen::MatrixXd outer(const Eigen::VectorXd& column, const Eigen::RowVectorXd& row);
-// Returns the trace of a b, both symmetric.
+// Returns the trace of a' b: the sum of all products of equal places.
 double inner(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace ttf::experiments::cost
