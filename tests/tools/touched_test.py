@@ -25,7 +25,7 @@ FILES = {
     "tests/part/script.sh": "#!/bin/sh\n",
     "tests/part/shared.sh": "\n",
     "scenarios/drive.yaml": "name: drive\n",
-    "docs/page.md": "# Page\n",
+    "docs/README.md": "# Page\n",
 }
 
 
@@ -63,7 +63,7 @@ class Touched(unittest.TestCase):
                                 (["part/CMakeLists.txt"], {"with"}), (["tests/part/without.cc"], {"without", "script"}),
                                 (["tests/part/script.sh"], {"script"}), (["tests/part/shared.sh"], {"script"}),
                                 (["scenarios/drive.yaml"], all_of_the_build), (["CMakeLists.txt"], all_of_the_build),
-                                (["docs/page.md"], set()), (["part/deep.h", "tests/part/shared.sh"], {"with", "script"})):
+                                (["docs/README.md"], set()), (["part/deep.h", "tests/part/shared.sh"], {"with", "script"})):
             with self.subTest(names):
                 self.assertEqual(self.touched_by(*names), expected)
         self.assertEqual(self.touched_by(commit=""), all_of_the_build)
