@@ -7,8 +7,8 @@
 namespace ttf::evaluation::driving {
 
 InLane TrueLane::place_of(const recording::records::EgoTruth& ego) const {
-  const sim::world::road::Place place = road_.place_of(ego.x + config_.front_axle_m * std::cos(ego.heading),
-                                                       ego.y + config_.front_axle_m * std::sin(ego.heading));
+  const sim::world::road::LinePlace place = road_.place_of(ego.x + config_.front_axle_m * std::cos(ego.heading),
+                                                           ego.y + config_.front_axle_m * std::sin(ego.heading));
   const double direction = sim::world::road::Road::direction(config_.lane);
   const double along = road_.line_at(place.station).pose.heading + (direction < 0.0 ? std::numbers::pi : 0.0);
   return {direction * (place.offset - road_.middle(config_.lane)),

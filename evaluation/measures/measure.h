@@ -61,14 +61,14 @@ struct Scale {
   std::string_view unit = "";
 };
 
-enum class Place : std::uint8_t { kBoth, kTable, kPage };
+enum class ShownIn : std::uint8_t { kBoth, kTable, kPage };
 
 // How people see it: in the table of `run`, and on the report's page. Without a label they do not.
 struct Shown {
   std::string_view label = "";  // without the unit, which follows in brackets
   int decimals = 0;
   Scale scale{};
-  Place place = Place::kBoth;
+  ShownIn place = ShownIn::kBoth;
   bool is_rare = false;           // 0 in a sound drive: shown if it is not 0 in some drive
   bool has_interval = false;      // on the page, over repeated drives
   std::string_view line = "";     // the table's label, with units, where rows behind it join its line
@@ -85,7 +85,7 @@ struct Shown {
 
  public:
   constexpr Shown in(Scale unit) const { return with(&Shown::scale, unit); }
-  constexpr Shown only(Place there) const { return with(&Shown::place, there); }
+  constexpr Shown only(ShownIn there) const { return with(&Shown::place, there); }
   constexpr Shown rare() const { return with(&Shown::is_rare, true); }
   constexpr Shown repeated() const { return with(&Shown::has_interval, true); }
   constexpr Shown begins(std::string_view text) const { return with(&Shown::line, text); }

@@ -18,7 +18,7 @@ using recording::records::WarningKind;
 
 constexpr Scale kPercent{100.0, "%"}, kPercentOfTime{100.0, "% of time"}, kMilliseconds{1e3, "ms"},
     kDegrees{180.0 / std::numbers::pi, "deg"};
-constexpr Place kTable = Place::kTable, kPage = Place::kPage;
+constexpr ShownIn kTable = ShownIn::kTable, kPage = ShownIn::kPage;
 
 constexpr std::string_view kBetter = "can look better", kSame = "the same", kWorse = "worse",
                            kSameOrWorse = "the same or worse", kBrakesLater = "worse, if the vehicle brakes later",

@@ -17,7 +17,7 @@
 namespace ttf::fusion::association {
 
 // A position [m] with the variances of its axes [m^2].
-struct Place {
+struct TrackPlace {
   double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
   double reach = 0.0;  // [m] from the place to any point of its track's object that may have been observed
   std::size_t track = 0;
@@ -30,7 +30,7 @@ class NearPlaces {
   // Forgets all places. The next ones are searched with this bound on the squared distance.
   void begin(double gate);
   // The places come in the order of their tracks: 0, 1, 2 and so on.
-  void add(const Place& place) {
+  void add(const TrackPlace& place) {
     places_.push_back(place);
     const double reach_x = place.reach + reach_of(place.variance_x), reach_y = place.reach + reach_of(place.variance_y);
     reaches_.push_back({reach_x, reach_y});
@@ -38,11 +38,11 @@ class NearPlaces {
   }
   // Puts the places that were added since begin() into cells. Searches follow, with variances that are not larger.
   void arrange(double variance_x, double variance_y);
-  std::span<const Place> all() const { return places_; }
+  std::span<const TrackPlace> all() const { return places_; }
 
   // Calls try_one(place) for the places that `at`, a position with its variances, may be in the gate of. They are not farther
   // than the reach of both on either axis.
-  template <class Try> void near(const Place& at, const Try& try_one) {
+  template <class Try> void near(const TrackPlace& at, const Try& try_one) {
     const double own_x = reach_of(at.variance_x), own_y = reach_of(at.variance_y);
     std::size_t found = 0;
     const auto search = [&](std::uint32_t first, std::uint32_t last) {
@@ -94,10 +94,10 @@ class NearPlaces {
   Spot spot_of(std::size_t track) const;
 
   double gate_ = 0.0;
-  std::vector<Place> places_;   // by track
-  std::vector<Reach> reaches_;  // by track
-  double sum_ = 0.0;            // the larger reaches' sum
-  double common_ = 0.0;         // [m], the largest reach of a place in a cell
+  std::vector<TrackPlace> places_;  // by track
+  std::vector<Reach> reaches_;      // by track
+  double sum_ = 0.0;                // the larger reaches' sum
+  double common_ = 0.0;             // [m], the largest reach of a place in a cell
   double cells_per_metre_ = 0.0;
   std::size_t step_ = 0, mask_ = 0;    // buckets from column to column; their number less one
   std::uint32_t wide_ = 0;             // so many spots, the first ones, have a larger reach

@@ -84,7 +84,7 @@ MotionPlanner::MotionPlanner(const schedules::model::Cluster& cluster, const sch
   candidates_.reserve(way_.most_objects());
 }
 
-std::optional<MotionPlanner::Chosen> MotionPlanner::most_important(const Place& own) {
+std::optional<MotionPlanner::Chosen> MotionPlanner::most_important(const PoseOnLine& own) {
   const double c = std::cos(own.heading), s = std::sin(own.heading);
   candidates_.clear();
   for (const recording::records::ImageObject& object : objects_) {
@@ -116,7 +116,7 @@ void MotionPlanner::tell_region(host::StepContext& context, const std::optional<
 void MotionPlanner::run(host::StepContext& context) {
   if (!start_) start_ = context.stamp.local;
   const std::optional<double> speed = way_.own_speed(context);
-  const std::optional<Place> own = place_.look(context);
+  const std::optional<PoseOnLine> own = place_.look(context);
   recording::records::PlanMade record;
   if (!speed || !own) {
     memory_.speed.reset();

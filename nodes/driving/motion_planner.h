@@ -69,7 +69,7 @@ class MotionPlanner final : public host::Step {
     std::size_t index = 0;  // among the image's objects
     control::MostImportant object;
   };
-  std::optional<Chosen> most_important(const Place& own);
+  std::optional<Chosen> most_important(const PoseOnLine& own);
   void tell_region(host::StepContext& context, const std::optional<Chosen>& chosen,
                    recording::records::PlanMade& record);
 

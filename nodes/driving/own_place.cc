@@ -16,7 +16,7 @@ OwnPlace::OwnPlace(const schedules::model::Cluster& cluster, const schedules::mo
                                      {"speed", "yaw_rate", "sigma_speed", "sigma_yaw_rate"})),
       path_({}, kSamples) {}
 
-std::optional<Place> OwnPlace::look(const host::StepContext& context) {
+std::optional<PoseOnLine> OwnPlace::look(const host::StepContext& context) {
   if (!context.global_time) return std::nullopt;
   const host::Input& input = context.inputs[odometry_];
   const GlobalTime now = context.stamp.global;
@@ -28,8 +28,8 @@ std::optional<Place> OwnPlace::look(const host::StepContext& context) {
   if (path_.has_stopped(now)) return std::nullopt;
   const auto own = path_.at(now);
   if (!own) return std::nullopt;
-  return Place{own->vehicle.position.x(), own->vehicle.position.y(), own->vehicle.yaw, path_.newest().speed,
-               path_.newest().yaw_rate};
+  return PoseOnLine{own->vehicle.position.x(), own->vehicle.position.y(), own->vehicle.yaw, path_.newest().speed,
+                    path_.newest().yaw_rate};
 }
 
 }  // namespace ttf::nodes::driving

@@ -16,7 +16,7 @@
 namespace ttf::nodes::driving {
 
 // The middle of the rear axle: [m] along the line and to its left, [rad], [m/s], [rad/s].
-struct Place {
+struct PoseOnLine {
   double along = 0.0, offset = 0.0, heading = 0.0, speed = 0.0, yaw_rate = 0.0;
 };
 
@@ -26,7 +26,7 @@ class OwnPlace {
   OwnPlace(const schedules::model::Cluster& cluster, const schedules::model::Task& task);
   // Takes a new sample in; returns the place at the execution's start, and none without global time or once the
   // odometry has stopped (fusion/ego/odometry.h). Call it at each execution.
-  std::optional<Place> look(const host::StepContext& context);
+  std::optional<PoseOnLine> look(const host::StepContext& context);
 
  private:
   Duration round_;

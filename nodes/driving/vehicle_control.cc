@@ -41,7 +41,7 @@ VehicleControl::VehicleControl(const schedules::model::Cluster& cluster, const s
       plan_(place_of(task, "plan")), signals_(bind_plan(cluster, cluster.pdu(task.reads[plan_].pdu))),
       place_(cluster, task), out_(cluster, task) {}
 
-double VehicleControl::steering(const Place& own) {
+double VehicleControl::steering(const PoseOnLine& own) {
   control::StanleyInput input;
   input.direction_error = -own.heading;
   input.offset = -(own.offset + config_.wheelbase_m * std::sin(own.heading));
@@ -55,7 +55,7 @@ double VehicleControl::steering(const Place& own) {
 }
 
 void VehicleControl::run(host::StepContext& context) {
-  const std::optional<Place> own = place_.look(context);
+  const std::optional<PoseOnLine> own = place_.look(context);
   const LocalTime now = context.stamp.local;
   const bool goes_on = context.activation > 0 && now - last_ <= longest_;
   const double dt = goes_on ? (now - last_).seconds() : 0.0;

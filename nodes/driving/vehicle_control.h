@@ -40,7 +40,7 @@ class VehicleControl final : public host::Step {
   bool reads_newest(std::string_view) const override { return true; }
 
  private:
-  double steering(const Place& own);
+  double steering(const PoseOnLine& own);
 
   ControlConfig config_;
   Duration round_;

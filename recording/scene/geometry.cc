@@ -22,7 +22,7 @@ std::vector<Point> ellipse(const records::ImageObject& object) {
   return points;
 }
 
-std::array<Point, 4> rectangle(const Place& place, double length, double width) {
+std::array<Point, 4> rectangle(const Pose& place, double length, double width) {
   const double c = std::cos(place.heading), s = std::sin(place.heading), l = 0.5 * length, w = 0.5 * width;
   const auto corner = [&](double along, double across) {
     return Point{place.x + c * along - s * across, place.y + s * along + c * across};
@@ -51,7 +51,7 @@ std::vector<Point> edge(const ViewedField& field) {
 
 // The vehicle's own way is taken as a straight line in the mean direction of its arc. The line is longer than the arc's chord by a
 // 24th of the squared turn, which is 1 % for half a radian.
-Place moved_on(const Place& place, double speed, const OwnMotion& own, double seconds) {
+Pose moved_on(const Pose& place, double speed, const OwnMotion& own, double seconds) {
   const double turn = own.yaw_rate * seconds, way = speed * seconds, own_way = own.speed * seconds;
   const double x = place.x + way * std::cos(place.heading) - own_way * std::cos(0.5 * turn);
   const double y = place.y + way * std::sin(place.heading) - own_way * std::sin(0.5 * turn);
@@ -89,7 +89,7 @@ std::optional<double> gap_ahead(const records::TruthState& object, double front_
   return object.x - along - front_m;
 }
 
-std::vector<Point> mounted(const Place& mounting, std::vector<Point> points) {
+std::vector<Point> mounted(const Pose& mounting, std::vector<Point> points) {
   const double c = std::cos(mounting.heading), s = std::sin(mounting.heading);
   for (Point& p : points) p = {mounting.x + c * p.x - s * p.y, mounting.y + s * p.x + c * p.y};
   return points;

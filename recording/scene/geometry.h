@@ -16,7 +16,7 @@ template <class Object> bool drawable(const Object& object) {
   return std::isfinite(object.x) && std::isfinite(object.y) && std::isfinite(object.heading) &&
          std::isfinite(object.length) && std::isfinite(object.width);
 }
-template <class Object> Place place_of(const Object& object) { return {object.x, object.y, object.heading}; }
+template <class Object> Pose place_of(const Object& object) { return {object.x, object.y, object.heading}; }
 
 // The ellipse of so many standard deviations has 39 % (1), 86 % (2) or 99 % (3) of a Gaussian in the plane.
 inline constexpr double kEllipseSigmas = 2.0;
@@ -24,13 +24,13 @@ inline constexpr double kEllipseSigmas = 2.0;
 std::vector<Point> ellipse(const records::ImageObject& object);
 
 // Returns the corners of a rectangle with its centre at `place`, counter-clockwise from the front left.
-std::array<Point, 4> rectangle(const Place& place, double length, double width);
+std::array<Point, 4> rectangle(const Pose& place, double length, double width);
 
 // Returns the edge of a field in the sensor's axes: an arc at its longest range, and back at its shortest.
 std::vector<Point> edge(const ViewedField& field);
 // Returns the place of an object `seconds` later, in the axes that the vehicle has then. The object drives straight along its
 // heading with `speed`, over ground. With an `own` motion of zero, the speed is relative to the vehicle.
-Place moved_on(const Place& place, double speed, const OwnMotion& own, double seconds);
+Pose moved_on(const Pose& place, double speed, const OwnMotion& own, double seconds);
 
 // Returns whether two convex outlines overlap.
 bool overlap(const std::array<Point, 4>& a, const std::array<Point, 4>& b);
@@ -43,6 +43,6 @@ double way_curvature(const records::EgoTruth& ego);
 std::optional<double> gap_ahead(const records::TruthState& object, double front_m, double width_m, double curvature);
 
 // Returns the points, given in the axes of `mounting`, in the vehicle's.
-std::vector<Point> mounted(const Place& mounting, std::vector<Point> points);
+std::vector<Point> mounted(const Pose& mounting, std::vector<Point> points);
 
 }  // namespace ttf::recording::scene

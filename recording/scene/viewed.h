@@ -9,7 +9,7 @@ namespace ttf::recording::scene {
 struct Point {
   double x = 0.0, y = 0.0;  // [m]
 };
-struct Place {
+struct Pose {
   double x = 0.0, y = 0.0, heading = 0.0;  // [m], [rad] from x to y
 };
 
@@ -26,7 +26,7 @@ struct ViewedField {
 struct ViewedSensor {
   std::string name;
   std::string colour;                // "#d55e00"
-  std::optional<Place> mounting;     // on the vehicle; absent: unknown
+  std::optional<Pose> mounting;      // on the vehicle; absent: unknown
   std::optional<ViewedField> field;  // absent: unknown
   bool odometry = false;             // it measures its own vehicle, and sees no objects
 };

@@ -51,7 +51,7 @@ std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
 const Measure& position_error() { return evaluation::measures::measure_at("/rmse_truth/position_m"); }
 
 bool is_on_page(const Measure& row) {
-  return !row.path.empty() && !row.shown.label.empty() && row.shown.place != evaluation::measures::Place::kTable;
+  return !row.path.empty() && !row.shown.label.empty() && row.shown.place != evaluation::measures::ShownIn::kTable;
 }
 
 // In the unit that people see.

@@ -57,18 +57,18 @@ std::optional<int> Bin::free_offset(const Signal& signal, int first_cycle) const
   return offset;
 }
 
-std::optional<Place> Bin::first_place(const Signal& signal, Fit fit) const {
-  std::optional<Place> first;
+std::optional<BitPlace> Bin::first_place(const Signal& signal, Fit fit) const {
+  std::optional<BitPlace> first;
   for (int cycle = signal.window.earliest; cycle <= signal.window.latest; ++cycle) {
     const auto offset = free_offset(signal, cycle);
     if (!offset || (first && first->offset <= *offset)) continue;
-    first = Place{0, cycle, *offset};
+    first = BitPlace{0, cycle, *offset};
     if (fit == Fit::kLowestCycle || *offset == 0) break;
   }
   return first;
 }
 
-void Bin::occupy(const Signal& signal, const Place& place) {
+void Bin::occupy(const Signal& signal, const BitPlace& place) {
   const VariantSet variants = signal.variants & all_variants_;
   TTF_CHECK(variants != 0, "signal {} is in no variant", signal.name);
   const int repetition = signal.repetition, first = place.first_cycle;

@@ -26,10 +26,10 @@ class Bin {
   // have no other owner there. Unless slots are shared, the owner of one frame owns the bin.
   std::optional<int> free_offset(const Signal& signal, int first_cycle) const;
   // Returns the first place in the signal's window; `bin` of it is not set.
-  std::optional<Place> first_place(const Signal& signal, Fit fit) const;
+  std::optional<BitPlace> first_place(const Signal& signal, Fit fit) const;
 
   // Occupies bits, which must be free, and makes the signal's node the owner of their frames.
-  void occupy(const Signal& signal, const Place& place);
+  void occupy(const Signal& signal, const BitPlace& place);
   // Keeps all signals out of these variants. They must be free.
   void block(VariantSet variants);
 

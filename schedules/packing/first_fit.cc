@@ -17,7 +17,7 @@ void first_fit(const Instance& instance, const Order& order, Fit fit, Packed& pa
     TTF_CHECK(!signal.window.empty() && signal.bits <= instance.payload_bits, "signal {} has no place", signal.name);
     std::size_t& bin = begin_at[{signal.variants, signal.node, signal.repetition, signal.bits, signal.window.earliest,
                                  signal.window.latest}];
-    std::optional<Place> place;
+    std::optional<BitPlace> place;
     for (; !place; ++bin) {
       if (bin == packed.bins.size()) packed.bins.emplace_back(instance);
       place = packed.bins[bin].first_place(signal, fit);
@@ -34,7 +34,7 @@ Packed with_fixed(const Instance& instance, const Places& fixed) {
   packed.places.resize(instance.signals.size());
   for (std::size_t i = 0; i < packed.places.size(); ++i) {
     if (!packed.places[i]) continue;
-    const Place& place = *packed.places[i];
+    const BitPlace& place = *packed.places[i];
     while (packed.bins.size() <= static_cast<std::size_t>(place.bin)) packed.bins.emplace_back(instance);
     packed.bins[static_cast<std::size_t>(place.bin)].occupy(instance.signals[i], place);
   }

@@ -79,16 +79,16 @@ template <class On> void each_variant(VariantSet set, On&& on) {
 using Order = std::vector<std::size_t>;
 
 // `bin` is a column of the table, before it has a slot's number (slot_numbers.h).
-struct Place {
+struct BitPlace {
   int bin = 0;
   int first_cycle = 0;
   int offset = 0;  // first bit within the frame
 
-  bool operator==(const Place&) const = default;
+  bool operator==(const BitPlace&) const = default;
 };
 
 // By signal; a signal without an entry has no place.
-using Places = std::vector<std::optional<Place>>;
+using Places = std::vector<std::optional<BitPlace>>;
 
 // Returns the signals that have a window and fit a frame.
 Order possible_signals(const Instance& instance);

@@ -66,7 +66,7 @@ double acceleration_of(const TrajectorySegment& segment, double speed) {
 
 // Returns the sensors' vehicle as one that follows it sees it: a car whose rear is a metre behind its rear axle.
 traffic::Vehicle ego_on_road(const road::Road& road, const EgoState& ego) {
-  const road::Place place = road.place_of(ego.x, ego.y);
+  const road::LinePlace place = road.place_of(ego.x, ego.y);
   const double along = std::cos(ego.heading - road.line_at(place.station).pose.heading);
   return {place, along < 0.0 ? -1.0 : 1.0, ego.vx, 2.0, 1.8};
 }

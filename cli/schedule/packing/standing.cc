@@ -30,8 +30,8 @@ StandingPlaces numbered(const table::Assignment& assignment) {
   for (const auto& place : assignment) {
     standing.places.emplace_back();
     if (place)
-      standing.places.back() = table::Place{bins.at(std::tuple(place->number.slot, place->number.channels)),
-                                            place->first_cycle, place->offset};
+      standing.places.back() = table::BitPlace{bins.at(std::tuple(place->number.slot, place->number.channels)),
+                                               place->first_cycle, place->offset};
   }
   return standing;
 }

@@ -44,7 +44,7 @@ void Gate::place(const std::vector<Track>& tracks, const sensors::ObservationLis
 
 // Most pairs end here, so that the rest is out of line.
 inline void Gate::try_pair(const Search& search, const sensors::Observation& z, const linear::Vector<2>& sight,
-                           std::size_t row, const association::Place& placed) const {
+                           std::size_t row, const association::TrackPlace& placed) const {
   const double gate = gate_[dimension_of(z.kind)];
   const bool is_position = z.kind == sensors::ObservationKind::kPosition;
   const auto outside = [&](double dx, double dy, double variance_x, double variance_y) {
@@ -91,7 +91,7 @@ void Gate::search(const std::vector<Track>& tracks, const sensors::ObservationLi
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     const sensors::Observation& z = list.observations[o];
     linear::Vector<2> sight = linear::Vector<2>::Zero();  // positions need none
-    const auto try_one = [&](const association::Place& placed) { try_pair(search, z, sight, o, placed); };
+    const auto try_one = [&](const association::TrackPlace& placed) { try_pair(search, z, sight, o, placed); };
     if (z.kind == sensors::ObservationKind::kPosition) {
       places_.near({z.z(0), z.z(1), z.r(0, 0), z.r(1, 1)}, try_one);
       continue;

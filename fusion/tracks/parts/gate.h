@@ -46,7 +46,7 @@ class Gate {
   };
   void place(const std::vector<Track>& tracks, const sensors::ObservationList& list);
   void try_pair(const Search& search, const sensors::Observation& observation, const linear::Vector<2>& sight,
-                std::size_t row, const association::Place& placed) const;
+                std::size_t row, const association::TrackPlace& placed) const;
   void judge_pair(const Search& search, const sensors::Observation& observation, std::size_t row, std::size_t column,
                   const body::Distance* distance) const;
 

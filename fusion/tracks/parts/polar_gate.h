@@ -20,8 +20,9 @@ namespace ttf::fusion::tracks::parts {
 
 // Returns whether the observation is certainly outside the gate of the track `at`. `sight` is the unit vector of its bearing
 // in the tracks' axes; `distance` and `spread` may be null.
-inline bool beyond_gate(const sensors::Observation& z, const linear::Vector<2>& sight, const association::Place& at,
-                        const body::Distance* distance, const linear::Matrix<3>* spread, double gate) {
+inline bool beyond_gate(const sensors::Observation& z, const linear::Vector<2>& sight,
+                        const association::TrackPlace& at, const body::Distance* distance,
+                        const linear::Matrix<3>* spread, double gate) {
   // As the range that a bearing's lever is taken for, at least (fusion/tracks/body/distance.cc).
   constexpr double kNearest = 0.1;
   constexpr double kRoundedUp = 1.0 + 1e-9;

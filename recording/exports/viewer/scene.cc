@@ -53,7 +53,7 @@ void set_stamp(google::protobuf::Timestamp& out, TrueTime at) {
   out.set_nanos(static_cast<std::int32_t>(at.ns % kSecond_ns));
 }
 
-void set_pose(::foxglove::Pose& out, const scene::Place& place, double z) {
+void set_pose(::foxglove::Pose& out, const scene::Pose& place, double z) {
   out.mutable_position()->set_x(place.x);
   out.mutable_position()->set_y(place.y);
   out.mutable_position()->set_z(z);
@@ -73,7 +73,7 @@ void set_pose(::foxglove::Pose& out, const scene::Place& place, double z) {
   return entity;
 }
 
-void add_box(::foxglove::SceneEntity& entity, const scene::Place& place, double length, double width, Colour colour) {
+void add_box(::foxglove::SceneEntity& entity, const scene::Pose& place, double length, double width, Colour colour) {
   ::foxglove::CubePrimitive& box = *entity.add_cubes();
   set_pose(*box.mutable_pose(), place, 0.5 * kHeight_m);
   box.mutable_size()->set_x(length);
@@ -82,7 +82,7 @@ void add_box(::foxglove::SceneEntity& entity, const scene::Place& place, double 
   set_colour(*box.mutable_color(), colour);
 }
 
-void add_way(::foxglove::SceneEntity& entity, const scene::Place& from, const scene::Place& to, Colour colour) {
+void add_way(::foxglove::SceneEntity& entity, const scene::Pose& from, const scene::Pose& to, Colour colour) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   if (!(length > kShort_m)) return;
   const double head = std::min(0.3 * length, 1.0);

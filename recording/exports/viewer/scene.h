@@ -24,14 +24,14 @@ constexpr Colour with_opacity(Colour colour, double a) { return {colour.r, colou
 inline constexpr double kHeight_m = 1.5;
 
 void set_stamp(google::protobuf::Timestamp& out, TrueTime at);
-void set_pose(::foxglove::Pose& out, const scene::Place& place, double z = 0.0);
+void set_pose(::foxglove::Pose& out, const scene::Pose& place, double z = 0.0);
 
 // Adds an entity that the viewer removes after its lifetime; one without a lifetime stays.
 ::foxglove::SceneEntity& add_entity(::foxglove::SceneUpdate& update, TrueTime at, const std::string& frame,
                                     const std::string& id, Duration lifetime);
-void add_box(::foxglove::SceneEntity& entity, const scene::Place& place, double length, double width, Colour colour);
+void add_box(::foxglove::SceneEntity& entity, const scene::Pose& place, double length, double width, Colour colour);
 // Adds an arrow from place to place, if they are not too near.
-void add_way(::foxglove::SceneEntity& entity, const scene::Place& from, const scene::Place& to, Colour colour);
+void add_way(::foxglove::SceneEntity& entity, const scene::Pose& from, const scene::Pose& to, Colour colour);
 void add_text(::foxglove::SceneEntity& entity, scene::Point at, const std::string& text, Colour colour);
 void add_loop(::foxglove::SceneEntity& entity, std::span<const scene::Point> points, Colour colour);
 // Adds an upright cross at each point.

@@ -198,10 +198,10 @@ class Packer {
       });
       for (std::size_t signal = 0; signal < solution.places.size(); ++signal) {
         if (!share.packed().places[signal]) continue;
-        Place place = *share.packed().places[signal];
+        BitPlace place = *share.packed().places[signal];
         for (const auto& [variants, column] : columns_of_bin[static_cast<std::size_t>(place.bin)])
           if ((variants & instance_.signals[signal].variants) != 0) {
-            solution.places[signal] = Place{column, place.first_cycle, place.offset};
+            solution.places[signal] = BitPlace{column, place.first_cycle, place.offset};
             break;
           }
       }

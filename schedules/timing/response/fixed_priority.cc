@@ -10,19 +10,19 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-void check_range(const Task& task) {
+void check_range(const TaskTimes& task) {
   for (const std::int64_t time : {task.period, task.work, task.deadline, task.jitter, task.blocking})
     TTF_CHECK(time >= 0 && time <= kLongestArgument, "a time of {}", time);
 }
 
-Source source_of(const Task& task) {
+Source source_of(const TaskTimes& task) {
   check_range(task);
   return {task.period, task.jitter, task.work};
 }
 
-Level task_level(std::span<const Task> higher, const Task& task) {
+Level task_level(std::span<const TaskTimes> higher, const TaskTimes& task) {
   Level level{.blocking = 0, .own = source_of(task), .others = {}, .tail = 0, .tick = 0, .errors = {}};
-  for (const Task& other : higher) level.others.push_back(source_of(other));
+  for (const TaskTimes& other : higher) level.others.push_back(source_of(other));
   return level;
 }
 
@@ -32,8 +32,8 @@ Response at_best_a_bound(Response response) {
 }
 
 // Returns how many of the first tasks can be simulated: each of them has an offset, without jitter and blocking.
-std::size_t strictly_periodic(std::span<const Task> by_priority) {
-  const auto end = std::find_if(by_priority.begin(), by_priority.end(), [](const Task& task) {
+std::size_t strictly_periodic(std::span<const TaskTimes> by_priority) {
+  const auto end = std::find_if(by_priority.begin(), by_priority.end(), [](const TaskTimes& task) {
     return !task.offset || task.jitter != 0 || task.blocking != 0;
   });
   return static_cast<std::size_t>(end - by_priority.begin());
@@ -41,16 +41,16 @@ std::size_t strictly_periodic(std::span<const Task> by_priority) {
 
 }  // namespace
 
-Response preemptive_response(std::span<const Task> higher, const Task& task) {
+Response preemptive_response(std::span<const TaskTimes> higher, const TaskTimes& task) {
   Level level = task_level(higher, task);
   level.blocking = task.blocking;
   const Response response = longest_response(level);
   const bool offsets =
-      task.offset || std::any_of(higher.begin(), higher.end(), [](const Task& other) { return !!other.offset; });
+      task.offset || std::any_of(higher.begin(), higher.end(), [](const TaskTimes& other) { return !!other.offset; });
   return offsets || task.blocking > 0 ? at_best_a_bound(response) : response;
 }
 
-Response non_preemptive_response(std::span<const Task> higher, const Task& task, std::int64_t longest_lower) {
+Response non_preemptive_response(std::span<const TaskTimes> higher, const TaskTimes& task, std::int64_t longest_lower) {
   Level level = task_level(higher, task);
   level.blocking = std::max<std::int64_t>(0, longest_lower - 1);
   level.tail = task.work;
@@ -58,7 +58,7 @@ Response non_preemptive_response(std::span<const Task> higher, const Task& task,
   return longest_response(level);
 }
 
-std::vector<Response> preemptive(std::span<const Task> by_priority) {
+std::vector<Response> preemptive(std::span<const TaskTimes> by_priority) {
   std::vector<Response> responses;
   for (std::size_t i = 0; i < by_priority.size(); ++i)
     responses.push_back(preemptive_response(by_priority.first(i), by_priority[i]));
@@ -77,10 +77,10 @@ std::vector<Response> preemptive(std::span<const Task> by_priority) {
   return responses;
 }
 
-std::vector<Response> non_preemptive(std::span<const Task> by_priority) {
+std::vector<Response> non_preemptive(std::span<const TaskTimes> by_priority) {
   std::vector<Response> responses(by_priority.size());
   const bool offsets =
-      std::any_of(by_priority.begin(), by_priority.end(), [](const Task& task) { return !!task.offset; });
+      std::any_of(by_priority.begin(), by_priority.end(), [](const TaskTimes& task) { return !!task.offset; });
   std::int64_t longest_lower = 0;
   for (std::size_t i = by_priority.size(); i-- > 0;) {
     const Response response = non_preemptive_response(by_priority.first(i), by_priority[i], longest_lower);

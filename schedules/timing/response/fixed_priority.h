@@ -28,7 +28,7 @@
 namespace ttf::schedules::timing::response {
 
 // All times are in one unit; response.h has their range.
-struct Task {
+struct TaskTimes {
   std::int64_t period = 0;             // T, at least 1: the least time between two arrivals
   std::int64_t work = 0;               // C, at least 1: worst case
   std::int64_t deadline = 0;           // D, after the arrival; may exceed T. Only priorities.h reads it
@@ -43,14 +43,14 @@ struct Task {
 // if all of them have offsets, neither jitter nor blocking, and at most kMostSimulatedJobs jobs in two hyperperiods
 // (simulation.h), and for a task with an offset and no more jitter than its period, below any others, where the
 // hyperperiod has not too many jobs (offsets.h). Otherwise it is a bound.
-std::vector<Response> preemptive(std::span<const Task> by_priority);
+std::vector<Response> preemptive(std::span<const TaskTimes> by_priority);
 
-// Exact if no task has an offset; a bound otherwise. Ignores Task::blocking, since lower priorities tell it.
-std::vector<Response> non_preemptive(std::span<const Task> by_priority);
+// Exact if no task has an offset; a bound otherwise. Ignores TaskTimes::blocking, since lower priorities tell it.
+std::vector<Response> non_preemptive(std::span<const TaskTimes> by_priority);
 
 // The same for one task, given the tasks of higher priority in any order, and the longest work of a lower priority
 // (0: none).
-Response preemptive_response(std::span<const Task> higher, const Task& task);
-Response non_preemptive_response(std::span<const Task> higher, const Task& task, std::int64_t longest_lower);
+Response preemptive_response(std::span<const TaskTimes> higher, const TaskTimes& task);
+Response non_preemptive_response(std::span<const TaskTimes> higher, const TaskTimes& task, std::int64_t longest_lower);
 
 }  // namespace ttf::schedules::timing::response

@@ -21,6 +21,6 @@ namespace ttf::schedules::timing::response {
 
 // Returns the longest response of a task with an offset, below `higher`; exact. Returns nullopt if it has none, has
 // blocking or more jitter than its period, at full load, and where hyperperiod and busy period are too long.
-std::optional<std::int64_t> response_with_offsets(std::span<const Task> higher, const Task& task);
+std::optional<std::int64_t> response_with_offsets(std::span<const TaskTimes> higher, const TaskTimes& task);
 
 }  // namespace ttf::schedules::timing::response

@@ -6,7 +6,7 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-PriorityOrder ordered_by(std::span<const Task> tasks, std::int64_t Task::*key) {
+PriorityOrder ordered_by(std::span<const TaskTimes> tasks, std::int64_t TaskTimes::*key) {
   PriorityOrder order(tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -14,16 +14,16 @@ PriorityOrder ordered_by(std::span<const Task> tasks, std::int64_t Task::*key) {
   return order;
 }
 
-std::vector<Task> chosen_tasks(std::span<const Task> tasks, std::span<const std::size_t> places) {
-  std::vector<Task> chosen;
+std::vector<TaskTimes> chosen_tasks(std::span<const TaskTimes> tasks, std::span<const std::size_t> places) {
+  std::vector<TaskTimes> chosen;
   for (const std::size_t place : places) chosen.push_back(tasks[place]);
   return chosen;
 }
 
 }  // namespace
 
-PriorityOrder rate_monotonic(std::span<const Task> tasks) { return ordered_by(tasks, &Task::period); }
-PriorityOrder deadline_monotonic(std::span<const Task> tasks) { return ordered_by(tasks, &Task::deadline); }
+PriorityOrder rate_monotonic(std::span<const TaskTimes> tasks) { return ordered_by(tasks, &TaskTimes::period); }
+PriorityOrder deadline_monotonic(std::span<const TaskTimes> tasks) { return ordered_by(tasks, &TaskTimes::deadline); }
 
 std::optional<PriorityOrder> audsley(std::size_t count, const Fits& fits) {
   std::vector<std::size_t> open(count), placed;
@@ -47,13 +47,13 @@ std::optional<PriorityOrder> audsley(std::size_t count, const Fits& fits) {
   return lowest_first;
 }
 
-std::optional<PriorityOrder> audsley_preemptive(std::span<const Task> tasks) {
+std::optional<PriorityOrder> audsley_preemptive(std::span<const TaskTimes> tasks) {
   return audsley(tasks.size(), [&](std::size_t task, std::span<const std::size_t> higher, auto) {
     return preemptive_response(chosen_tasks(tasks, higher), tasks[task]).meets(tasks[task].deadline);
   });
 }
 
-std::optional<PriorityOrder> audsley_non_preemptive(std::span<const Task> tasks) {
+std::optional<PriorityOrder> audsley_non_preemptive(std::span<const TaskTimes> tasks) {
   return audsley(tasks.size(), [&](std::size_t task, std::span<const std::size_t> higher,
                                    std::span<const std::size_t> lower) {
     std::int64_t longest_lower = 0;

@@ -22,8 +22,8 @@ namespace ttf::schedules::timing::response {
 using PriorityOrder = std::vector<std::size_t>;
 
 // Tasks with the same period or deadline keep their order.
-PriorityOrder rate_monotonic(std::span<const Task> tasks);
-PriorityOrder deadline_monotonic(std::span<const Task> tasks);
+PriorityOrder rate_monotonic(std::span<const TaskTimes> tasks);
+PriorityOrder deadline_monotonic(std::span<const TaskTimes> tasks);
 
 // Returns whether a task meets its deadline below all of `higher` and above all of `lower`. Both are in ascending
 // order.
@@ -36,8 +36,8 @@ using Fits =
 std::optional<PriorityOrder> audsley(std::size_t count, const Fits& fits);
 
 // Audsley's algorithm with preemptive_response() or non_preemptive_response().
-std::optional<PriorityOrder> audsley_preemptive(std::span<const Task> tasks);
-std::optional<PriorityOrder> audsley_non_preemptive(std::span<const Task> tasks);
+std::optional<PriorityOrder> audsley_preemptive(std::span<const TaskTimes> tasks);
+std::optional<PriorityOrder> audsley_non_preemptive(std::span<const TaskTimes> tasks);
 
 // Returns the elements in an order: in_order(tasks, rate_monotonic(tasks)).
 template <class T> std::vector<T> in_order(const std::vector<T>& list, const PriorityOrder& order) {

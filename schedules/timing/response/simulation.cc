@@ -105,9 +105,9 @@ void simulate_jobs(std::span<const PeriodicWork> by_priority, std::int64_t hyper
   if (!by_priority.empty()) PreemptiveProcessor(by_priority, hyperperiod, seen).run();
 }
 
-std::optional<std::vector<std::int64_t>> simulated_responses(std::span<const Task> by_priority) {
+std::optional<std::vector<std::int64_t>> simulated_responses(std::span<const TaskTimes> by_priority) {
   std::vector<PeriodicWork> tasks;
-  for (const Task& task : by_priority) {
+  for (const TaskTimes& task : by_priority) {
     TTF_CHECK(task.offset, "a simulated task needs an offset");
     tasks.push_back({.period = task.period, .offset = *task.offset, .work = task.work});
   }

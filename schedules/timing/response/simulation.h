@@ -47,6 +47,6 @@ void simulate_jobs(std::span<const PeriodicWork> by_priority, std::int64_t hyper
 
 // Returns the longest response of each task, by priority, the highest first. Every task must have an offset. Returns
 // nullopt if simulated_hyperperiod() has none for kMostSimulatedJobs.
-std::optional<std::vector<std::int64_t>> simulated_responses(std::span<const Task> by_priority);
+std::optional<std::vector<std::int64_t>> simulated_responses(std::span<const TaskTimes> by_priority);
 
 }  // namespace ttf::schedules::timing::response

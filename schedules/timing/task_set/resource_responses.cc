@@ -18,8 +18,8 @@ using response::Response;
 
 constexpr double kLeastProbability = 1e-12;  // can_faults.h rounds to about 1e-13
 
-std::vector<response::Task> as_tasks(const TaskSet& set, const PrioritisedTasks& on) {
-  std::vector<response::Task> tasks;
+std::vector<response::TaskTimes> as_tasks(const TaskSet& set, const PrioritisedTasks& on) {
+  std::vector<response::TaskTimes> tasks;
   for (std::size_t p = 0; p < on.tasks.size(); ++p) {
     const Task& task = set.tasks[on.tasks[p]];
     tasks.push_back({.period = set.period_of(on.tasks[p]).ns,
@@ -34,7 +34,7 @@ std::vector<response::Task> as_tasks(const TaskSet& set, const PrioritisedTasks&
 
 std::vector<response::CanMessage> as_can_messages(const TaskSet& set, const PrioritisedTasks& on) {
   std::vector<response::CanMessage> messages;
-  for (const response::Task& task : as_tasks(set, on))
+  for (const response::TaskTimes& task : as_tasks(set, on))
     messages.push_back(
         {.period = task.period, .transmission = task.work, .deadline = task.deadline, .jitter = task.jitter});
   return messages;

@@ -90,14 +90,14 @@ LinePoint Road::line_at(double station) const {
   return {along(is, beginnings_[piece].pose, way), is.curvature + is.change * way, is.change};
 }
 
-Pose Road::pose_at(const Place& place) const {
+Pose Road::pose_at(const LinePlace& place) const {
   Pose pose = line_at(place.station).pose;
   pose.x -= place.offset * std::sin(pose.heading);
   pose.y += place.offset * std::cos(pose.heading);
   return pose;
 }
 
-Place Road::place_of(double x, double y) const {
+LinePlace Road::place_of(double x, double y) const {
   const auto squared = [&](const Pose& pose) { return (pose.x - x) * (pose.x - x) + (pose.y - y) * (pose.y - y); };
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < samples_.size(); ++k)
@@ -106,8 +106,8 @@ Place Road::place_of(double x, double y) const {
 }
 
 // Newton's steps: the derivative of the way along the line is 1 - k offset.
-Place Road::place_near(double x, double y, double station) const {
-  Place place{station, 0.0};
+LinePlace Road::place_near(double x, double y, double station) const {
+  LinePlace place{station, 0.0};
   for (int k = 0; k < kRefinements; ++k) {
     const auto [pose, curvature, change] = line_at(place.station);
     const double dx = x - pose.x, dy = y - pose.y, c = std::cos(pose.heading), s = std::sin(pose.heading);

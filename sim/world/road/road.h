@@ -57,7 +57,7 @@ struct Pose {
 // Returns the pose of the line's end.
 Pose end_of(const RoadConfig& road);
 
-struct Place {
+struct LinePlace {
   double station = 0.0, offset = 0.0;
 };
 
@@ -91,11 +91,11 @@ class Road {
 
   LinePoint line_at(double station) const;
   // Returns the pose of a point beside the line, with the line's heading.
-  Pose pose_at(const Place& place) const;
+  Pose pose_at(const LinePlace& place) const;
   // Returns the place of the nearest point on the line. On a closed road, stations are 0..length.
-  Place place_of(double x, double y) const;
+  LinePlace place_of(double x, double y) const;
   // Returns the same for a point near to `station`, without a search.
-  Place place_near(double x, double y, double station) const;
+  LinePlace place_near(double x, double y, double station) const;
   // Returns how far `to` lies ahead of `from`, along the line [m]; on a closed road -length / 2..length / 2.
   double ahead(double from, double to) const;
 

@@ -51,7 +51,7 @@ double following(const Follow& follow, double speed, double gap, double ahead);
 
 // Another vehicle as a driver sees it, or a light that stops the driver.
 struct Vehicle {
-  road::Place place;
+  road::LinePlace place;
   double direction = 1.0;  // along the line or against it
   double speed = 0.0, length = 0.0, width = 0.0;
 };
@@ -60,7 +60,7 @@ class LaneDriver {
  public:
   LaneDriver(const LaneConfig& config, const road::Road& road, double speed);
 
-  const road::Place& place() const { return place_; }
+  const road::LinePlace& place() const { return place_; }
   double speed() const { return speed_; }
   double direction() const { return direction_; }
   // The centre, and the direction in which it moves or, standing, last moved.
@@ -74,7 +74,7 @@ class LaneDriver {
  private:
   LaneConfig config_;
   const road::Road* road_;
-  road::Place place_;
+  road::LinePlace place_;
   road::LaneChange change_;
   double direction_, speed_;
   double aside_ = 0.0;  // [rad], of its way against its lane, to the line's left

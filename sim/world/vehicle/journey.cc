@@ -37,7 +37,7 @@ class LaneKeeping {
   // direction of driving: offsets count to the vehicle's left, curvatures to it.
   double yaw_rate(const Parameters& vehicle, const Motion& motion, double seconds) {
     const RearAxle axle = rear_axle(vehicle, motion);
-    const road::Place place = road_->place_near(axle.x, axle.y, station_);
+    const road::LinePlace place = road_->place_near(axle.x, axle.y, station_);
     station_ = place.station;
     const road::LinePoint line = road_->line_at(station_);
     // The rear axle's way, with its slip.

@@ -35,7 +35,7 @@ TEST(MeasureTable, EveryRowIsComplete) {
     EXPECT_EQ(row.name.empty(), row.if_missed.empty()) << what;
     EXPECT_TRUE(!row.name.empty() || !row.path.empty() || !row.shown.label.empty()) << "a row that nobody reads";
     // The page and the account of troubles read values from summary.json.
-    if (row.shown.place != Place::kTable && !row.shown.label.empty()) {
+    if (row.shown.place != ShownIn::kTable && !row.shown.label.empty()) {
       EXPECT_FALSE(row.path.empty()) << what;
     }
     if (row.shown.has_interval || !row.shown.trouble.empty()) {
@@ -51,7 +51,7 @@ TEST(MeasureTable, LabelsOfThePageAreUniqueBelowTheirHeading) {
   std::map<std::string, std::set<std::string>> below;
   std::string heading;
   for (const Measure& row : measures()) {
-    if (row.shown.label.empty() || row.shown.place == Place::kTable) continue;
+    if (row.shown.label.empty() || row.shown.place == ShownIn::kTable) continue;
     const std::string label = label_of(row);
     if (!label.starts_with(' ')) heading = label;
     EXPECT_TRUE(below[heading].insert(label).second) << heading << ": " << label;

@@ -12,7 +12,7 @@
 namespace ttf::fusion::association {
 namespace {
 
-Place drawn(RandomStream& stream, std::size_t track) {
+TrackPlace drawn(RandomStream& stream, std::size_t track) {
   // Coordinates of a grid, so that many are equal.
   return {std::round(stream.normal() * 40.0),
           std::round(stream.normal() * 40.0),
@@ -22,7 +22,7 @@ Place drawn(RandomStream& stream, std::size_t track) {
           track};
 }
 
-bool in_gate(const Place& a, const Place& b, double gate) {
+bool in_gate(const TrackPlace& a, const TrackPlace& b, double gate) {
   const double dx = std::max(0.0, std::abs(a.x - b.x) - b.reach), dy = std::max(0.0, std::abs(a.y - b.y) - b.reach);
   return dx * dx <= gate * (a.variance_x + b.variance_x) && dy * dy <= gate * (a.variance_y + b.variance_y);
 }
@@ -30,19 +30,20 @@ bool in_gate(const Place& a, const Place& b, double gate) {
 constexpr double kGate = 11.8, kLargestVariance = 1.1;
 
 // Holds the searches of 50 observations to all places. Returns how many places were tried in each on the average.
-double try_some(NearPlaces& places, const std::vector<Place>& all, RandomStream& stream, const Place& about = {}) {
+double try_some(NearPlaces& places, const std::vector<TrackPlace>& all, RandomStream& stream,
+                const TrackPlace& about = {}) {
   constexpr int kSearches = 50;
   places.begin(kGate);
-  for (const Place& place : all) places.add(place);
+  for (const TrackPlace& place : all) places.add(place);
   places.arrange(kLargestVariance, kLargestVariance);
   EXPECT_EQ(places.all().size(), all.size());
   int tried = 0;
   for (int search = 0; search < kSearches; ++search) {
-    Place at = drawn(stream, 1);
+    TrackPlace at = drawn(stream, 1);
     at.x += about.x;
     at.y += about.y;
     std::vector<int> times(all.size());
-    places.near(at, [&](const Place& place) {
+    places.near(at, [&](const TrackPlace& place) {
       EXPECT_EQ(place.x, all[place.track].x);
       ++times[place.track];
       ++tried;
@@ -56,8 +57,8 @@ double try_some(NearPlaces& places, const std::vector<Place>& all, RandomStream&
   return static_cast<double>(tried) / kSearches;
 }
 
-std::vector<Place> all_drawn(RandomStream& stream, std::size_t count) {
-  std::vector<Place> all;
+std::vector<TrackPlace> all_drawn(RandomStream& stream, std::size_t count) {
+  std::vector<TrackPlace> all;
   for (std::size_t track = 0; track < count; ++track) all.push_back(drawn(stream, track));
   return all;
 }
@@ -81,15 +82,15 @@ TEST(NearPlaces, MayBeAnywhere) {
   constexpr std::size_t kCount = 100;
   NearPlaces places(kCount);
   RandomStream stream = stream_of(1);
-  std::vector<Place> all;
+  std::vector<TrackPlace> all;
   for (std::size_t track = 0; track < kCount; ++track) all.push_back({.reach = 60.0, .track = track});
   EXPECT_GT(try_some(places, all, stream), 10.0);
   all = all_drawn(stream, kCount);
   all[7].x = -1e5;
   all[8].y = 1e300;
   try_some(places, all, stream);
-  for (const Place& about : {Place{.x = -7e4, .y = 3e5}, Place{.x = 1e12, .y = -1e12}}) {
-    for (Place& place : all) {
+  for (const TrackPlace& about : {TrackPlace{.x = -7e4, .y = 3e5}, TrackPlace{.x = 1e12, .y = -1e12}}) {
+    for (TrackPlace& place : all) {
       place.x += about.x;
       place.y += about.y;
     }
@@ -103,12 +104,12 @@ TEST(NearPlaces, MayBeUncertain) {
   constexpr std::size_t kCount = 100;
   NearPlaces places(kCount);
   RandomStream stream = stream_of(2);
-  std::vector<Place> all = all_drawn(stream, kCount);
+  std::vector<TrackPlace> all = all_drawn(stream, kCount);
   all[3].variance_x = 1e4;
   try_some(places, all, stream);
   for (std::size_t track = 40; track < 80; ++track) all[track].variance_y = 1e4;
   try_some(places, all, stream);
-  for (Place& place : all) place.variance_x = place.variance_y = place.reach = 0.0;
+  for (TrackPlace& place : all) place.variance_x = place.variance_y = place.reach = 0.0;
   try_some(places, all, stream);
 }
 

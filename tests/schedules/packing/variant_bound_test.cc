@@ -71,8 +71,8 @@ TEST(VariantBound, OfSignalsThatConflictInPairsWithoutACommonVariant) {
 
 TEST(VariantBound, CountsTheSlotsThatStand) {
   const Instance instance = whole_frames_of({{0, 1}, {1, 2}}, 2);
-  EXPECT_EQ(least_slots(instance, {0, 1}, {Place{0, 0, 0}, Place{1, 0, 0}}), 2);
-  EXPECT_EQ(least_slots(instance, {0, 1}, {Place{0, 0, 0}, Place{0, 0, 0}}), 1);
+  EXPECT_EQ(least_slots(instance, {0, 1}, {BitPlace{0, 0, 0}, BitPlace{1, 0, 0}}), 2);
+  EXPECT_EQ(least_slots(instance, {0, 1}, {BitPlace{0, 0, 0}, BitPlace{0, 0, 0}}), 1);
 }
 
 TEST(VariantColumns, AreSharedByBinsWithoutACommonVariant) {
@@ -87,7 +87,7 @@ TEST(VariantColumns, AreSharedByBinsWithoutACommonVariant) {
 TEST(VariantPieces, AreSignalsThatShareVariantsAlsoThroughOthers) {
   Instance instance{{"a"}, {}, 8, 1, false, {"v", "w", "x", "y"}};
   for (const VariantSet set : {1, 6, 4, 8, 2}) instance.signals.push_back({"s", 0, 1, {0, 0}, 1, set});
-  const Places places{Place{0, 0, 0}, Place{0, 0, 0}, Place{0, 0, 1}, Place{0, 0, 0}, Place{1, 0, 0}};
+  const Places places{BitPlace{0, 0, 0}, BitPlace{0, 0, 0}, BitPlace{0, 0, 1}, BitPlace{0, 0, 0}, BitPlace{1, 0, 0}};
   const auto pieces = pieces_of(instance, places, {std::nullopt, std::nullopt, places[2]});
   ASSERT_EQ(pieces.size(), 2u);
   ASSERT_EQ(pieces[0].size(), 3u);  // 1, 6 with 4, 8
@@ -110,7 +110,7 @@ TEST(VariantCheck, LooksAtEachVariantsVehicle) {
 
 TEST(VariantUse, CountsEachVariantsSignalsAndSlots) {
   const Instance instance = whole_frames_of({{0, 1}, {1, 2}, {1, 3}}, 2);
-  const auto of = uses(instance, {Place{0, 0, 0}, Place{0, 0, 0}, std::nullopt});
+  const auto of = uses(instance, {BitPlace{0, 0, 0}, BitPlace{0, 0, 0}, std::nullopt});
   ASSERT_EQ(of.size(), 2u);
   EXPECT_EQ(of[0].signals, 1u);
   EXPECT_DOUBLE_EQ(of[1].load, 1.0);

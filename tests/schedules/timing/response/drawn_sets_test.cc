@@ -43,8 +43,8 @@ std::vector<SimulatedJob> critical_jobs(const std::vector<Repeating>& set, std::
   return jobs;
 }
 
-std::vector<Task> as_tasks(const std::vector<Repeating>& set) {
-  std::vector<Task> tasks;
+std::vector<TaskTimes> as_tasks(const std::vector<Repeating>& set) {
+  std::vector<TaskTimes> tasks;
   for (const Repeating& one : set)
     tasks.push_back({.period = one.period,
                      .work = one.work,
@@ -149,8 +149,8 @@ void check_can(RandomStream& stream) {
 // The simulated hyperperiod is at most the bound. No run with its offsets exceeds it.
 void check_offsets(RandomStream& stream) {
   std::vector<Repeating> set = drawn_tasks_of(stream);
-  std::vector<Task> tasks = as_tasks(set);
-  for (Task& one : tasks) one.jitter = 0;
+  std::vector<TaskTimes> tasks = as_tasks(set);
+  for (TaskTimes& one : tasks) one.jitter = 0;
   const std::vector<Response> any_phase = preemptive(tasks);
   std::vector<SimulatedJob> jobs;
   for (std::size_t i = 0; i < tasks.size(); ++i) {

@@ -15,12 +15,12 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-Task small_task(std::int64_t work, std::int64_t period, std::int64_t jitter = 0) {
+TaskTimes small_task(std::int64_t work, std::int64_t period, std::int64_t jitter = 0) {
   return {.period = period, .work = work, .deadline = period, .jitter = jitter, .blocking = 0, .offset = {}};
 }
 
 // Arrivals from each task's offset on, before `until`.
-std::vector<SimulatedJob> jobs_from(const std::vector<Task>& tasks, const std::vector<std::int64_t>& offsets,
+std::vector<SimulatedJob> jobs_from(const std::vector<TaskTimes>& tasks, const std::vector<std::int64_t>& offsets,
                                     std::int64_t until) {
   std::vector<SimulatedJob> jobs;
   for (std::size_t i = 0; i < tasks.size(); ++i)
@@ -28,14 +28,14 @@ std::vector<SimulatedJob> jobs_from(const std::vector<Task>& tasks, const std::v
   return jobs;
 }
 
-std::int64_t repeats_of(const std::vector<Task>& tasks) {
+std::int64_t repeats_of(const std::vector<TaskTimes>& tasks) {
   std::int64_t all = 1;
-  for (const Task& one : tasks) all = std::lcm(all, one.period);
+  for (const TaskTimes& one : tasks) all = std::lcm(all, one.period);
   return all;
 }
 
 // Calls `see` with every combination of offsets below the periods.
-template <class See> void for_all_phases(const std::vector<Task>& tasks, See see) {
+template <class See> void for_all_phases(const std::vector<TaskTimes>& tasks, See see) {
   std::vector<std::int64_t> offsets(tasks.size(), 0);
   for (;;) {
     see(offsets);
@@ -46,16 +46,16 @@ template <class See> void for_all_phases(const std::vector<Task>& tasks, See see
 }
 
 // Draws tasks with small whole periods and a load of at most one.
-std::vector<Task> small_set(RandomStream& stream, std::size_t count, std::int64_t longest) {
+std::vector<TaskTimes> small_set(RandomStream& stream, std::size_t count, std::int64_t longest) {
   for (;;) {
-    std::vector<Task> tasks;
+    std::vector<TaskTimes> tasks;
     for (std::size_t i = 0; i < count; ++i) {
       const std::int64_t period = stream.integer(2, longest);
       tasks.push_back(small_task(stream.integer(1, std::max<std::int64_t>(1, period / 2)), period));
     }
     std::int64_t work = 0;
     const std::int64_t all = repeats_of(tasks);
-    for (const Task& one : tasks) work += all / one.period * one.work;
+    for (const TaskTimes& one : tasks) work += all / one.period * one.work;
     if (work <= all) return tasks;
   }
 }
@@ -64,13 +64,13 @@ std::vector<Task> small_set(RandomStream& stream, std::size_t count, std::int64_
 TEST(PreemptiveTasks, AllPhasesOfSmallSets) {
   RandomStream stream({.seed = 11});
   for (int set = 0; set < 25; ++set) {
-    std::vector<Task> tasks = small_set(stream, 3, 7);
+    std::vector<TaskTimes> tasks = small_set(stream, 3, 7);
     const std::vector<Response> any_phase = preemptive(tasks);
     const std::int64_t until = 4 * repeats_of(tasks);
     std::vector<std::int64_t> worst(tasks.size(), 0);
     for_all_phases(tasks, [&](const std::vector<std::int64_t>& offsets) {
       const auto longest = simulated_longest(jobs_from(tasks, offsets, until), tasks.size(), Preemption::kAlways);
-      std::vector<Task> placed = tasks;
+      std::vector<TaskTimes> placed = tasks;
       for (std::size_t i = 0; i < tasks.size(); ++i) {
         worst[i] = std::max(worst[i], longest[i]);
         placed[i].offset = offsets[i] + 3 * tasks[i].period;  // later periods of the same phase
@@ -88,7 +88,7 @@ TEST(PreemptiveTasks, AllPhasesOfSmallSets) {
 TEST(NonPreemptiveTasks, AllPhasesOfSmallSets) {
   RandomStream stream({.seed = 12});
   for (int set = 0; set < 25; ++set) {
-    const std::vector<Task> tasks = small_set(stream, 3, 7);
+    const std::vector<TaskTimes> tasks = small_set(stream, 3, 7);
     const std::vector<Response> any_phase = non_preemptive(tasks);
     std::vector<std::int64_t> worst(tasks.size(), 0);
     for_all_phases(tasks, [&](const std::vector<std::int64_t>& offsets) {
@@ -109,7 +109,7 @@ TEST(NonPreemptiveTasks, AllPhasesOfSmallSets) {
 //   released         0^    ^10
 //   processor         |==40==|==40==|==30==|
 TEST(PreemptiveTasks, JitterBringsTwoAtOnce) {
-  const std::vector<Task> tasks{small_task(40, 200, 190), small_task(30, 1'000)};
+  const std::vector<TaskTimes> tasks{small_task(40, 200, 190), small_task(30, 1'000)};
   const std::vector<Response> responses = preemptive(tasks);
   EXPECT_EQ(responses[0], (Response{Quality::kExact, 230}));
   EXPECT_EQ(responses[1], (Response{Quality::kExact, 110}));
@@ -117,7 +117,7 @@ TEST(PreemptiveTasks, JitterBringsTwoAtOnce) {
 
 // J. Lehoczky 1990: works of 26 and 62, periods of 70 and 100. The fifth instance is the worst one.
 TEST(PreemptiveTasks, DeadlinesBeyondPeriodsLookAtTheWholeBusyPeriod) {
-  const std::vector<Task> tasks{small_task(26, 70), small_task(62, 100)};
+  const std::vector<TaskTimes> tasks{small_task(26, 70), small_task(62, 100)};
   std::vector<SimulatedJob> jobs = jobs_from(tasks, {0, 0}, 700);
   const auto longest = simulated_longest(jobs, 2, Preemption::kAlways);
   EXPECT_EQ(longest[1], 118);
@@ -127,7 +127,7 @@ TEST(PreemptiveTasks, DeadlinesBeyondPeriodsLookAtTheWholeBusyPeriod) {
 // At full load with blocking no busy period ends. Yet the response has a bound: each instance waits as long as the
 // last.
 TEST(PreemptiveTasks, FullLoadWithBlockingRepeatsWithTheHyperperiod) {
-  std::vector<Task> tasks{small_task(1, 2), small_task(2, 4)};
+  std::vector<TaskTimes> tasks{small_task(1, 2), small_task(2, 4)};
   EXPECT_EQ(preemptive(tasks)[1], (Response{Quality::kExact, 4}));
   tasks[1].blocking = 3;
   EXPECT_EQ(preemptive(tasks)[1], (Response{Quality::kBound, 10}));
@@ -138,7 +138,7 @@ TEST(PreemptiveTasks, FullLoadWithBlockingRepeatsWithTheHyperperiod) {
 
 TEST(PreemptiveTasks, MoreThanFullLoadHasNoBound) {
   const std::vector<Response> responses =
-      preemptive(std::vector<Task>{small_task(1, 2), small_task(3, 6), small_task(1, 1'000)});
+      preemptive(std::vector<TaskTimes>{small_task(1, 2), small_task(3, 6), small_task(1, 1'000)});
   EXPECT_EQ(responses[1], (Response{Quality::kExact, 6}));
   EXPECT_EQ(responses[2], Response{});
   EXPECT_FALSE(responses[2].meets(kLongestResponse));
@@ -148,21 +148,21 @@ TEST(PreemptiveTasks, MoreThanFullLoadHasNoBound) {
 // instance waits for J + 2.
 TEST(PreemptiveTasks, ManyInstancesFallBackToTheClosedForm) {
   const std::int64_t jitter = 3'000'000'000'000;
-  const std::vector<Task> tasks{small_task(1, 2), small_task(1, 3, jitter)};
+  const std::vector<TaskTimes> tasks{small_task(1, 2), small_task(1, 3, jitter)};
   EXPECT_EQ(preemptive(tasks)[1], (Response{Quality::kBound, jitter + 4}));
-  EXPECT_EQ(preemptive(std::vector<Task>{small_task(1, 2), small_task(1, 3, 300)})[1],
+  EXPECT_EQ(preemptive(std::vector<TaskTimes>{small_task(1, 2), small_task(1, 3, 300)})[1],
             (Response{Quality::kExact, 302}));
 }
 
 TEST(PreemptiveTasks, HugeNumbersDoNotOverflow) {
   const std::int64_t most = kLongestArgument;
-  const std::vector<Task> tasks{small_task(most / 2, most, most), small_task(most / 4, most, most),
-                                small_task(most / 8, most, most)};
+  const std::vector<TaskTimes> tasks{small_task(most / 2, most, most), small_task(most / 4, most, most),
+                                     small_task(most / 8, most, most)};
   const std::vector<Response> responses = preemptive(tasks);
   EXPECT_EQ(responses[0], (Response{Quality::kExact, most / 2 + most}));
   EXPECT_EQ(responses[1].longest, most + 3 * (most / 2) + most / 4) << "three of the higher before the first ends";
   for (const Response& one : responses) EXPECT_TRUE(one.bounded());
-  std::vector<Task> coprime;
+  std::vector<TaskTimes> coprime;
   for (const std::int64_t period : {most, most - 1, most - 3, most - 5})
     coprime.push_back(small_task(most / 4, period));
   EXPECT_EQ(preemptive(coprime)[3], Response{}) << "above one by less than 2^-50";
@@ -173,10 +173,11 @@ TEST(PreemptiveTasks, DrawnMagnitudesHaveAnAnswer) {
   RandomStream stream({.seed = 14});
   int bounded = 0;
   for (int set = 0; set < 30; ++set) {
-    std::vector<Task> tasks;
+    std::vector<TaskTimes> tasks;
     for (int i = 0; i < 4; ++i) {
       const std::int64_t period = std::int64_t{2} << stream.integer(0, 55);
-      Task task = small_task(stream.integer(1, std::max<std::int64_t>(1, period / 3)), period - stream.integer(0, 1));
+      TaskTimes task =
+          small_task(stream.integer(1, std::max<std::int64_t>(1, period / 3)), period - stream.integer(0, 1));
       task.jitter = stream.integer(0, std::int64_t{1} << stream.integer(0, 56));
       task.blocking = stream.integer(0, std::int64_t{1} << stream.integer(0, 56));
       tasks.push_back(task);
@@ -193,7 +194,7 @@ TEST(PreemptiveTasks, DrawnMagnitudesHaveAnAnswer) {
 
 // One of three tasks has no offset. It has a bound. The task below it meets either of the others.
 TEST(PreemptiveTasks, OffsetsOfSomeAreABoundForTheRest) {
-  std::vector<Task> tasks{small_task(1, 4), small_task(1, 4), small_task(1, 4)};
+  std::vector<TaskTimes> tasks{small_task(1, 4), small_task(1, 4), small_task(1, 4)};
   tasks[0].offset = 0;
   tasks[2].offset = 2;
   const std::vector<Response> responses = preemptive(tasks);
@@ -205,8 +206,8 @@ TEST(PreemptiveTasks, OffsetsOfSomeAreABoundForTheRest) {
 }
 
 TEST(SimulatedTasks, TooManyJobsAreNotSimulated) {
-  std::vector<Task> tasks{small_task(1, 3), small_task(1, 5'000'011)};
-  for (Task& one : tasks) one.offset = 1;
+  std::vector<TaskTimes> tasks{small_task(1, 3), small_task(1, 5'000'011)};
+  for (TaskTimes& one : tasks) one.offset = 1;
   EXPECT_EQ(simulated_responses(tasks), std::nullopt);
   EXPECT_EQ(preemptive(tasks)[1], (Response{Quality::kExact, 2})) << "offsets.h looks at three jobs alone";
   tasks[1].blocking = 1;
@@ -219,8 +220,8 @@ TEST(LoadTests, PassOnlySetsThatMeetTheirDeadlines) {
   RandomStream stream({.seed = 13});
   int by_liu_layland = 0, by_hyperbolic = 0;
   for (int set = 0; set < 2'000; ++set) {
-    std::vector<Task> tasks = small_set(stream, static_cast<std::size_t>(stream.integer(1, 4)), 30);
-    std::sort(tasks.begin(), tasks.end(), [](const Task& a, const Task& b) { return a.period < b.period; });
+    std::vector<TaskTimes> tasks = small_set(stream, static_cast<std::size_t>(stream.integer(1, 4)), 30);
+    std::sort(tasks.begin(), tasks.end(), [](const TaskTimes& a, const TaskTimes& b) { return a.period < b.period; });
     const bool hyperbolic = passes_hyperbolic(tasks);
     ASSERT_TRUE(hyperbolic || !passes_liu_layland(tasks));
     by_liu_layland += passes_liu_layland(tasks) ? 1 : 0;
@@ -234,12 +235,12 @@ TEST(LoadTests, PassOnlySetsThatMeetTheirDeadlines) {
 }
 
 TEST(LoadTests, AtTheirLimits) {
-  EXPECT_TRUE(passes_hyperbolic(std::vector<Task>{small_task(1, 2), small_task(1, 3)})) << "3/2 * 4/3 = 2";
-  EXPECT_FALSE(passes_hyperbolic(std::vector<Task>{small_task(1, 2), small_task(333'334, 1'000'000)}));
-  EXPECT_TRUE(passes_liu_layland(std::vector<Task>{small_task(5, 5)}));
-  EXPECT_FALSE(passes_liu_layland(std::vector<Task>{small_task(1, 4, 1)})) << "jitter";
-  EXPECT_FALSE(passes_hyperbolic(std::vector<Task>{small_task(1, 4, 1)}));
-  EXPECT_DOUBLE_EQ(utilisation(std::vector<Task>{small_task(1, 2), small_task(1, 4)}), 0.75);
+  EXPECT_TRUE(passes_hyperbolic(std::vector<TaskTimes>{small_task(1, 2), small_task(1, 3)})) << "3/2 * 4/3 = 2";
+  EXPECT_FALSE(passes_hyperbolic(std::vector<TaskTimes>{small_task(1, 2), small_task(333'334, 1'000'000)}));
+  EXPECT_TRUE(passes_liu_layland(std::vector<TaskTimes>{small_task(5, 5)}));
+  EXPECT_FALSE(passes_liu_layland(std::vector<TaskTimes>{small_task(1, 4, 1)})) << "jitter";
+  EXPECT_FALSE(passes_hyperbolic(std::vector<TaskTimes>{small_task(1, 4, 1)}));
+  EXPECT_DOUBLE_EQ(utilisation(std::vector<TaskTimes>{small_task(1, 2), small_task(1, 4)}), 0.75);
 }
 
 }  // namespace

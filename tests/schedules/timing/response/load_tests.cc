@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kMargin = 1e-12;  // more than the rounding of sums and products of some thousand loads
 
-double load_of_task(const Task& task) { return static_cast<double>(task.work) / static_cast<double>(task.period); }
+double load_of_task(const TaskTimes& task) { return static_cast<double>(task.work) / static_cast<double>(task.period); }
 
-bool tests_apply(std::span<const Task> tasks) {
-  return std::all_of(tasks.begin(), tasks.end(), [](const Task& task) {
+bool tests_apply(std::span<const TaskTimes> tasks) {
+  return std::all_of(tasks.begin(), tasks.end(), [](const TaskTimes& task) {
     return task.jitter == 0 && task.blocking == 0 && task.deadline >= task.period;
   });
 }
@@ -36,9 +36,9 @@ class Fraction {
 
 }  // namespace
 
-double utilisation(std::span<const Task> tasks) {
+double utilisation(std::span<const TaskTimes> tasks) {
   double sum = 0.0;
-  for (const Task& task : tasks) sum += load_of_task(task);
+  for (const TaskTimes& task : tasks) sum += load_of_task(task);
   return sum;
 }
 
@@ -48,7 +48,7 @@ double liu_layland_bound(std::size_t tasks) {
   return n * std::expm1(std::log(2.0) / n);  // 2^(1/n) - 1 without cancellation
 }
 
-bool passes_liu_layland(std::span<const Task> tasks) {
+bool passes_liu_layland(std::span<const TaskTimes> tasks) {
   if (tasks.empty()) return true;
   if (!tests_apply(tasks)) return false;
   // The limit of several tasks is irrational.
@@ -56,12 +56,12 @@ bool passes_liu_layland(std::span<const Task> tasks) {
   return utilisation(tasks) <= liu_layland_bound(tasks.size()) - kMargin;
 }
 
-bool passes_hyperbolic(std::span<const Task> tasks) {
+bool passes_hyperbolic(std::span<const TaskTimes> tasks) {
   if (!tests_apply(tasks)) return false;
   Fraction exact;
   bool fits = true;
   double product = 1.0;
-  for (const Task& task : tasks) {
+  for (const TaskTimes& task : tasks) {
     fits = fits && exact.times(task.work + task.period, task.period);
     product *= 1.0 + load_of_task(task);
   }

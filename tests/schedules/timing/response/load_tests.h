@@ -15,14 +15,14 @@
 namespace ttf::schedules::timing::response {
 
 // Returns the sum of C / T, for people: decisions compare whole numbers.
-double utilisation(std::span<const Task> tasks);
+double utilisation(std::span<const TaskTimes> tasks);
 
 // Returns n (2^(1/n) - 1): 1 for one task, falling to ln 2 = 0.6931. `tasks` is at least 1.
 double liu_layland_bound(std::size_t tasks);
 
 // Return whether a set passes. Both return false if a task has jitter, blocking or a deadline shorter than its
 // period. A set within 1e-12 of the limit fails, unless whole numbers of 128 bits decide it.
-bool passes_liu_layland(std::span<const Task> tasks);
-bool passes_hyperbolic(std::span<const Task> tasks);
+bool passes_liu_layland(std::span<const TaskTimes> tasks);
+bool passes_hyperbolic(std::span<const TaskTimes> tasks);
 
 }  // namespace ttf::schedules::timing::response

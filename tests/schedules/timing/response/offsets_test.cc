@@ -15,13 +15,14 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-Task offset_task(std::int64_t work, std::int64_t period, std::optional<std::int64_t> offset, std::int64_t jitter) {
+TaskTimes offset_task(std::int64_t work, std::int64_t period, std::optional<std::int64_t> offset, std::int64_t jitter) {
   return {.period = period, .work = work, .deadline = period, .jitter = jitter, .blocking = 0, .offset = offset};
 }
 
 // Calls release(task, arrival) for each job from `from` to `until`, and simulates them.
 template <class Release>
-std::int64_t simulated_with(const std::vector<Task>& tasks, std::int64_t from, std::int64_t until, Release release) {
+std::int64_t simulated_with(const std::vector<TaskTimes>& tasks, std::int64_t from, std::int64_t until,
+                            Release release) {
   std::vector<SimulatedJob> jobs;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::int64_t period = tasks[i].period;
@@ -36,7 +37,7 @@ std::int64_t simulated_with(const std::vector<Task>& tasks, std::int64_t from, s
 // jitter of 4 of the second lets it meet the first.
 TEST(Offsets, KeepJobsApart) {
   const auto second = [](std::int64_t first_jitter, std::int64_t second_jitter) {
-    const std::vector<Task> tasks{offset_task(2, 10, 0, first_jitter), offset_task(3, 10, 5, second_jitter)};
+    const std::vector<TaskTimes> tasks{offset_task(2, 10, 0, first_jitter), offset_task(3, 10, 5, second_jitter)};
     return preemptive(tasks)[1];
   };
   EXPECT_EQ(second(3, 0), (Response{Quality::kExact, 3}));
@@ -46,17 +47,17 @@ TEST(Offsets, KeepJobsApart) {
 }
 
 TEST(Offsets, BelowTasksOfAnyPhase) {
-  const std::vector<Task> tasks{offset_task(1, 4, {}, 0), offset_task(2, 10, 0, 3), offset_task(3, 10, 5, 0)};
+  const std::vector<TaskTimes> tasks{offset_task(1, 4, {}, 0), offset_task(2, 10, 0, 3), offset_task(3, 10, 5, 0)};
   // Both others come at 3, and the first again at 7: the last works from 6 to 7, and from 8 to 10.
   EXPECT_EQ(preemptive(tasks)[2], (Response{Quality::kExact, 5}));
   EXPECT_EQ(response_with_offsets({}, tasks[0]), std::nullopt);
-  Task blocked = tasks[2];
+  TaskTimes blocked = tasks[2];
   blocked.blocking = 1;
   EXPECT_EQ(response_with_offsets({}, blocked), std::nullopt);
 }
 
 struct DrawnOffsets {
-  std::vector<Task> tasks;  // the last is asked about
+  std::vector<TaskTimes> tasks;  // the last is asked about
   std::int64_t repeats = 1;
   double load = 0;
 
@@ -67,7 +68,7 @@ struct DrawnOffsets {
           periods[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(periods.size()) - 1))];
       const std::int64_t work = stream.integer(1, std::max<std::int64_t>(1, period / 3));
       const std::int64_t offset = stream.integer(0, period - 1);
-      Task task = offset_task(work, period, offset, stream.integer(0, most_jitter));
+      TaskTimes task = offset_task(work, period, offset, stream.integer(0, most_jitter));
       if (left == 1) task.jitter = std::min(task.jitter, period);
       if (left > 1 && any_phase && stream.integer(0, 2) == 0) task.offset.reset();
       load += static_cast<double>(task.work) / static_cast<double>(period);
@@ -77,9 +78,9 @@ struct DrawnOffsets {
   }
 
   // Tasks without an offset get one.
-  template <class Phase> std::vector<Task> placed(Phase phase) const {
-    std::vector<Task> found = tasks;
-    for (Task& one : found)
+  template <class Phase> std::vector<TaskTimes> placed(Phase phase) const {
+    std::vector<TaskTimes> found = tasks;
+    for (TaskTimes& one : found)
       if (!one.offset) one.offset = phase(one);
     return found;
   }
@@ -89,12 +90,12 @@ struct DrawnOffsets {
 std::int64_t longest_of_critical_instants(const DrawnOffsets& drawn) {
   std::int64_t longest = 0;
   for (std::int64_t start = 0; start < drawn.repeats; ++start) {
-    const std::vector<Task> tasks =
-        drawn.placed([&](const Task& one) { return ((start - one.jitter) % one.period + one.period) % one.period; });
-    longest = std::max(
-        longest, simulated_with(tasks, -2 * drawn.repeats, 3 * drawn.repeats, [&](const Task& task, std::int64_t at) {
-          return at <= start && at + task.jitter >= start ? start : at;
-        }));
+    const std::vector<TaskTimes> tasks = drawn.placed(
+        [&](const TaskTimes& one) { return ((start - one.jitter) % one.period + one.period) % one.period; });
+    longest = std::max(longest, simulated_with(tasks, -2 * drawn.repeats, 3 * drawn.repeats,
+                                               [&](const TaskTimes& task, std::int64_t at) {
+                                                 return at <= start && at + task.jitter >= start ? start : at;
+                                               }));
   }
   return longest;
 }
@@ -113,9 +114,10 @@ TEST(Offsets, DrawnSetsReachTheirResponsesAtCriticalInstants) {
     }
     ++judged;
     for (int draw = 0; draw < 5; ++draw) {
-      const std::vector<Task> tasks = drawn.placed([&](const Task& one) { return stream.integer(0, one.period - 1); });
+      const std::vector<TaskTimes> tasks =
+          drawn.placed([&](const TaskTimes& one) { return stream.integer(0, one.period - 1); });
       const std::int64_t some =
-          simulated_with(tasks, -drawn.repeats, 3 * drawn.repeats, [&](const Task& task, std::int64_t at) {
+          simulated_with(tasks, -drawn.repeats, 3 * drawn.repeats, [&](const TaskTimes& task, std::int64_t at) {
             return at + stream.integer(0, 1) * stream.integer(0, task.jitter);
           });
       ASSERT_LE(some, *found) << "set " << index;
@@ -142,7 +144,7 @@ TEST(Offsets, AllReleasesOfSmallSets) {
     if (drawn.load > 0.999) continue;
     const std::int64_t until = 2 * drawn.repeats + 6;
     int jobs = 0;
-    simulated_with(drawn.tasks, 0, until, [&](const Task& task, std::int64_t at) {
+    simulated_with(drawn.tasks, 0, until, [&](const TaskTimes& task, std::int64_t at) {
       jobs += task.jitter > 0 ? 1 : 0;
       return at;
     });
@@ -150,7 +152,7 @@ TEST(Offsets, AllReleasesOfSmallSets) {
     std::int64_t longest = 0;
     for (unsigned late = 0; late < 1U << jobs; ++late) {
       unsigned next = 0;
-      longest = std::max(longest, simulated_with(drawn.tasks, 0, until, [&](const Task& task, std::int64_t at) {
+      longest = std::max(longest, simulated_with(drawn.tasks, 0, until, [&](const TaskTimes& task, std::int64_t at) {
                            return task.jitter > 0 && ((late >> next++) & 1U) != 0 ? at + 1 : at;
                          }));
     }

@@ -13,8 +13,8 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-std::vector<Task> drawn_tasks(RandomStream& stream, std::size_t count, double longest_deadline) {
-  std::vector<Task> tasks;
+std::vector<TaskTimes> drawn_tasks(RandomStream& stream, std::size_t count, double longest_deadline) {
+  std::vector<TaskTimes> tasks;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t period = stream.integer(6, 30), work = stream.integer(1, 5);
     const auto most = static_cast<std::int64_t>(longest_deadline * static_cast<double>(period));
@@ -63,10 +63,10 @@ TEST(Audsley, IsOptimalForPreemptiveTasks) {
   RandomStream stream({.seed = 31});
   Tally tally;
   for (int set = 0; set < 400; ++set) {
-    const std::vector<Task> tasks = drawn_tasks(stream, 4, 1.8);
+    const std::vector<TaskTimes> tasks = drawn_tasks(stream, 4, 1.8);
     expect_optimal(
         tasks, audsley_preemptive(tasks),
-        [](const std::vector<Task>& ordered) { return all_meet(preemptive(ordered), ordered); }, tally);
+        [](const std::vector<TaskTimes>& ordered) { return all_meet(preemptive(ordered), ordered); }, tally);
   }
   EXPECT_GT(tally.found, 50);
   EXPECT_GT(tally.none, 50);
@@ -76,10 +76,10 @@ TEST(Audsley, IsOptimalForNonPreemptiveTasks) {
   RandomStream stream({.seed = 32});
   Tally tally;
   for (int set = 0; set < 400; ++set) {
-    const std::vector<Task> tasks = drawn_tasks(stream, 4, 1.8);
+    const std::vector<TaskTimes> tasks = drawn_tasks(stream, 4, 1.8);
     expect_optimal(
         tasks, audsley_non_preemptive(tasks),
-        [](const std::vector<Task>& ordered) { return all_meet(non_preemptive(ordered), ordered); }, tally);
+        [](const std::vector<TaskTimes>& ordered) { return all_meet(non_preemptive(ordered), ordered); }, tally);
   }
   EXPECT_GT(tally.found, 50);
   EXPECT_GT(tally.none, 50);
@@ -91,7 +91,7 @@ TEST(Audsley, IsOptimalForCanWhereDeadlineMonotonicIsNot) {
   Tally tally, deadline_order;
   for (int set = 0; set < 400; ++set) {
     std::vector<CanMessage> messages;
-    for (const Task& one : drawn_tasks(stream, 4, 1.0))
+    for (const TaskTimes& one : drawn_tasks(stream, 4, 1.0))
       messages.push_back({one.period, one.work, one.deadline, one.jitter});
     std::stable_sort(messages.begin(), messages.end(),
                      [](const CanMessage& a, const CanMessage& b) { return a.deadline < b.deadline; });
@@ -112,9 +112,9 @@ TEST(DeadlineMonotonic, IsOptimalForShortDeadlines) {
   RandomStream stream({.seed = 34});
   Tally tally;
   for (int set = 0; set < 400; ++set) {
-    std::vector<Task> tasks = drawn_tasks(stream, 4, 1.0);
-    for (Task& one : tasks) one.jitter = 0, one.deadline = std::min(one.deadline, one.period);
-    const auto meets = [](const std::vector<Task>& ordered) { return all_meet(preemptive(ordered), ordered); };
+    std::vector<TaskTimes> tasks = drawn_tasks(stream, 4, 1.0);
+    for (TaskTimes& one : tasks) one.jitter = 0, one.deadline = std::min(one.deadline, one.period);
+    const auto meets = [](const std::vector<TaskTimes>& ordered) { return all_meet(preemptive(ordered), ordered); };
     const bool found = meets(in_order(tasks, deadline_monotonic(tasks)));
     EXPECT_EQ(found, any_order(tasks, meets));
     tally.add(found);
@@ -124,8 +124,8 @@ TEST(DeadlineMonotonic, IsOptimalForShortDeadlines) {
 }
 
 TEST(PriorityOrders, KeepTheListsOrderAmongEquals) {
-  std::vector<Task> tasks(3);
-  for (Task& one : tasks) one = {.period = 5, .work = 1, .deadline = 9, .jitter = 0, .blocking = 0, .offset = {}};
+  std::vector<TaskTimes> tasks(3);
+  for (TaskTimes& one : tasks) one = {.period = 5, .work = 1, .deadline = 9, .jitter = 0, .blocking = 0, .offset = {}};
   tasks[1].period = 4;
   tasks[2].deadline = 3;
   EXPECT_EQ(rate_monotonic(tasks), (PriorityOrder{1, 0, 2}));

@@ -13,8 +13,8 @@
 namespace ttf::schedules::timing::response {
 namespace {
 
-Task published_task(std::int64_t work, std::int64_t period, std::int64_t deadline, std::int64_t blocking = 0,
-                    std::int64_t jitter = 0) {
+TaskTimes published_task(std::int64_t work, std::int64_t period, std::int64_t deadline, std::int64_t blocking = 0,
+                         std::int64_t jitter = 0) {
   return {.period = period, .work = work, .deadline = deadline, .jitter = jitter, .blocking = blocking, .offset = {}};
 }
 
@@ -26,8 +26,8 @@ std::vector<std::int64_t> published_longest(const std::vector<Response>& respons
 
 // schedcat, tests/fp.py.
 TEST(PublishedFixedPriority, FourTasksOfSchedcat) {
-  const std::vector<Task> tasks{published_task(1, 4, 4), published_task(1, 5, 5), published_task(3, 9, 9),
-                                published_task(3, 18, 18)};
+  const std::vector<TaskTimes> tasks{published_task(1, 4, 4), published_task(1, 5, 5), published_task(3, 9, 9),
+                                     published_task(3, 18, 18)};
   const std::vector<Response> responses = preemptive(tasks);
   EXPECT_EQ(published_longest(responses), (std::vector<std::int64_t>{1, 2, 7, 18}));
   for (const Response& one : responses) EXPECT_EQ(one.quality, Quality::kExact);
@@ -36,7 +36,7 @@ TEST(PublishedFixedPriority, FourTasksOfSchedcat) {
 // N. Audsley et al., "Applying new scheduling theory to static priority pre-emptive scheduling", 1993: the generic
 // avionics platform, in microseconds. Their responses count from the release, ours from the arrival: J more.
 TEST(PublishedFixedPriority, GenericAvionicsPlatform) {
-  const std::vector<Task> tasks{
+  const std::vector<TaskTimes> tasks{
       published_task(51, 1'000, 1'000),
       published_task(3'000, 2'000'000, 5'000, 300),
       published_task(2'000, 25'000, 25'000, 600),

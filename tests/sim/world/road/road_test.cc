@@ -96,7 +96,7 @@ TEST(Road, FindsAPlaceAgain) {
   for (double s = -30.0; s < 300.0; s += 7.3)
     for (const double offset : {-7.0, -0.4, 0.0, 3.1}) {
       const Pose pose = road.pose_at({s, offset});
-      const Place found = road.place_of(pose.x, pose.y), near = road.place_near(pose.x, pose.y, s + 2.0);
+      const LinePlace found = road.place_of(pose.x, pose.y), near = road.place_near(pose.x, pose.y, s + 2.0);
       EXPECT_NEAR(found.station, s, 1e-8) << s << ' ' << offset;
       EXPECT_NEAR(found.offset, offset, 1e-9) << s << ' ' << offset;
       EXPECT_NEAR(near.station, s, 1e-8) << s << ' ' << offset;
