@@ -32,11 +32,12 @@ struct Writing {
   std::vector<std::pair<std::string_view, std::string>>& keys;
   const Fault& fault;
   const schedules::model::Cluster& cluster;
+  std::string (*time_text)(Duration);
 
   template <class Value> void add(std::string_view key, const Value& value) const {
     keys.emplace_back(key, fmt::format("{}", value));
   }
-  void add(std::string_view key, Duration duration) const { add(key, fmt::format("{} ns", duration.ns)); }
+  void add(std::string_view key, Duration duration) const { add(key, time_text(duration)); }
 };
 
 // The names of an enumeration's values.
@@ -310,10 +311,10 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
     if (applies(parameter, fault)) row_of(parameter).read({yaml, fault, latest});
 }
 
-void write_parameters(const Fault& fault, const schedules::model::Cluster& cluster,
+void write_parameters(const Fault& fault, const schedules::model::Cluster& cluster, std::string (*time_text)(Duration),
                       std::vector<std::pair<std::string_view, std::string>>& keys) {
   for (const FaultParameter parameter : row_of(fault.kind).parameters)
-    if (applies(parameter, fault)) row_of(parameter).write({keys, fault, cluster});
+    if (applies(parameter, fault)) row_of(parameter).write({keys, fault, cluster, time_text});
 }
 
 }  // namespace ttf::faults

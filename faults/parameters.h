@@ -13,9 +13,10 @@
 
 namespace ttf::faults {
 
-// Read or write all parameters of the fault, in its kind's order. `latest` is the largest permitted `from`.
+// Read or write all parameters of the fault, in its kind's order. `latest` is the largest permitted `from`. `time_text`
+// writes times.
 void read_parameters(YamlMap& yaml, Fault& fault, Duration latest);
-void write_parameters(const Fault& fault, const schedules::model::Cluster& cluster,
+void write_parameters(const Fault& fault, const schedules::model::Cluster& cluster, std::string (*time_text)(Duration),
                       std::vector<std::pair<std::string_view, std::string>>& keys);
 
 }  // namespace ttf::faults

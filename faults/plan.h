@@ -121,10 +121,10 @@ Fault load_fault(YamlMap& yaml, Duration latest);
 
 // Returns a fault's keys beside `kind` and `node`, as its kind and mode have them. The values are YAML and parse
 // to the same fault. Defaults are left out: `duration` to the end, `receivers` for all nodes, `slot` for the
-// next coldstart node's. The fault is resolved for the cluster.
+// next coldstart node's. Times are in nanoseconds. The fault is resolved for the cluster.
 std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault,
                                                               const schedules::model::Cluster& cluster);
-// Returns the whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
+// Returns the whole entry in one line for people: "{kind: crash, node: fusion, from: 20 us}".
 std::string entry_of(const Fault& fault, const schedules::model::Cluster& cluster);
 
 // Returns the plan with its names looked up, and slots, bits and identifiers checked against the cluster. Throws

@@ -100,7 +100,7 @@ std::string states_text(const FaultFindings& findings, const schedules::model::C
       table.add({name, node_name(state.node, cluster), cell(state.first), fmt::format("{}", state.times), state.from,
                  state.to, state.why});
   });
-  return table.rows() == 0 ? "No node changed its state.\n" : table.text();
+  return table.rows() == 0 ? "No node changed its state on FlexRay.\n" : table.text();
 }
 
 std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster) {
@@ -118,7 +118,8 @@ std::string cans_text(const FaultFindings& findings, const schedules::model::Clu
     for (std::size_t e = 0; e < seen.errors.size(); ++e) {
       if (seen.errors[e] == 0) continue;
       all += seen.errors[e];
-      words += fmt::format("{}{} {}", words.empty() ? "" : ", ", seen.errors[e], to_text(static_cast<CanError>(e)));
+      words += (words.empty() ? "" : ", ") +
+               counted(seen.errors[e], fmt::format("{} error", to_text(static_cast<CanError>(e))));
     }
     table.add({can_name(seen.bus, cluster), node_name(seen.node, cluster), cell(seen.first), fmt::format("{}", all),
                fmt::format("{}", seen.passive), fmt::format("{}", seen.bus_off), words.empty() ? "-" : words});

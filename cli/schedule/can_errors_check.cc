@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -89,9 +91,11 @@ int check_can_errors(const schedules::model::Cluster& cluster, const std::string
                            : "not all lists are sent in time",
              scaled_text(errors.ns, 1'000'000));
   if (lists.empty()) return 0;
-  fmt::print("{:<20}{:<24}{:>16}{:>10}{:>10}\n", "list sent [ms]", "on", "every", "without", "with");
+  std::size_t list = 18, can = 22;  // at least
+  for (const ListUnderErrors& one : lists) list = std::max(list, one.list.size()), can = std::max(can, one.can.size());
+  fmt::print("{:<{}}  {:<{}}{:>18}{:>10}{:>10}\n", "list sent [ms]", list, "on", can, "every", "without", "with");
   for (const ListUnderErrors& one : lists)
-    fmt::print("{:<20}{:<24}{:>16.3f}{:>10}{:>10}{}\n", one.list, one.can, in_ms(one.period),
+    fmt::print("{:<{}}  {:<{}}{:>18.3f}{:>10}{:>10}{}\n", one.list, list, one.can, can, in_ms(one.period),
                milliseconds_or_dash(one.without), milliseconds_or_dash(one.with), one.in_time ? "" : "  late");
   return holds ? 0 : 1;
 }

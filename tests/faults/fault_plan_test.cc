@@ -333,8 +333,12 @@ TEST(FaultPlan, FaultsOfACanAreThere) {
   const FaultPlan plan = resolve(result.plan, cluster);
   EXPECT_EQ(plan.faults[0].node, *cluster.find_node("laser"));
   EXPECT_EQ(cluster.can_buses[plan.faults[0].can].name, "laser_can");
-  EXPECT_EQ(entry_of(plan.faults[0], cluster), "{kind: can_bus_off, node: laser, can: laser_can, from: 0 ns}");
+  EXPECT_EQ(entry_of(plan.faults[0], cluster), "{kind: can_bus_off, node: laser, can: laser_can, from: 0 ms}");
   EXPECT_THAT(plan.faults[1].receivers, ElementsAre(*cluster.find_node("laser_pre")));
+  const Read babbling = read(
+      "  - {kind: can_babbling, node: laser, can: laser_can, identifier: 1, interval: 20000 ns, from: 1500001 ns}\n");
+  EXPECT_THAT(entry_of(resolve(babbling.plan, cluster).faults[0], cluster),
+              HasSubstr("identifier: 1, interval: 20 us, jitter: 0 ms, from: 1500001 ns}"));
   const auto sentences = refused(
       "  - {kind: can_bus_off, node: laser, can: wire}\n"
       "  - {kind: can_bus_off, node: camera, can: laser_can}\n"
