@@ -76,18 +76,6 @@ bool can_be_a_device(const std::string& name) {
                      [](char c) { return c > 0x20 && c < 0x7f && c != '/' && c != ':' && c != '=' && c != '%'; });
 }
 
-// Returns a field of a comma-separated row (RFC 4180).
-std::string quoted(const std::string& text) {
-  if (std::none_of(text.begin(), text.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }))
-    return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
 std::string_view flag_of(records::Symbol symbol) {
   switch (symbol) {
     case records::Symbol::kCas: return "cas";
@@ -111,7 +99,7 @@ std::string flexray_flags(const capture::CheckedFlexRayFrame& frame) {
   return text;
 }
 
-std::string flexray_kind(const LoggedFrame& frame) {
+std::string_view flexray_kind(const LoggedFrame& frame) {
   if (!frame.of_controller && has(frame.state, records::ChannelState::kCoding)) return "noise";
   return frame.null_frame ? "null" : "frame";
 }
@@ -122,6 +110,62 @@ std::string can_flags(const LoggedFrame& frame) {
   if (frame.flexible_data_rate) text += text.empty() ? "brs" : "+brs";
   return text;
 }
+
+std::string_view can_kind(const LoggedFrame& frame) {
+  return frame.can_error ? "can_error" : frame.flexible_data_rate ? "can_fd" : "can";
+}
+
+// A frame or a symbol as a row, with everything that more than one column shows.
+struct FrameRow {
+  FrameRow(const FrameCollector& collector, const LoggedFrame& logged, const LogNames& all_names)
+      : frame(logged), names(all_names), list(logged.pdu != kNoPdu), payload(collector.data(logged)) {
+    if (frame.symbol) {
+      kind = "symbol";
+      flags = flag_of(*frame.symbol);
+    } else if (frame.flexray) {
+      const capture::CheckedFlexRayFrame there = checked(frame, payload);
+      kind = flexray_kind(frame);
+      flags = flexray_flags(there);
+      payload = there.header_and_payload;
+      payload = payload.subspan(std::min(payload.size(), bus::wire::kHeaderBytes));
+    } else {
+      kind = can_kind(frame);
+      flags = can_flags(frame);
+    }
+  }
+
+  const LoggedFrame& frame;
+  const LogNames& names;
+  bool list;
+  std::span<const std::byte> payload;
+  std::string_view kind;
+  std::string flags;
+};
+
+template <class Value> std::optional<Value> value_if(bool there, Value value) {
+  return there ? std::optional(std::move(value)) : std::nullopt;
+}
+
+constexpr ColumnOf<FrameRow> kFrameColumns[] = {
+    {"bus", [](auto& r) { return r.frame.flexray ? std::string(kFlexRayName) : r.names.can_bus(r.frame.channel); }},
+    {"channel", [](auto& r) { return r.frame.flexray ? std::string(1, letter(channel_of(r.frame))) : std::string(); }},
+    {"cycle",
+     [](auto& r) { return value_if(r.frame.flexray && !r.frame.symbol && r.frame.of_controller, r.frame.cycle); }},
+    {"id", [](auto& r) { return value_if(!r.frame.symbol && r.kind != "noise", r.frame.id); }},
+    {"sender", [](auto& r) { return r.frame.sender == kNoNode ? std::string() : r.names.node(r.frame.sender); }},
+    {"kind", [](auto& r) { return r.kind; }},
+    {"flags", [](auto& r) { return r.flags; }},
+    {"pdu", [](auto& r) { return r.list ? r.names.pdu(r.frame.pdu) : std::string(); }},
+    {"sequence", [](auto& r) { return value_if(r.list, r.frame.sequence); }},
+    {"fragment", [](auto& r) { return value_if(r.list, r.frame.fragment); }},
+    {"measurement", [](auto& r) { return r.names.measurement(r.frame); }},
+    {"payload",
+     [](auto& r) {
+       std::string hex;
+       put_hex(hex, r.payload);
+       return hex;
+     }},
+};
 
 }  // namespace
 
@@ -169,40 +213,18 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
   return out;
 }
 
-std::string csv_fields(const FrameCollector& collector, const LoggedFrame& frame, const LogNames& names) {
-  if (frame.symbol)
-    return fmt::format("{},{},,,{},symbol,{},,,,,", kFlexRayName, letter(channel_of(frame)),
-                       quoted(names.node(frame.sender)), flag_of(*frame.symbol));
-  const bool list = frame.pdu != kNoPdu;
-  std::string out, flags;
-  std::span<const std::byte> payload = collector.data(frame);
-  if (frame.flexray) {
-    const capture::CheckedFlexRayFrame there = checked(frame, payload);
-    flags = flexray_flags(there);
-    payload = there.header_and_payload;
-    payload = payload.subspan(std::min(payload.size(), bus::wire::kHeaderBytes));
-    out = fmt::format("{},{},{},", kFlexRayName, letter(channel_of(frame)),
-                      frame.of_controller ? std::to_string(frame.cycle) : "");
-  } else {
-    flags = can_flags(frame);
-    out = fmt::format("{},,,", quoted(names.can_bus(frame.channel)));
-  }
-  const std::string kind = frame.flexray              ? flexray_kind(frame)
-                           : frame.can_error          ? "can_error"
-                           : frame.flexible_data_rate ? "can_fd"
-                                                      : "can";
-  out += fmt::format("{},{},{},{},{},{},{},{},", kind == "noise" ? "" : std::to_string(frame.id),
-                     frame.sender == kNoNode ? "" : quoted(names.node(frame.sender)), kind, flags,
-                     list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",
-                     list ? std::to_string(frame.fragment) : "", quoted(names.measurement(frame)));
-  put_hex(out, payload);
-  return out;
+std::vector<Column> frame_columns() { return columns_of(kFrameColumns); }
+
+std::string frame_fields(const FrameCollector& collector, const LoggedFrame& frame, const LogNames& names) {
+  return fields_line(kFrameColumns, FrameRow(collector, frame, names));
 }
 
+std::string csv_header() { return "time_ns," + names_line(frame_columns()) + '\n'; }
+
 std::string export_csv(const FrameCollector& collector, const std::vector<LoggedFrame>& frames, const LogNames& names) {
-  std::string out(kCsvHeader);
+  std::string out = csv_header();
   for (const LoggedFrame& frame : frames)
-    out += fmt::format("{},{}\n", frame.time_ns, csv_fields(collector, frame, names));
+    out += fmt::format("{},{}\n", frame.time_ns, frame_fields(collector, frame, names));
   return out;
 }
 

@@ -26,6 +26,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "recording/exports/columns.h"
 #include "recording/exports/frames.h"
 #include "recording/records/records.h"
 
@@ -36,11 +37,6 @@ inline constexpr std::size_t kTables = 7;
 inline constexpr std::array<std::string_view, kTables> kTableNames{"truth",  "tracks", "images", "ages",
                                                                    "errors", "tasks",  "frames"};
 
-enum class ColumnType : std::uint8_t { kReal, kInteger, kText };
-struct Column {
-  std::string_view name;
-  ColumnType type = ColumnType::kReal;
-};
 // Returns the columns in the order of a row's fields. Any field may be empty.
 std::vector<Column> columns(Table table);
 
@@ -74,7 +70,7 @@ class TableExport final : public records::Sink {
   void on(const records::TaskRun&) override;
 
  private:
-  void row(Table table, std::string text);
+  void row(Table table, std::string fields);
 
   LogNames names_;
   Write write_;

@@ -135,7 +135,7 @@ TEST(CaptureExport, RowsNameEverythingAFrameIs) {
   log.flexray(8, 22, 0, *log.nodes.find_pdu("image"), false, 20);
   log.can(0, 9, 0x100, true, "laser_scan", 12);
   log.can(2, 10, 0x110, false, "camera_frame", 3);
-  EXPECT_EQ(log.csv(), std::string(kCsvHeader) +
+  EXPECT_EQ(log.csv(), csv_header() +
                            "5,FlexRay,A,73,1,gateway,frame,sync+startup,,,,,01AB\n"
                            "6,FlexRay,B,73,6,gateway,frame,,laser_objects,12,0,laser 12,01AB\n"
                            "7,FlexRay,B,73,7,gateway,null,,laser_objects,12,0,,01AB\n"
@@ -190,7 +190,7 @@ Exported disturbed() {
 
 TEST(CaptureExport, FramesAreAsTheyWereOnTheChannel) {
   EXPECT_EQ(disturbed().csv(),
-            std::string(kCsvHeader) +
+            csv_header() +
                 "7,FlexRay,A,73,7,gateway,frame,frame_crc_error,laser_objects,12,0,laser 12,01AA\n"
                 "8,FlexRay,A,73,8,gateway,frame,coding_error+frame_end_error,laser_objects,12,0,laser 12,01\n"
                 "10,FlexRay,A,73,10,gateway,frame,coding_error,laser_objects,12,0,laser 12,\n"
@@ -231,7 +231,7 @@ Exported with_symbols() {
 
 TEST(CaptureExport, SymbolsHaveRowsAndNoneInCandump) {
   const Exported log = with_symbols();
-  EXPECT_EQ(log.csv(), std::string(kCsvHeader) +
+  EXPECT_EQ(log.csv(), csv_header() +
                            "1000,FlexRay,A,,,gateway,symbol,wakeup,,,,,\n"
                            "5000,FlexRay,A,,,gateway,symbol,cas,,,,,\n"
                            "5000,FlexRay,B,,,gateway,symbol,cas,,,,,\n"

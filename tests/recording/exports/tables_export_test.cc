@@ -102,14 +102,14 @@ TEST(TableExport, FramesAreThoseOfCapturesByTime) {
     emit(collector, log::kind_of(i), Values::kDrawn, i, 1'000'000'000 - i * 1'000'000);
   tables.out.frames(collector);
   const std::string& text = tables.text[Table::kFrames];
-  constexpr std::string_view kNames = kCsvHeader.substr(kCsvHeader.find(','));
-  EXPECT_EQ(text.substr(text.find(','), kNames.size()), kNames);
+  const std::string names = csv_header().substr(csv_header().find(','));
+  EXPECT_EQ(text.substr(text.find(','), names.size()), names);
   const std::vector<LoggedFrame> frames = collector.in_order();
   const std::vector<std::string> rows = tables.rows(Table::kFrames);
   ASSERT_THAT(rows, SizeIs(frames.size()));
   ASSERT_FALSE(rows.empty());
   for (std::size_t f = 0; f < frames.size(); ++f)
-    EXPECT_EQ(rows[f].substr(rows[f].find(',') + 1), csv_fields(collector, frames[f], LogNames(Tables::manifest())));
+    EXPECT_EQ(rows[f].substr(rows[f].find(',') + 1), frame_fields(collector, frames[f], LogNames(Tables::manifest())));
 }
 
 // Every row has as many fields as the line of names, whatever a damaged log holds.
