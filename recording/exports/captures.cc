@@ -105,7 +105,7 @@ std::string_view flexray_kind(const LoggedFrame& frame) {
 }
 
 std::string can_flags(const LoggedFrame& frame) {
-  if (frame.can_error) return "";
+  if (frame.can_error) return to_text(*frame.can_error);
   std::string text = frame.id > capture::kLargestBaseIdentifier ? "extended" : "";
   if (frame.flexible_data_rate) text += text.empty() ? "brs" : "+brs";
   return text;

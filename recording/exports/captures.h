@@ -23,7 +23,7 @@ namespace ttf::recording::exports {
 //
 // id: slot or CAN identifier, decimal. kind: frame, null, noise, symbol (FlexRay), can, can_fd, can_error. flags: names
 // joined by '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error
-// (FlexRay), extended, brs (CAN). A symbol has cas, wakeup or media_test.
+// (FlexRay), extended, brs (CAN). A symbol has cas, wakeup or media_test. A CAN's error has its words, to_text(CanTrouble).
 // measurement: sensor and sequence. payload: hex. Symbols have no id and no cycle. Noise has no id. A frame that no
 // controller sent has no cycle, and noise without a sending node has no sender.
 std::vector<Column> frame_columns();

@@ -73,11 +73,23 @@ CanErrorBytes error_bytes_of(const records::CanStateChanged& change) {
   return bytes;
 }
 
+CanTrouble trouble_of(const records::CanErrorFrame& error) { return error.error; }
+CanTrouble trouble_of(const records::CanStateChanged& change) { return change.to; }
+
 std::string name_or_number(const std::vector<std::string>& names, std::size_t index, const char* what) {
   return index < names.size() && !names[index].empty() ? names[index] : fmt::format("{} {}", what, index);
 }
 
 }  // namespace
+
+std::string to_text(const CanTrouble& trouble) {
+  const std::string_view words = std::visit([](auto one) { return to_text(one); }, trouble);
+  const bool is_error = std::holds_alternative<records::CanError>(trouble);
+  if (words.empty())
+    return fmt::format("{} {}", is_error ? "error" : "state",
+                       std::visit([](auto one) { return index_of(one); }, trouble));
+  return std::string(words) + (is_error ? " error" : "");
+}
 
 std::string LogNames::node(NodeId id) const { return name_or_number(manifest_.node_names, index_of(id), "node"); }
 std::string LogNames::task(NodeId node, std::uint8_t task) const {
@@ -132,7 +144,7 @@ template <class Record> void FrameCollector::can_error(const Record& record) {
   frame.time_ns = record.stamp.true_time.ns;
   frame.channel = record.bus;
   frame.id = bytes.identifier;
-  frame.can_error = true;
+  frame.can_error = trouble_of(record);
   frame.sender = record.stamp.node;
   frames_.push_back(with_data(frame, bytes.data));
 }

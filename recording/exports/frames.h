@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/ids.h"
@@ -14,15 +15,20 @@
 
 namespace ttf::recording::exports {
 
+// A controller's error on a private CAN, or its new state.
+using CanTrouble = std::variant<records::CanError, records::CanState>;
+// Returns "bit error", "error passive" and the like; "error 9" or "state 9" in a damaged log.
+std::string to_text(const CanTrouble& trouble);
+
 struct LoggedFrame {
   std::int64_t time_ns = 0;  // true time: a FlexRay frame's start, a CAN frame's end, as in the log
   bool flexray = false;
-  std::uint8_t channel = 0;         // FlexRay: 0 A, 1 B; else the index of the CAN
-  std::uint32_t id = 0;             // slot or CAN identifier
-  std::int64_t cycle = 0;           // running; FlexRay only
-  bool null_frame = false;          // FlexRay only
-  bool flexible_data_rate = false;  // CAN only
-  bool can_error = false;           // CAN: an error frame, or a controller's new state
+  std::uint8_t channel = 0;             // FlexRay: 0 A, 1 B; else the index of the CAN
+  std::uint32_t id = 0;                 // slot or CAN identifier
+  std::int64_t cycle = 0;               // running; FlexRay only
+  bool null_frame = false;              // FlexRay only
+  bool flexible_data_rate = false;      // CAN only
+  std::optional<CanTrouble> can_error;  // CAN: no frame of data, but an error frame
   NodeId sender{};
   PduId pdu = kNoPdu;
   SensorId sensor = kNoSensor;  // with `sequence`, the measurement that the frame carries

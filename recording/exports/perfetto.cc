@@ -127,6 +127,25 @@ void PerfettoExport::on(const records::CanFrameSent& r) {
   ways_.frame(false, r.bus, r.start.node, r.sensor, r.sequence, r.fragment, passed(mark));
 }
 
+// Marks an event of a controller in the lane of its CAN.
+template <class Record> void PerfettoExport::can_instant(const Record& r, std::string name, TraceNote note) {
+  timeline_.instant(kCanGroup, names_.can_bus(r.bus), come_to(r.stamp.true_time), std::move(name),
+                    {{"node", names_.node(r.stamp.node)},
+                     std::move(note),
+                     {"transmit errors", std::int64_t{r.transmit_errors}},
+                     {"receive errors", std::int64_t{r.receive_errors}}});
+}
+
+void PerfettoExport::on(const records::CanErrorFrame& r) {
+  can_instant(r, to_text(CanTrouble(r.error)),
+              {"detected as", std::string(r.as_transmitter ? "transmitter" : "receiver")});
+}
+
+void PerfettoExport::on(const records::CanStateChanged& r) {
+  can_instant(r, fmt::format("{}: {}", names_.node(r.stamp.node), to_text(CanTrouble(r.to))),
+              {"from", to_text(CanTrouble(r.from))});
+}
+
 void PerfettoExport::on(const records::SlotFrameSent& r) {
   const TrueTime start = come_to(r.stamp.true_time);
   const bool list = !r.null_frame && r.pdu != kNoPdu;

@@ -6,7 +6,7 @@
 //                    of the newest measurement in the image when used [ms]; for the fusion node the confirmed tracks
 //   FlexRay          a lane per channel: frames and symbols as sent, with a mark where a frame differed on the channel.
 //                    Counter: the clocks' precision [us]
-//   CAN              a lane per bus
+//   CAN              a lane per bus: frames, with marks of error frames and of controllers' new states
 //   faults           a lane per fault of the fault plan
 //   flows            a measurement's way from sensor to feature service (recording/exports/measurement_ways.h)
 //
@@ -54,6 +54,8 @@ class PerfettoExport final : public records::Sink {
   void on(const records::GuardianIntervention&) override;
   void on(const records::ChannelFrame&) override;
   void on(const records::TimingProblem&) override;
+  void on(const records::CanErrorFrame&) override;
+  void on(const records::CanStateChanged&) override;
 
  private:
   struct Image {
@@ -65,6 +67,7 @@ class PerfettoExport final : public records::Sink {
   void join(const MeasurementWays::Way& way);
   std::vector<TraceFlow> flows_of(const TraceMark& mark);
   TraceMark node_instant(NodeId node, const char* lane, TrueTime at, std::string name, std::vector<TraceNote> notes);
+  template <class Record> void can_instant(const Record& record, std::string name, TraceNote note);
   std::string measurement(const MeasurementId& id) const;
 
   LogNames names_;

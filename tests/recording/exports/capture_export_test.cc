@@ -119,12 +119,24 @@ TEST(CaptureExport, ErrorsOnACanAreErrorFrames) {
             "(1000000000.000002) laser_can 20000288#0000000800000001\n"
             "(1000000000.000003) laser_can 20000204#0020000000008000\n"
             "(1000000000.000004) laser_can 20000240#000000000000FF00\n");
-  EXPECT_THAT(log.csv(), HasSubstr("1000,laser_can,,,536871560,laser,can_error,,,,,,0000810000000800\n"));
+  EXPECT_EQ(log.csv(), csv_header() +
+                           "1000,laser_can,,,536871560,laser,can_error,bit error,,,,,0000810000000800\n"
+                           "2000,laser_can,,,536871560,laser,can_error,CRC error,,,,,0000000800000001\n"
+                           "3000,laser_can,,,536871428,laser,can_error,error passive,,,,,0020000000008000\n"
+                           "4000,laser_can,,,536871488,laser,can_error,bus off,,,,,000000000000FF00\n");
   const capture::Capture capture = log.capture();
   ASSERT_EQ(capture.packets.size(), 4u);
   const auto head = capture.data(capture.packets[0]).first(8);
   constexpr std::array kHead{0x20, 0x00, 0x02, 0x88, 0x08, 0x00, 0x00, 0x00};  // the identifier, the length
   for (std::size_t b = 0; b < kHead.size(); ++b) EXPECT_EQ(static_cast<int>(head[b]), kHead[b]) << b;
+}
+
+// A damaged log may have a number without words.
+TEST(CaptureExport, ErrorsAndStatesHaveWords) {
+  EXPECT_EQ(to_text(CanTrouble(records::CanError::kStuff)), "stuff error");
+  EXPECT_EQ(to_text(CanTrouble(records::CanState::kActive)), "error active");
+  EXPECT_EQ(to_text(CanTrouble(static_cast<records::CanError>(9))), "error 9");
+  EXPECT_EQ(to_text(CanTrouble(static_cast<records::CanState>(9))), "state 9");
 }
 
 TEST(CaptureExport, RowsNameEverythingAFrameIs) {

@@ -179,6 +179,41 @@ TEST(PerfettoExport, WhatIsLostEndsWhereItWasLostAndMissesAreMarked) {
   EXPECT_THAT(trace.slices.back().name, "deadline missed");
 }
 
+// ISO 11898-1, 12.1.4: a transmitter counts 8 for each error. With the 16th it has 128 and is error passive, with the 32nd
+// 256 and is bus off. A receiver counts 1. In a damaged log an error may have no words.
+TEST(PerfettoExport, ErrorFramesAndStatesOfACanAreMarkedInItsLane) {
+  Drive drive;
+  drive.can(3, 0, 1 * kMs, 2 * kMs);
+  using records::CanError, records::CanState;
+  drive.trace.on(records::CanErrorFrame{Drive::at(kLaser, 3 * kMs), 0, CanError::kBit, true, 8 * 16, 0});
+  drive.trace.on(
+      records::CanStateChanged{Drive::at(kLaser, 3 * kMs), 0, CanState::kActive, CanState::kPassive, 128, 0});
+  drive.trace.on(records::CanErrorFrame{Drive::at(kFusion, 4 * kMs), 0, CanError::kCrc, false, 0, 1});
+  drive.trace.on(
+      records::CanStateChanged{Drive::at(kLaser, 5 * kMs), 0, CanState::kPassive, CanState::kBusOff, 256, 0});
+  drive.trace.on(records::CanErrorFrame{Drive::at(kFusion, 6 * kMs), 1, static_cast<CanError>(9), false, 0, 2});
+  const PerfettoTrace trace = drive.finished();
+  EXPECT_THAT(trace.problems, IsEmpty());
+  EXPECT_EQ(drive.counts.instants, 5u);
+  std::vector<std::string> marks;
+  for (const auto& slice : trace.slices) {
+    std::string notes;
+    for (const auto& [name, value] : slice.notes) notes += fmt::format("; {} {}", name, value);
+    if (slice.begin == slice.end)
+      marks.push_back(
+          fmt::format("{}, {}, {} ms: {}{}", slice.group, slice.lane, slice.begin / kMs, slice.name, notes));
+  }
+  EXPECT_THAT(
+      marks,
+      ElementsAre(
+          "CAN, laser_can, 3 ms: bit error; detected as transmitter; node laser; receive errors 0; transmit errors 128",
+          "CAN, laser_can, 3 ms: laser: error passive; from error active; node laser; receive errors 0; transmit "
+          "errors 128",
+          "CAN, laser_can, 4 ms: CRC error; detected as receiver; node fusion; receive errors 1; transmit errors 0",
+          "CAN, laser_can, 5 ms: laser: bus off; from error passive; node laser; receive errors 0; transmit errors 256",
+          "CAN, can 1, 6 ms: error 9; detected as receiver; node fusion; receive errors 2; transmit errors 0"));
+}
+
 TEST(PerfettoExport, FaultsLastFromTheirBeginToTheirEndOrThatOfTheRun) {
   Drive drive;
   const auto fault = [&](std::uint32_t number, records::FaultAct what, std::int64_t at) {
