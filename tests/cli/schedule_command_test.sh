@@ -174,6 +174,12 @@ says '^laser_scan +laser_can +34.000 +15.676 +16.075$' '^camera_frame +camera_ca
 expect 1 '^laser_scan +laser_can +34.000 +15.676 +-  late$' schedule check "$source/schedules/paper_fitted.yaml" \
   --can-errors 0.2ms
 says '^paper_fitted: not all lists are sent in time with errors on a CAN 0.2 ms apart or more$'
+# Names of any length leave the columns in line.
+sed -i 's/laser_scan/scan_of_the_laser_in_front/; s/laser_can/can_of_the_laser_in_front/' "$work"/schedules/paper_{synchronised,fitted}.yaml
+expect 0 '^scan_of_the_laser_in_front +can_of_the_laser_in_front ' schedule check "$work/schedules/paper_fitted.yaml" \
+  --can-errors 10ms
+awk 'NR > 1 { bad += last && length != last; last = length } END { exit bad > 0 }' <<<"$output" || fail "columns are out of line: $output"
+cp "$source"/schedules/paper_{synchronised,fitted}.yaml "$work/schedules"
 "$program" schedule check "$source/schedules/paper_fitted.yaml" --can-errors 10ms --json >"$work/errors.json" ||
   fail "CANs with errors fail as JSON"
 python3 - "$work/errors.json" <<'PY' || fail "CANs with errors are wrong as JSON"
