@@ -67,10 +67,13 @@ void YamlMap::fail(std::string_view key, std::string expected) {
   if (is_described()) return;
   const YAML::Node node = content_->child(key);
   const std::string value = node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
-  findings_->add({content_->file, line(key), key_path(key), value, std::move(expected)});
+  fail(key, std::move(expected), value);
 }
 
-void YamlMap::inherit(const YamlMap& other) { content_->inherited = other.content_; }
+void YamlMap::fail(std::string_view key, std::string expected, std::string value) {
+  if (is_described()) return;
+  findings_->add({content_->file, line(key), key_path(key), std::move(value), std::move(expected)});
+}
 
 void YamlMap::gone(std::string_view key, std::string_view now) {
   if (is_described()) return;

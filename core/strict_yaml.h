@@ -104,12 +104,25 @@ class YamlMap {
   // Reads the keys that this mapping lacks from the other one, where findings find their lines, too. No key of the other one is
   // unknown. It must not inherit from this one.
   void inherit(const YamlMap& other);
+  // Returns whether the file has the key in this mapping itself. Described files never have it.
+  bool has_own(std::string_view key) const;
+  // Returns the keys that were asked for and that another mapping gives.
+  std::vector<std::string> inherited() const;
+
+  // Returns the value on one line, lists and mappings, too: "[laser]". An empty text is two quotes, an empty value "~".
+  std::string value_text(std::string_view key);
+  // Refuses a misspelt `key`, if this mapping lacks the right one, and proposes it (core/nearest.h). Returns whether there is one.
+  bool refuse_misspelt(std::string_view key);
+  // Adds no findings from now on: those that follow from an earlier one.
+  void mute();
 
   // Refuses a key that earlier versions had; `now` says what stands for it. It is not among the known keys.
   void gone(std::string_view key, std::string_view now);
 
-  // Adds a finding about `key` (about this mapping when `key` is empty), with its line and value.
+  // Adds a finding about `key` (about this mapping when `key` is empty), with its line and value. The value is a plain one, or the
+  // text that is given for it.
   void fail(std::string_view key, std::string expected);
+  void fail(std::string_view key, std::string expected, std::string value);
   int line(std::string_view key = "") const;
   const std::string& file() const;
   const std::string& path() const { return path_; }

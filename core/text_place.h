@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/errors.h"
+
 namespace ttf {
 
 struct TextPlace {
@@ -17,6 +19,9 @@ class TextOrigins {
  public:
   TextOrigins() = default;
   explicit TextOrigins(std::vector<std::string> files) : files_(std::move(files)) {}
+
+  // The file that was asked for, and its line that leads to the others.
+  void set_heir(TextPlace heir) { heir_ = std::move(heir); }
 
   // The text's next line is line `line` of the file with that index.
   void add(std::size_t file, int line) { lines_.emplace_back(file, line); }
@@ -31,12 +36,17 @@ class TextOrigins {
     const auto& [file, there] = lines_[static_cast<std::size_t>(line) - 1];
     return {files_[file], there};
   }
+  // Returns a finding about the text with the file and line from which its line came.
+  Finding moved(Finding finding) const;
+  // Returns the finding. One in another file than the heir names the heir's line, too.
+  Finding with_heir(Finding finding) const;
 
  private:
   bool has(int line) const { return line > 0 && static_cast<std::size_t>(line) <= lines_.size(); }
 
   std::vector<std::string> files_;
   std::vector<std::pair<std::size_t, int>> lines_;
+  TextPlace heir_;  // without a file: the text is one file's own
 };
 
 }  // namespace ttf

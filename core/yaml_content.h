@@ -21,6 +21,7 @@ struct YamlMap::Content {
   KeyAnswers* answers = nullptr;             // in place of the node
   std::shared_ptr<const Content> inherited;  // has the keys that the node lacks
   std::set<std::string, std::less<>> asked, gone;
+  Findings muted;  // findings that are ignored
 
   YAML::Node child(std::string_view key) const {
     const YAML::Node own = ttf::child(node, key);

@@ -54,8 +54,8 @@ class Merger {
     return item(root, layer, "", 0);
   }
 
-  void fail(std::size_t layer, int line, const std::string& path, std::string expected) {
-    findings_.add({layers_[layer].name, line, path, "", std::move(expected)});
+  void fail(std::size_t layer, int line, const std::string& path, std::string expected, std::string value = "") {
+    findings_.add({layers_[layer].name, line, path, std::move(value), std::move(expected)});
   }
 
   // Aliases make cycles. They also make texts that grow with each level.
@@ -110,7 +110,7 @@ class Merger {
       const auto found = find(base, entry.key);
       if (entry.value.node->IsNull()) {
         if (found == base.entries.end())
-          fail(entry.layer, entry.line, inner, "must be in the file below, for ~ to remove it");
+          fail(entry.layer, entry.line, inner, "must be in the file below, for ~ to remove it", "~");
         else
           base.entries.erase(found);
         continue;
@@ -133,7 +133,7 @@ class Merger {
     for (const Entry& entry : item.entries) {
       const std::string inner = path + "." + entry.key;
       if (entry.value.node->IsNull())
-        fail(entry.layer, entry.line, inner, "must be in the file below, for ~ to remove it");
+        fail(entry.layer, entry.line, inner, "must be in the file below, for ~ to remove it", "~");
       refuse_nulls(entry.value, inner);
     }
   }

@@ -327,6 +327,34 @@ TEST(StrictYaml, OtherMapsAreThoseOfTheNamesNotAskedFor) {
   EXPECT_THAT(sentences, ElementsAre(HasSubstr("a.yaml:3: a.w: is not a known key here")));
 }
 
+TEST(StrictYaml, AMappingTellsItsOwnKeysFromInheritedOnes) {
+  const auto sentences = read("a: {x: 1, lik: b}\nb: {y: 9, unread: 3}\n", [](YamlMap& map) {
+    YamlMap a = map.map("a"), b = map.map("b");
+    a.inherit(b);
+    EXPECT_TRUE(a.has_own("x"));
+    EXPECT_FALSE(a.has_own("y"));
+    EXPECT_EQ(a.integer("x", {0, 9}) + a.integer("y", {0, 9}), 10);
+    EXPECT_THAT(a.inherited(), ElementsAre("y"));
+    EXPECT_TRUE(a.refuse_misspelt("like"));
+    EXPECT_FALSE(a.refuse_misspelt("x")) << "it is there";
+    EXPECT_FALSE(b.refuse_misspelt("like"));
+    a.finish();
+  });
+  EXPECT_THAT(sentences, ElementsAre("a.yaml:1: a.lik = b: is not a known key here; did you mean like?"));
+}
+
+TEST(StrictYaml, AValueIsShownOnOneLine) {
+  const auto sentences = read("a: b\nl: [a, {b: 1}]\nm: {c: [d]}\ne: ''\nn:\n", [](YamlMap& map) {
+    std::vector<std::string> values;
+    for (const char* key : {"a", "l", "m", "e", "n", "absent"}) values.push_back(map.value_text(key));
+    EXPECT_THAT(values, ElementsAre("b", "[a, {b: 1}]", "{c: [d]}", "\"\"", "~", ""));
+    map.fail("l", "is a list", map.value_text("l"));
+    map.mute();
+    map.fail("a", "follows from it");
+  });
+  EXPECT_THAT(sentences, ElementsAre("a.yaml:2: l = [a, {b: 1}]: is a list"));
+}
+
 // Own keys go first. An inherited value has its own line, and no inherited key is unknown.
 TEST(StrictYaml, AnInheritedKeyIsThatOfTheOtherMapping) {
   const auto sentences = read("a: {x: 1}\nb: {y: 9, z: 3}\nc: {x: 5, list: [{n: 1}]}\n", [](YamlMap& map) {

@@ -68,9 +68,9 @@ TEST(YamlMerge, LinesKnowTheirFile) {
 }
 
 TEST(YamlMerge, MistakesAreNamedWithTheirFileAndLine) {
-  EXPECT_EQ(merge_refusal("a: 1\n", "b: ~\n"), "high.yaml:1: b: must be in the file below, for ~ to remove it");
+  EXPECT_EQ(merge_refusal("a: 1\n", "b: ~\n"), "high.yaml:1: b = ~: must be in the file below, for ~ to remove it");
   EXPECT_EQ(merge_refusal("a: 1\n", "b: {c: {d: ~}}\n"),
-            "high.yaml:1: b.c.d: must be in the file below, for ~ to remove it");
+            "high.yaml:1: b.c.d = ~: must be in the file below, for ~ to remove it");
   EXPECT_EQ(merge_refusal("a: 1\na: 2\n", "b: 1\n"), "low.yaml:2: a: is given twice in one mapping");
   EXPECT_EQ(merge_refusal("a: 1\n", "l: [{c: 1, c: 2}]\n"), "high.yaml:1: l[0].c: is given twice in one mapping");
   EXPECT_EQ(merge_refusal("a: 1\n", "[1]: 2\n"), "high.yaml:1: has a key that is not a plain text");
