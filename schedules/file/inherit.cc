@@ -49,12 +49,9 @@ void refuse_circle(const std::string& base, const std::vector<YamlLayer>& heirs,
   throw InputError(std::move(entry));
 }
 
-}  // namespace
-
-ClusterText inherited(const std::string& path) {
-  StrictYaml file = load_of_kind(path, FileKind::kCluster);
-  if (!extends(file)) return {file.text(), path, {}};
-  std::vector<YamlLayer> layers{{file.text(), file.name()}};  // the heir first
+// Returns the file and all that it extends, the lowest first.
+std::vector<YamlLayer> layers_of(StrictYaml file) {
+  std::vector<YamlLayer> layers{{file.text(), file.name()}};
   while (extends(file)) {
     const auto [base, entry] = base_of(file);
     refuse_circle(base, layers, entry);
@@ -63,8 +60,27 @@ ClusterText inherited(const std::string& path) {
     layers.push_back({file.text(), base});
   }
   std::reverse(layers.begin(), layers.end());
-  MergedYaml merged = merge_yaml(layers, "extends");
-  return {std::move(merged.text), path, std::move(merged.origins)};
+  return layers;
+}
+
+}  // namespace
+
+ClusterText inherited(const std::string& path) {
+  StrictYaml file = load_of_kind(path, FileKind::kCluster);
+  if (!extends(file)) return {file.text(), path, {}};
+  Findings none;
+  const TextPlace heir{path, file.root(none).line("extends")};
+  try {
+    MergedYaml merged = merge_yaml(layers_of(std::move(file)), "extends");
+    merged.origins.set_heir(heir);
+    return {std::move(merged.text), path, std::move(merged.origins)};
+  } catch (const InputError& error) {
+    TextOrigins origins;
+    origins.set_heir(heir);
+    std::vector<Finding> findings = error.findings();
+    for (Finding& finding : findings) finding = origins.with_heir(std::move(finding));
+    throw InputError(std::move(findings));
+  }
 }
 
 }  // namespace ttf::schedules::file

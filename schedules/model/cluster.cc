@@ -47,8 +47,7 @@ bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
 }
 
 Finding Cluster::finding(int line, std::string key, std::string value, std::string expected) const {
-  TextPlace from = origins.place(file, line);
-  return {std::move(from.file), from.line, std::move(key), std::move(value), std::move(expected)};
+  return origins.moved({file, line, std::move(key), std::move(value), std::move(expected)});
 }
 
 bool Cluster::describes_tasks() const {

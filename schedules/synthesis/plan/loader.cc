@@ -139,11 +139,7 @@ Plan read(StrictYaml file, TextOrigins origins) {
 }
 
 std::vector<Finding> moved(const TextOrigins& origins, std::vector<Finding> findings) {
-  for (Finding& finding : findings) {
-    const TextPlace place = origins.place(finding.file, finding.line);
-    finding.file = place.file;
-    finding.line = place.line;
-  }
+  for (Finding& finding : findings) finding = origins.moved(std::move(finding));
   return findings;
 }
 

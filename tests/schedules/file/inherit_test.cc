@@ -7,6 +7,7 @@
 
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
+#include "tests/support/patterns.h"
 
 namespace ttf::schedules::file {
 namespace {
@@ -146,7 +147,8 @@ TEST_F(Inherit, BasesThatAreNoneAreRefused) {
   write("a.yaml", "extends: b.yaml\nname: a\n");
   write("b.yaml", "extends: base/../a.yaml\nname: b\n");
   EXPECT_EQ(mistakes(path("a.yaml")),
-            "\n  b.yaml:1: extends = base/../a.yaml: must not lead back to a file that extends it");
+            "\n  b.yaml:1: extends = base/../a.yaml: must not lead back to a file that extends it; a.yaml:1 extends "
+            "this file");
   write("self.yaml", "name: self\nextends: self.yaml\n");
   EXPECT_EQ(mistakes(path("self.yaml")),
             "\n  self.yaml:2: extends = self.yaml: must not lead back to a file that extends it");
@@ -162,7 +164,27 @@ TEST_F(Inherit, BasesThatAreNoneAreRefused) {
   write("0.yaml", "name: end\nnodes: {}\n");
   for (int i = 1; i <= 16; ++i)
     write(std::to_string(i) + ".yaml", "extends: " + std::to_string(i - 1) + ".yaml\nname: n\n");
-  EXPECT_EQ(mistakes(path("16.yaml")), "\n  1.yaml:1: extends = 0.yaml: must end after 16 files");
+  EXPECT_EQ(mistakes(path("16.yaml")),
+            "\n  1.yaml:1: extends = 0.yaml: must end after 16 files; 16.yaml:1 extends this file");
+}
+
+// A reader of the sentence finds the own file, whatever is wrong below it.
+TEST_F(Inherit, AFindingAboutABaseNamesTheLineThatExtendsIt) {
+  const std::string own = "; own.yaml:2 extends this file";
+  const auto said = [&](const std::string& base) {
+    write("middle.yaml", "extends: " + base + "\nname: middle\n");
+    return mistakes(write("own.yaml", "name: own\nextends: middle.yaml\n"));
+  };
+  write("broken.yaml", "name: [\n");
+  write("drive.yaml", "name: drive\nworld: {}\n");
+  write("null.yaml", "extends: base/paper.yaml\nname: null\nsensors: {rear: {like: }}\n");
+  write("wrong.yaml", support::replaced(shipped_text("paper_synchronised"), "gListenNoise: \\d+", "gListenNoise: 99"));
+  write("unlike.yaml", "extends: base/paper.yaml\nname: unlike\nsensors: {rear: {like: lidar}}\n");
+  for (const char* base : {"broken.yaml", "drive.yaml", "null.yaml", "wrong.yaml", "unlike.yaml", "nowhere.yaml"}) {
+    const std::string text = said(base);
+    EXPECT_TRUE(text.ends_with(own)) << base << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << base << text;
+  }
 }
 
 TEST_F(Inherit, ATextAloneExtendsNothing) {
