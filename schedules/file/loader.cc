@@ -67,10 +67,12 @@ class Loader {
     for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
     for (auto& [name, map] : pdus) cluster_.pdus.emplace_back().name = name;
     for (auto& [name, map] : cans) cluster_.can_buses.emplace_back().name = name;
-    (void)likeness::inherit_alike(pdus, "PDU");
+    const auto pdus_alike = likeness::inherit_alike(pdus, "PDU");
     for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus[i].second, names_, cluster_.pdus[i]);
-    take_likeness(sensors);
+    likeness::note_inherited(pdus, pdus_alike, cluster_);
+    const auto alike = take_likeness(sensors);
     for (std::size_t i = 0; i < sensors.size(); ++i) load_sensor(sensors[i].second, cluster_.sensors[i]);
+    likeness::note_inherited(sensors, alike, cluster_);
     for (std::size_t i = 0; i < cans.size(); ++i) load_can(cans[i].second, cluster_.can_buses[i]);
     for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);
     shared.finish();
@@ -78,10 +80,24 @@ class Loader {
     load_frames(frames, names_, cluster_, left_out_.lists);
     completion_.finish();
     root_.finish();
-    if (findings_.empty()) copy_sensors(sensors);
+    if (findings_.empty())
+      copy_sensors(sensors);
+    else
+      list_copied_parts();
     return std::move(cluster_);
   }
   left_out::Parts& left_out() { return left_out_; }
+
+  // Returns a finding about a part that is a copy: in place of all about that part, if there are others.
+  Finding in_copied_part(const Finding& finding) {
+    for (CopiedPart& part : copied_parts_) {
+      if (!finding.key.starts_with(part.path)) continue;
+      if (const std::size_t end = part.path.size(); end < finding.key.size() && finding.key[end] != '.') continue;
+      if (part.line == 0) part.line = finding.line;
+      return {finding.file, part.line, part.path, "", likeness::refusal_of_part(part.sensor)};
+    }
+    return finding;
+  }
 
  private:
   void limit(std::string_view key, std::size_t count, std::size_t most) {
@@ -142,25 +158,49 @@ class Loader {
   }
 
   // A sensor without device and host has copies of the other's, and its own keys say how these differ.
-  void take_likeness(likeness::NamedMaps& sensors) {
-    std::vector<bool> own_nodes;
-    for (auto& [name, map] : sensors) {
-      own_nodes.push_back(map.lacks("device") && map.lacks("host"));
-      for (const char* key : {"raw", "objects", "preprocessing"})
-        if (map.has("like") && !own_nodes.back() && !map.lacks(key))
-          map.fail(key, "needs a device and a host that are copies: device and host must be left out");
-    }
-    const auto alike = likeness::inherit_alike(sensors, "sensor");
+  std::vector<std::optional<std::size_t>> take_likeness(likeness::NamedMaps& sensors) {
+    const auto is_copy = [](const YamlMap& map) { return !map.has_own("device") && !map.has_own("host"); };
+    // No task would take the lists of a second odometry.
+    const auto may_offer = [&](std::size_t entry, std::size_t other) {
+      const std::string kind = sensors[other].second.value_text("kind");
+      return !is_copy(sensors[entry].second) ||
+             std::none_of(model::kSensorKinds.begin(), model::kSensorKinds.end(),
+                          [&](const model::SensorKindRow& row) { return row.word == kind && !row.observes; });
+    };
+    auto alike = likeness::inherit_alike(sensors, "sensor", may_offer);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
       YamlMap& map = sensors[i].second;
       if (!map.has("like")) continue;
+      if (!is_copy(map)) {
+        for (const char* key : {"raw", "objects", "preprocessing"})
+          if (map.has_own(key) && map.has(key))  // asked for, it is a known key
+            map.fail(key, "needs a device and a host that are copies: device and host must be left out");
+        continue;
+      }
       likeness::SensorCopy copy;
       copy.name = sensors[i].first;
-      copy.line = map.line();
+      copy.line = map.line("like");
       read_differences(map, copy);
-      if (!own_nodes[i] || !alike[i]) continue;
+      if (!alike[i]) continue;
       copy.from = static_cast<SensorId>(*alike[i]);
       copies_.push_back({static_cast<SensorId>(i), std::move(copy)});
+    }
+    return alike;
+  }
+
+  // The parts that the file would have from copies, without its other mistakes.
+  void list_copied_parts() {
+    if (cluster_.nodes.empty() || cluster_.pdus.empty()) return;
+    const likeness::Unfinished schedule{cluster_, left_out_.tasks, left_out_.lists, left_out_.shortest_periods};
+    for (const auto& [made, asked] : copies_) {
+      likeness::SensorCopy copy = asked;
+      copy.kind = cluster_.sensor(made).kind;
+      for (auto other = copies_.begin(); other != copies_.end();) {  // the first original has the names
+        const bool again = other->first == copy.from;
+        if (again) copy.from = other->second.from;
+        other = again ? copies_.begin() : std::next(other);
+      }
+      for (std::string& path : parts_of(schedule, copy)) copied_parts_.push_back({std::move(path), copy.name});
     }
   }
 
@@ -178,6 +218,8 @@ class Loader {
       if (const auto refused = refusal(schedule, copy))
         return sensors[index_of(made)].second.fail(refused->key, refused->expected);
       copy_nodes(schedule, copy, made);
+      for (const char* node : {"device", "host"})
+        cluster_.inherited.erase(fmt::format("sensors.{}.{}", copy.name, node));
       copies_.erase(next);
     }
     for (std::size_t list = before; list < left_out_.lists.size(); ++list) left_out_.lists[list].entry.reset();
@@ -333,9 +375,24 @@ class Loader {
   model::Cluster cluster_;
   left_out::Parts left_out_;
   std::vector<std::pair<SensorId, likeness::SensorCopy>> copies_;  // for the sensors without device and host
+  struct CopiedPart {
+    std::string path, sensor;
+    int line = 0;  // its first finding
+  };
+  std::vector<CopiedPart> copied_parts_;
   Names names_;
   Completion completion_;
 };
+
+// Returns whether the entry that has an inherited value has the mistake, too.
+bool stands_at_its_original(const model::Cluster& cluster, const Finding& finding, const std::vector<Finding>& all) {
+  const model::Inherited* other = cluster.inherited_at(finding.key);
+  if (other == nullptr) return false;
+  const std::size_t key = finding.key.find('.', finding.key.find('.') + 1);
+  return std::any_of(all.begin(), all.end(), [&](const Finding& one) {
+    return one.key == other->from + finding.key.substr(key) && one.expected == finding.expected;
+  });
+}
 
 // All that a plan leaves out would be a finding of its own.
 void refuse_plan(const StrictYaml& file) {
@@ -357,9 +414,12 @@ model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) 
   // Shared parameters are read once per node; a mistake in them is reported once.
   Findings findings;
   std::set<std::pair<int, std::string>> known;
-  for (const Finding& finding : met.list())
-    if (known.insert({finding.line, finding.sentence()}).second)
+  for (const Finding& each : met.list()) {
+    const Finding finding = loader.in_copied_part(each);
+    if (!stands_at_its_original(cluster, finding, met.list()) &&
+        known.insert({finding.line, finding.sentence()}).second)
       findings.add(cluster.finding(finding.line, finding.key, finding.value, finding.expected));
+  }
   findings.throw_if_any();
   fill_in(cluster, loader.left_out(), findings);
   findings.throw_if_any();

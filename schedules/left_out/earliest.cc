@@ -180,14 +180,14 @@ class Putting {
       if (item.at) continue;
       const bool anywhere = item.list && parts_.lists[*item.list].anywhere;
       if (needs_[i].empty() && !item.fixed && !anywhere && item.place.kind != Place::Kind::kMeasurement)
-        return refuse(item, 0, "must be in the file: " + no_beginning(item));
+        return refuse(item, 0, no_beginning(item));
       const auto from = earliest(i);
       if (!from) continue;
       const auto start = fitted(item, *from);
       if (!start)
         return refuse(item, *from,
-                      item.list ? "must be in the file: its list finds no free static slots one behind the other"
-                                : "must be in the file: the other tasks of the node leave no time for it");
+                      item.list ? "its list finds no free static slots one behind the other"
+                                : "the other tasks of the node leave no time for it");
       if (best == nullptr || *start < first) best = &item, first = *start;
     }
     if (best == nullptr) return false;
@@ -224,11 +224,30 @@ class Putting {
     return true;
   }
 
-  // The others go on, and may have findings of their own.
-  bool refuse(Item& item, Ticks at, std::string expected) {
-    findings_.add(cluster_.finding(item.line, item.path + (item.list ? ".slot" : ".offset"), "", std::move(expected)));
+  // The others go on, and may have findings of their own. No file has the parts of a copied sensor: the copy is refused.
+  bool refuse(Item& item, Ticks at, const std::string& reason) {
     item.at = at;
+    if (const auto& copied = copied_for(item))
+      findings_.add(cluster_.finding(item.line, fmt::format("sensors.{}.like", cluster_.sensor(copied->sensor).name),
+                                     cluster_.sensor(copied->from).name, needs_of_copy(item, reason)));
+    else
+      findings_.add(cluster_.finding(item.line, item.path + (item.list ? ".slot" : ".offset"), "",
+                                     "must be in the file: " + reason));
     return true;
+  }
+
+  std::optional<Copied> copied_for(const Item& item) const {
+    if (item.list) return parts_.lists[*item.list].copied;
+    if (item.place.kind != Place::Kind::kTask) return std::nullopt;
+    return parts_.tasks[index_of(item.place.task.node)][item.place.task.task].copied;
+  }
+
+  std::string needs_of_copy(const Item& item, const std::string& reason) const {
+    if (!item.list) return fmt::format("needs an instant for {}: {}", item.path, reason);
+    const PduId list = parts_.lists[*item.list].pdu;
+    return fmt::format("needs {} free static slots for {} among the {} of a cycle (flexray.gNumberOfStaticSlots): {}",
+                       cluster_.pdu(list).max_fragments(), cluster_.pdu(list).name,
+                       cluster_.flexray.gNumberOfStaticSlots, reason);
   }
 
   void write(const Item& item, Ticks start) {
@@ -266,7 +285,7 @@ class Putting {
     }
     std::string words = items_.all[*ring].path;
     for (auto it = ring + 1; it != way.end(); ++it) words += fmt::format(" waits for {}, which", items_.all[*it].path);
-    (void)refuse(items_.all[*ring], 0, fmt::format("must be in the file: {} waits for the first", words));
+    (void)refuse(items_.all[*ring], 0, words + " waits for the first");
   }
 
   model::Cluster& cluster_;

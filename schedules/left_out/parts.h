@@ -16,10 +16,16 @@ struct Instant {
   bool repetition = false;  // it follows from other repetitions (periods.h)
 };
 
+// A sensor that is like another one, without a device and a host of its own (schedules/file/likeness/sensor_copy.h).
+struct Copied {
+  SensorId sensor{}, from{};
+};
+
 struct Task {
-  Instant at;             // for a task that time activates
-  bool deadline = false;  // left out
-  int line = 0;           // the activation's
+  Instant at;                                   // for a task that time activates
+  bool deadline = false;                        // left out
+  int line = 0;                                 // the activation's
+  std::optional<Copied> copied = std::nullopt;  // for this sensor
 };
 
 // A list's static slots, all in one cycle and one behind the other.
@@ -32,6 +38,7 @@ struct List {
   int line = 0;
   std::optional<int> entry = std::nullopt;  // in the file's list `frames`; none: of a copied sensor
   bool anywhere = false;                    // takes the first free slots: its sensor measures freely
+  std::optional<Copied> copied = std::nullopt;
 };
 
 // Returns the list's place for findings: "frames[3]", or "frames (rear_objects)" for a list of a copied sensor.

@@ -1,6 +1,9 @@
 #include "schedules/model/cluster.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -47,7 +50,20 @@ bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
 }
 
 Finding Cluster::finding(int line, std::string key, std::string value, std::string expected) const {
+  if (const Inherited* other = inherited_at(key)) {
+    line = other->line;
+    expected += fmt::format("; {} has the value{}{}", other->from, value.empty() ? "" : " ", value);
+    value.clear();
+  }
   return origins.moved({file, line, std::move(key), std::move(value), std::move(expected)});
+}
+
+const Inherited* Cluster::inherited_at(std::string_view key) const {
+  const auto behind = inherited.upper_bound(key);
+  if (behind == inherited.begin()) return nullptr;
+  const auto& [of, other] = *std::prev(behind);
+  const bool within = key.starts_with(of) && (key.size() == of.size() || key[of.size()] == '[');
+  return within ? &other : nullptr;
 }
 
 bool Cluster::describes_tasks() const {

@@ -222,6 +222,12 @@ struct DerivedValue {
   std::string value;  // as a file would have it
 };
 
+// The value of a key that an entry has from another one (schedules/file/likeness).
+struct Inherited {
+  std::string from;  // "sensors.laser"
+  int line = 0;      // `like`
+};
+
 struct Cluster {
   std::string name;
   std::string file;     // for messages
@@ -241,9 +247,13 @@ struct Cluster {
   std::map<std::string, int, std::less<>> parameter_lines;
 
   std::vector<DerivedValue> derived;
+  std::map<std::string, Inherited, std::less<>> inherited;  // keyed by "sensors.rear.host"
 
-  // Returns a finding about a line of `text`. It names the file and line from which that came.
+  // Returns a finding about a line of `text`. It names the file and line from which that came. An inherited value is said to be
+  // the other entry's.
   Finding finding(int line, std::string key, std::string value, std::string expected) const;
+  // Returns the other entry for an inherited key, or for a part of its value; null for all other keys.
+  const Inherited* inherited_at(std::string_view key) const;
   // False for a bus description, which has no tasks, no sensors and no messages on CANs. It can be checked as far as the
   // bus goes, drawn and exported. No node can run it.
   bool describes_tasks() const;

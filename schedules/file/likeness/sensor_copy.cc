@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/counted.h"
 #include "schedules/file/likeness/layouts.h"
 #include "schedules/left_out/tasks.h"
 #include "schedules/model/limits.h"
@@ -24,6 +25,7 @@ namespace {
 constexpr std::uint32_t kIdentifiers = 2048;  // of 11 bits
 constexpr std::int64_t kMostRaw = 3'584;      // 256 fragments of 14 points, those of a laser's scan
 constexpr std::int64_t kMostObjects = 255;    // counted by a byte of the list's header
+constexpr std::string_view kAllParts = "a file has all parts of a sensor, with its device and host, or none of them";
 
 class Copier {
  public:
@@ -36,7 +38,8 @@ class Copier {
   std::optional<Refusal> refusal() const {
     const std::string_view kind = row_of(old_.kind).word;
     if (!row_of(old_.kind).observes)
-      return like(fmt::format("must be a sensor of objects: no task would take the lists of a second {}", kind));
+      return like(fmt::format("must be a sensor of objects ({}): no task would take the lists of a second {}",
+                              originals(cluster_), kind));
     if (copy_.kind != old_.kind && !known_) {
       std::vector<std::string_view> words{kind};
       for (const auto& [word, known] : known_kinds())
@@ -58,13 +61,39 @@ class Copier {
     for (const model::CanBus& bus : cans)
       if (!is_copied(bus) && bus.messages.size() + own_messages(bus) > kIdentifiers)
         return like(fmt::format("needs free identifiers on {}, which has {} messages", bus.name, bus.messages.size()));
-    if (const std::string taken = taken_name(); !taken.empty())
-      return like(fmt::format("needs a {}, a name that is taken", taken));
+    for (const Part& part : parts())
+      if (part.is_taken) return like(fmt::format("needs a {}, a name that is taken; {}", part.words, kAllParts));
     for (std::size_t n = 0; n < nodes.size(); ++n)
       if (const std::size_t more = tasks_of_its_own(n).size(); nodes[n].tasks.size() + more > model::kMostTasks)
-        return like(fmt::format("needs {} more tasks of {}, which has {} of at most {}", more, nodes[n].name,
+        return like(fmt::format("needs {} of {}, which has {} of at most {}", counted(more, "more task"), nodes[n].name,
                                 nodes[n].tasks.size(), model::kMostTasks));
-    return too_many();
+    if (auto refused = too_many()) return refused;
+    return no_key_slot();
+  }
+
+  // A node, PDU, CAN or task of the copy's own.
+  struct Part {
+    std::string path, words;  // "nodes.rear_pre", "node rear_pre"
+    bool is_taken = false;
+  };
+  std::vector<Part> parts() const {
+    std::vector<Part> found;
+    const auto add = [&](std::string_view section, std::string_view word, const std::string& original,
+                         const auto& others) {
+      const std::string name = renamed(original);
+      const bool is_taken =
+          std::any_of(others.begin(), others.end(), [&](const auto& one) { return one.name == name; });
+      found.push_back({fmt::format("{}.{}", section, name), fmt::format("{} {}", word, name), is_taken});
+    };
+    for (const NodeId node : {old_.device, old_.host}) add("nodes", "node", cluster_.node(node).name, cluster_.nodes);
+    for (const model::PduLayout& pdu : cluster_.pdus)
+      if (pdu.sensor == copy_.from) add("pdus", "PDU", pdu.name, cluster_.pdus);
+    for (const model::CanBus& bus : cluster_.can_buses)
+      if (is_copied(bus)) add("can", "CAN", bus.name, cluster_.can_buses);
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      for (const model::Task* copied : tasks_of_its_own(n))
+        add(fmt::format("nodes.{}.tasks", cluster_.nodes[n].name), "task", copied->name, cluster_.nodes[n].tasks);
+    return found;
   }
 
   void copy(SensorId made) {
@@ -119,22 +148,6 @@ class Copier {
                                    : std::string(text).replace(at, old_.name.size(), copy_.name);
   }
 
-  // Returns a node, PDU, CAN or task that has a name of the copy's.
-  std::string taken_name() const {
-    for (const NodeId node : {old_.device, old_.host})
-      if (const std::string name = renamed(cluster_.node(node).name); cluster_.find_node(name)) return "node " + name;
-    for (const model::PduLayout& pdu : cluster_.pdus)
-      if (pdu.sensor == copy_.from && cluster_.find_pdu(renamed(pdu.name))) return "PDU " + renamed(pdu.name);
-    for (const model::CanBus& bus : cluster_.can_buses)
-      for (const model::CanBus& other : cluster_.can_buses)
-        if (is_copied(bus) && other.name == renamed(bus.name)) return "CAN " + other.name;
-    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      for (const model::Task* copied : tasks_of_its_own(n))
-        for (const model::Task& other : cluster_.nodes[n].tasks)
-          if (other.name == renamed(copied->name)) return "task " + other.name;
-    return "";
-  }
-
   // Returns the key whose number a list cannot have, and the most that it can; none if all fit.
   std::optional<Refusal> too_many() const {
     for (std::size_t p = 0; p < cluster_.pdus.size(); ++p) {
@@ -153,6 +166,14 @@ class Copier {
     return raw ? known_->raw : known_->objects;
   }
 
+  // With the copy's own number of elements.
+  model::PduLayout made_layout(std::size_t pdu) const {
+    const bool raw = writes(old_.device, static_cast<PduId>(pdu));
+    model::PduLayout made = layout_like(pdu, raw);
+    if (const auto& most = raw ? copy_.raw : copy_.objects) made.max_elements = *most;
+    return made;
+  }
+
   // The header counts elements and numbers fragments.
   static std::int64_t most_elements(const model::PduLayout& layout) {
     const auto values = [&](std::string_view name) {
@@ -161,6 +182,33 @@ class Copier {
     };
     const std::int64_t fragments = std::min<std::int64_t>(model::kMostFragments, values("fragment"));
     return std::min(values("count") - 1, fragments * layout.elements_per_fragment);
+  }
+
+  // The host's key slot is its own in every cycle.
+  std::optional<Refusal> no_key_slot() const {
+    const int slots = cluster_.flexray.gNumberOfStaticSlots;
+    if (!cluster_.node(old_.host).flexray || first_free_slot() <= slots) return std::nullopt;
+    std::set<PduId> lists;
+    for (const model::FrameSlot& frame : cluster_.frames)
+      if (frame.pdu != kNoPdu && own(frame.pdu)) lists.insert(frame.pdu);
+    for (const left_out::List& list : left_.lists)
+      if (own(list.pdu)) lists.insert(list.pdu);
+    int needed = 1;
+    for (const PduId list : lists) needed += made_layout(index_of(list)).max_fragments();
+    return like(
+        fmt::format("needs {} free static slots, one of them the key slot of {}: all {} of a cycle are taken "
+                    "(flexray.gNumberOfStaticSlots)",
+                    needed, renamed(cluster_.node(old_.host).name), slots));
+  }
+
+  int first_free_slot() const {
+    std::set<int> taken;
+    for (const model::FrameSlot& frame : cluster_.frames) taken.insert(frame.slot);
+    for (const left_out::List& list : left_.lists)  // a list may stand in a key slot
+      for (int f = 0; !list.at.instant && f < cluster_.pdu(list.pdu).max_fragments(); ++f) taken.insert(list.slot + f);
+    int free = 1;
+    while (taken.contains(free)) ++free;
+    return free;
   }
 
   bool writes(NodeId node, PduId pdu) const {
@@ -175,12 +223,10 @@ class Copier {
     new_pdus_.assign(before, kNoPdu);
     for (std::size_t p = 0; p < before; ++p) {
       if (!own(static_cast<PduId>(p))) continue;
-      const bool raw = writes(old_.device, static_cast<PduId>(p));
-      model::PduLayout made = layout_like(p, raw);
+      model::PduLayout made = made_layout(p);
       made.name = renamed(cluster_.pdus[p].name);
       made.sensor = made_;
       made.line = copy_.line;
-      if (const auto& most = raw ? copy_.raw : copy_.objects) made.max_elements = *most;
       new_pdus_[p] = static_cast<PduId>(cluster_.pdus.size());
       cluster_.pdus.push_back(std::move(made));
     }
@@ -239,6 +285,7 @@ class Copier {
     for (model::PortBinding& out : task.writes) out = rebound(out);
     if (task.activation.kind == model::ActivationKind::kSensor) task.activation.sensor = made_;
     task.line = left.line = copy_.line;
+    left.copied = {made_, copy_.from};
     left.at.instant |= left_out::by_time(task);
     left.deadline = true;
     cluster_.nodes[node].tasks.push_back(std::move(task));
@@ -274,6 +321,7 @@ class Copier {
       list.at.instant = true;
       list.anywhere = !scheduled;
       list.line = copy_.line;
+      list.copied = {made_, copy_.from};
       left_.lists.push_back(list);
     };
     for (const left_out::List& list : std::vector<left_out::List>(left_.lists)) add(list);
@@ -284,12 +332,7 @@ class Copier {
 
   void key_slot() {
     if (!cluster_.node(host_).flexray) return;
-    std::set<int> taken;
-    for (const model::FrameSlot& frame : cluster_.frames) taken.insert(frame.slot);
-    for (const left_out::List& list : left_.lists)  // a list may stand in a key slot
-      for (int f = 0; !list.at.instant && f < cluster_.pdu(list.pdu).max_fragments(); ++f) taken.insert(list.slot + f);
-    int free = 1;
-    while (taken.contains(free)) ++free;
+    const int free = first_free_slot();
     model::NodeParameters& parameters = *cluster_.nodes[index_of(host_)].flexray;
     parameters.pKeySlotId = free;
     parameters.pKeySlotUsedForStartup = parameters.pKeySlotUsedForSync = false;
@@ -355,6 +398,23 @@ void read_differences(YamlMap& map, SensorCopy& copy) {
 
 std::optional<Refusal> refusal(const Unfinished& schedule, const SensorCopy& copy) {
   return Copier(schedule, copy).refusal();
+}
+
+std::vector<std::string> parts_of(const Unfinished& schedule, const SensorCopy& copy) {
+  std::vector<std::string> paths;
+  for (const auto& part : Copier(schedule, copy).parts()) paths.push_back(part.path);
+  return paths;
+}
+
+std::string refusal_of_part(const std::string& sensor) {
+  return fmt::format("is a name of {}'s copied parts, which cannot be changed; {}", sensor, kAllParts);
+}
+
+std::string originals(const model::Cluster& cluster) {
+  std::vector<std::string> names;
+  for (const model::Sensor& sensor : cluster.sensors)
+    if (row_of(sensor.kind).observes) names.push_back(sensor.name);
+  return joined(names, " or ");
 }
 
 void copy_nodes(const Unfinished& schedule, const SensorCopy& copy, SensorId made) {

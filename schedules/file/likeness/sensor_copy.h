@@ -45,6 +45,14 @@ struct Refusal {
 // Returns nothing if the sensor can be copied.
 std::optional<Refusal> refusal(const Unfinished& schedule, const SensorCopy& copy);
 
+// Return the paths of the copy's own parts, as "nodes.rear_pre", and the sentence that refuses them in a file: a file has all parts
+// of a sensor or none.
+std::vector<std::string> parts_of(const Unfinished& schedule, const SensorCopy& copy);
+std::string refusal_of_part(const std::string& sensor);
+
+// Returns the names of the sensors that a copy may be of, as a list of words.
+std::string originals(const model::Cluster& cluster);
+
 // Gives the sensor `made` its device, its host and all that leads to the fusion. New nodes, PDUs, CANs and lists stand behind the
 // others, the device before the host, the PDUs as those of the other sensor.
 void copy_nodes(const Unfinished& schedule, const SensorCopy& copy, SensorId made);

@@ -30,15 +30,19 @@ void add_alike(const std::string& name, YamlMap& map, Plan& plan) {
   model::Cluster& cluster = plan.cluster;
   likeness::SensorCopy copy;
   copy.name = name;
-  copy.line = map.line();
-  const std::string like = map.text("like");
+  copy.line = map.line("like");
+  if (map.refuse_misspelt("like")) return;
+  std::string like = map.value_text("like");
   const auto kind = map.choice_if("kind", likeness::known_kinds());
   likeness::read_differences(map, copy);
   map.finish();
   if (name.empty() || cluster.find_sensor(name)) return map.fail("", "is the name of an earlier sensor");
   const auto from = cluster.find_sensor(like);
   if (!from) {
-    if (map.has("like")) map.fail("like", "is not the name of an earlier sensor");
+    if (map.has("like"))
+      map.fail("like", "must be an earlier sensor: " + likeness::originals(cluster), std::move(like));
+    else
+      (void)map.text("like");  // is missing
     return;
   }
   model::Sensor made = cluster.sensor(*from);

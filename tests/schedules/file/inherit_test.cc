@@ -187,6 +187,17 @@ TEST_F(Inherit, AFindingAboutABaseNamesTheLineThatExtendsIt) {
   }
 }
 
+// The entry that is like another has the finding, and the sentence says whose value it is.
+TEST_F(Inherit, AnEntryLikeOneOfTheBaseHasTheFinding) {
+  write("own.yaml",
+        "extends: base/paper.yaml\nname: own\nsensors:\n  rear: {like: laser, device: laser, measurement: free, "
+        "period: 50 ms}\n");
+  EXPECT_EQ(
+      mistakes(path("own.yaml")),
+      "\n  own.yaml:4: sensors.rear.device = laser: must have exactly one task that rear activates; it has 0"
+      "\n  own.yaml:4: sensors.rear.host: must read a PDU of the sensor rear; sensors.laser has the value laser_pre");
+}
+
 TEST_F(Inherit, ATextAloneExtendsNothing) {
   const auto findings = findings_of("extends: base/paper.yaml\n" + shipped_text("paper_synchronised"));
   ASSERT_EQ(findings.size(), 1u) << sentences(findings);

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <set>
+#include <utility>
 
 #include "schedules/exchange/cluster_yaml.h"
 #include "schedules/file/loader.h"
@@ -46,8 +46,13 @@ TEST_P(Alike, ASensorHasWhatItLacks) {
       const support::Match own = entry_of(text, sensor.name);
       std::map<std::string, std::string> keys = keys_of(own[1]), others = keys_of(entry_of(text, other.name)[1]);
       std::string differs = "like: " + other.name;
+      bool alike_in_some = false;
       for (const auto& [key, value] : keys)
-        if (others[key] != value) differs += ", " + key + ": " + value;
+        if (others[key] != value)
+          differs += ", " + key + ": " + value;
+        else
+          alike_in_some = true;
+      if (!alike_in_some) continue;  // `like` would have no effect
       ASSERT_LT(differs.size(), own[1].size() + 20);
       const std::string alike =
           std::string(text).replace(own.at, own.size, "\n  " + sensor.name + ": {" + differs + "}\n");
@@ -127,7 +132,8 @@ TEST(SensorCopy, WithoutRoomIsRefused) {
     return findings.empty() ? std::string() : findings[0].key + " " + findings[0].expected;
   };
   EXPECT_EQ(refused(support::replaced(shipped, "forward_laser", "forward_rear")),
-            "sensors.rear.like needs a task forward_rear, a name that is taken");
+            "sensors.rear.like needs a task forward_rear, a name that is taken; a file has all parts of a sensor, with "
+            "its device and host, or none of them");
   const std::size_t before = parse_cluster(shipped, "shipped.yaml").pdus.size();
   const auto with_pdus = [&](std::size_t count) {
     std::string more = "\npdus:\n";
@@ -139,6 +145,25 @@ TEST(SensorCopy, WithoutRoomIsRefused) {
       parse_cluster(with_sensor(shipped, "rear: {like: camera}"), "copy.yaml").pdus.size() - before;
   EXPECT_TRUE(refused(with_pdus(model::kMostNamed - lists + 1)).starts_with(no_room));
   EXPECT_FALSE(refused(with_pdus(model::kMostNamed - lists)).starts_with(no_room));
+
+  const std::size_t tasks = 2;  // the gateway's
+  std::string more_tasks;
+  for (std::size_t n = tasks; n < model::kMostTasks; ++n)
+    more_tasks += "\n      more_" + std::to_string(n) +
+                  ": {step: own, activation: {kind: completion, after: forward_laser}, best_case: 1 us, "
+                  "worst_case: 1 us, draw: worst, deadline: 1 s}";
+  const std::string full =
+      support::replaced_first(shipped, "\n      forward_laser:", more_tasks + "\n      forward_laser:");
+  EXPECT_EQ(refused(full), "sensors.rear.like needs 1 more task of gateway, which has 16 of at most 16");
+
+  const model::Cluster cluster = parse_cluster(shipped, "shipped.yaml");
+  const model::CanBus& bus = cluster.can_buses[2];  // with both sensors' lists
+  std::string messages;
+  for (std::size_t n = bus.messages.size(); n < 2048; ++n)
+    messages += "\n      - {pdu: image, identifier: 7, sender: fusion, shortest_period: 10 ms}";
+  const std::string head = "(\n  " + bus.name + ":\n(    .*\n)*?    messages:)";
+  EXPECT_EQ(refused(support::replaced_first(shipped, head, "$1" + messages)),
+            "sensors.rear.like needs free identifiers on " + bus.name + ", which has 2048 messages");
 }
 
 TEST(SensorCopy, HasTheDifferencesThatItSays) {
@@ -163,13 +188,16 @@ TEST(Likeness, EachMistakeIsOneSentence) {
     const char *entries, *key, *words;
   };
   const Mistake mistakes[] = {
-      {"rear: {like: lidar}", "rear.like", "must be another sensor of this file: laser, camera, odometry"},
-      {"rear: {like: [laser]}", "rear.like", "must be a text"},
-      {"rear: {like: ''}", "rear.like", "must be a text"},
-      {"rear: {like: rear}", "rear.like", "must be another sensor of this file: laser, camera, odometry"},
+      {"rear: {like: rear}", "rear.like", "must be another sensor of this file: laser, camera"},
       {"rear: {like: left}\n  left: {like: laser, raw: 9, device: laser}", "left.raw",
        "device and host must be left out"},
-      {"rear: {like: odometry}", "rear.like", "must be a sensor of objects"},
+      {"rear: {like: laser, device: laser, host: laser_pre, objects: 9}", "rear.objects",
+       "= 9: needs a device and a host that are copies: device and host must be left out"},
+      {"rear: {like: laser, host: laser_pre, preprocessing: 9 ms}", "rear.preprocessing",
+       "= 9 ms: needs a device and a host that are copies: device and host must be left out"},
+      {"rear: {lik: laser}", "rear.lik", "= laser: is not a known key here; did you mean like?"},
+      {"rear: {like: odometry}", "rear.like",
+       "= odometry: must be a sensor of objects (laser or camera): no task would take"},
       {"rear: {like: laser, kind: odometry}", "rear.kind", "must be one of laser, camera, radar"},
       {"rear: {like: laser, kind: mono_camera}", "rear.kind", "must be one of laser, camera, radar"},
       {"rear: {like: camera, raw: 64}", "rear.raw", "must be at most 63"},
@@ -194,26 +222,105 @@ TEST(Likeness, EachMistakeIsOneSentence) {
   }
 }
 
-// Each sensor of the circle has the sentence, and none beside it.
-TEST(Likeness, ACircleIsRefused) {
-  const auto findings =
-      findings_of(with_sensor(shipped_text("paper_planned"),
-                              "a: {like: b}\n  b: {like: c}\n  c: {like: b}\n  d: {like: laser, device: a, host: a}"));
-  std::set<std::string> keys;
-  for (const Finding& finding : findings)
-    if (finding.expected.starts_with("must not lead back to ")) keys.insert(finding.key);
-  EXPECT_EQ(keys, (std::set<std::string>{"sensors.b.like", "sensors.c.like"})) << sentences(findings);
+// Returns the only finding, with its key and value; else all of them.
+std::string only_finding(const std::string& text) {
+  const auto findings = findings_of(text);
+  if (findings.size() != 1) return std::to_string(findings.size()) + " findings:" + sentences(findings);
+  const std::string sentence = findings[0].sentence();
+  return sentence.substr(sentence.find(' ') + 1);
 }
 
-// An inherited mistake stands where the value does.
-TEST(Likeness, AFindingHasTheLineOfItsValue) {
+// The sentence has the value, and the names that it may be. A copy of odometry would be refused: it is not among them.
+TEST(Likeness, AWrongNameIsShownBesideTheOthers) {
+  const std::string copies = ": must be another sensor of this file: laser, camera";
+  const std::pair<const char*, std::string> rows[] = {
+      {"like: lidar", "lidar" + copies},
+      {"like: [laser]", "[laser]" + copies},
+      {"like: ''", "\"\"" + copies},
+      {"like: ", "~" + copies},
+      {"like: {a: 1}", "{a: 1}" + copies},
+      {"like: lidar, device: laser, host: laser_pre", "lidar" + copies + ", odometry"},
+  };
+  for (const auto& [entry, words] : rows)
+    EXPECT_EQ(only_finding(with_sensor(shipped_text("closed_loop_planned"), std::string("rear: {") + entry + "}")),
+              "sensors.rear.like = " + words);
+  EXPECT_EQ(
+      only_finding(support::replaced_first(shipped_text("paper_planned"), "\npdus:\n", "\npdus:\n  a: {lik: image}\n")),
+      "pdus.a.lik = image: is not a known key here; did you mean like?");
+}
+
+// One sentence names the whole circle. Entries that lead there have none.
+TEST(Likeness, ACircleIsRefused) {
+  EXPECT_EQ(only_finding(with_sensor(shipped_text("paper_planned"),
+                                     "a: {like: b}\n  b: {like: c}\n  c: {like: d}\n  d: {like: b}")),
+            "sensors.b.like = c: must not lead back to b: b is like c, which is like d, which is like b");
+  EXPECT_EQ(only_finding(support::replaced_first(shipped_text("paper_planned"), "\npdus:\n",
+                                                 "\npdus:\n  a: {like: b}\n  b: {like: a, sensor: laser}\n")),
+            "pdus.a.like = b: must not lead back to a: a is like b, which is like a");
+}
+
+// All keys are the entry's own, as where a file changes a whole sensor of the file that it extends.
+TEST(Likeness, WithoutEffectIsRefused) {
+  const std::string text = whole_text("paper_planned");
+  const std::string words = " has each of its keys itself, here or in a file that this one extends";
+  EXPECT_EQ(
+      only_finding(support::replaced_first(text, "\n  laser:\n    \\{kind", "\n  laser:\n    {like: camera, kind")),
+      "sensors.laser.like = camera: has no effect: laser" + words);
+  EXPECT_EQ(only_finding(support::replaced_first(shipped_text("paper_planned"), "\n  laser_scan:\n",
+                                                 "\n  laser_scan:\n    like: image\n")),
+            "pdus.laser_scan.like = image: has no effect: laser_scan" + words);
+}
+
+// An inherited mistake is said of the entry that has the value; else it stands where `like` does, without a value.
+TEST(Likeness, AFindingQuotesWrittenValuesAlone) {
   const std::string text = with_sensor(shipped_text("paper_planned"), "rear: {like: laser}");
-  const auto findings =
+  const auto repeated =
       findings_of(support::replaced(text, "repetition: 4, offset: 6495", "repetition: 3, offset: 6495"));
+  ASSERT_EQ(repeated.size(), 1U) << sentences(repeated);
+  EXPECT_EQ(repeated[0].key, "sensors.laser.repetition");
+  const auto findings = findings_of(support::replaced_first(text, "like: laser", "like: laser, device: gateway"));
   ASSERT_EQ(findings.size(), 2U) << sentences(findings);
-  EXPECT_EQ(findings[0].key, "sensors.rear.repetition");
-  EXPECT_EQ(findings[1].key, "sensors.laser.repetition");
-  EXPECT_EQ(findings[0].line, findings[1].line);
+  EXPECT_EQ(findings[0].value, "gateway");
+  EXPECT_EQ(findings[1].key + " = " + findings[1].value, "sensors.rear.host = ");
+  EXPECT_TRUE(findings[1].expected.ends_with("; sensors.laser has the value laser_pre")) << findings[1].expected;
+  EXPECT_EQ(findings[1].line, findings[0].line);
+}
+
+// The copy says its needs: no file can give the slots, instants and parts of a copy.
+TEST(SensorCopy, SaysHowManySlotsItNeeds) {
+  const std::string text = with_sensor(shipped_text("paper_synchronised"), "rear: {like: laser}");
+  EXPECT_EQ(only_finding(text),
+            "sensors.rear.like = laser: needs 9 free static slots for rear_objects among the 40 of a cycle "
+            "(flexray.gNumberOfStaticSlots): its list finds no free static slots one behind the other");
+  EXPECT_EQ(only_finding(support::replaced(text, "gNumberOfStaticSlots: \\d+", "gNumberOfStaticSlots: 34")),
+            "sensors.rear.like = laser: needs 10 free static slots, one of them the key slot of rear_pre: all 34 of a "
+            "cycle are taken (flexray.gNumberOfStaticSlots)");
+}
+
+TEST(SensorCopy, SaysWhichTaskHasNoTime) {
+  const std::string text = with_sensor(shipped_text("paper_earliest"), "rear: {like: laser}");
+  EXPECT_EQ(
+      only_finding(
+          support::replaced_first(text, "(\n      fuse_laser:\n( {8}.*\n)*? {8}worst_case:) [^\n]*", "$1 16 ms")),
+      "sensors.rear.like = laser: needs an instant for nodes.fusion.tasks.fuse_rear.activation: the other tasks of "
+      "the node leave no time for it");
+}
+
+TEST(SensorCopy, NoFileChangesItsParts) {
+  const std::string shipped =
+      with_sensor(shipped_text("closed_loop_planned"), "rear: {like: left}\n  left: {like: laser}");
+  const std::string words =
+      ": is a name of rear's copied parts, which cannot be changed; a file has all parts of a sensor, with its device "
+      "and host, or none of them";
+  const std::pair<const char*, const char*> parts[] = {{"nodes", "rear_pre: {drift_ppm: 10}"},
+                                                       {"nodes", "rear: {tasks: {}}"},
+                                                       {"pdus", "rear_objects: {max_elements: 9}"},
+                                                       {"can", "rear_can: {other_load: 0.1}"}};
+  for (const auto& [section, part] : parts) {
+    const std::string head = std::string("\n") + section + ":\n", entry = part;
+    EXPECT_EQ(only_finding(support::replaced_first(shipped, head, head + "  " + entry + "\n")),
+              std::string(section) + "." + entry.substr(0, entry.find(':')) + words);
+  }
 }
 
 TEST(Likeness, AnExperimentVariesWhatIsInherited) {
