@@ -81,7 +81,7 @@ constexpr Description kCluster[] = {
      "laser_objects on flexray"},
     {"sensors", "The cluster has these sensors."},
     {"sensors.NAME.like",
-     "The sensor has this one's value for each key that it lacks; without `device` and `host` both are copied "
+     "The sensor has that sensor's value for each key that it lacks; without `device` and `host` both are copied "
      "(docs/schedules/cluster_files.md).",
      "laser"},
     {"sensors.NAME.raw", "The copied device's list has at most so many elements; absent, as its original.", "32"},
@@ -104,7 +104,7 @@ constexpr Description kCluster[] = {
     {"sensors.NAME.phase", "The first measurement is this long after the start; absent, a drawn time.", "10 ms"},
     {"pdus", "Lists have these layouts."},
     {"pdus.NAME.sensor", "The list is of this sensor.", "laser"},
-    {"pdus.NAME.like", "The list has this one's value for each key that it lacks.", "laser_objects"},
+    {"pdus.NAME.like", "The list has that list's value for each key that it lacks.", "laser_objects"},
     {"pdus.NAME.fragment_bytes", "A fragment of the list has so many bytes.", "56"},
     {"pdus.NAME.max_elements", "The list has at most so many elements.", "25"},
     {"pdus.NAME.elements_per_fragment", "A fragment has so many elements.", "3"},

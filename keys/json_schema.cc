@@ -45,8 +45,6 @@ Json named(Json entry) {
 // A file with this key changes another one.
 constexpr const char* kExtends = "extends";
 
-// An entry with this key has another's value for each key that it lacks.
-constexpr const char* kLike = "like";
 Json is_alike() { return {{"required", {kLike}}}; }
 
 // A mapping has a schema of its own here. Another value keeps its schema, which then stands once.
@@ -121,13 +119,6 @@ class Schema {
     return {{"if", is_alike()},
             {"then", lacking(mapping_of(cases_with_like(cases, "true")))},
             {"else", mapping_of(cases_with_like(cases, "false"))}};
-  }
-
-  static bool may_be_alike(const Cases& cases) {
-    return std::any_of(cases.begin(), cases.end(), [](const Case& one) {
-      return std::any_of(one.keys.begin(), one.keys.end(),
-                         [](const Key& key) { return key.question.key == kLike && key.question.optional; });
-    });
   }
 
   static Cases cases_with_like(Cases cases, const char* presence) {

@@ -61,7 +61,7 @@ std::string row_text(const Section& section, const Row& row) {
   const std::string_view name = std::string_view(row.path).substr(section.top.size());
   std::string meaning = row.description != nullptr ? std::string(row.description->meaning) : "";
   if (!row.only_with.empty()) meaning += fmt::format(" Only {}.", row.only_with);
-  std::string need = need_words(row.key, "`");
+  std::string need = need_words(row.key, row.may_be_alike, "`");
   if (row.description != nullptr && !row.description->example.empty())
     need += fmt::format("{}as `{}`", need.empty() ? "" : ", ", row.description->example);
   return fmt::format("| `{}` | {} | {} | {} |\n", name.starts_with('.') ? name.substr(1) : name, cell(meaning),
@@ -137,7 +137,7 @@ std::vector<Page> markdown_pages(const Document& document, const Outline& outlin
 std::string text_of(const Document& document, const Outline& outline) {
   std::string text = fmt::format("{}\n{}\n", document.title, document.about);
   for (const Row& row : rows_of(document, outline)) {
-    const std::string need = need_words(row.key, "");
+    const std::string need = need_words(row.key, row.may_be_alike, "");
     text += fmt::format("\n{}: {}{}{}\n", row.path, value_words(row.key, ""), need.empty() ? "" : ", ", need);
     if (row.description == nullptr) continue;
     text += fmt::format("    {}\n", row.description->meaning);

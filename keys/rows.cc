@@ -117,7 +117,7 @@ class Walk {
       const bool always = spec.where.size() == mapping->cases.size();
       const KeyQuestion question = spec.key.question;
       rows_.push_back({question.path(), std::move(spec.key), always ? "" : words(*mapping, question.key, spec.where),
-                       spec.description});
+                       spec.description, may_be_alike(mapping->cases)});
       within(question);
     }
   }
@@ -173,6 +173,13 @@ class Walk {
 }  // namespace
 
 std::vector<Row> rows_of(const Document& document, const Outline& outline) { return Walk(document, outline).rows(); }
+
+bool may_be_alike(const std::vector<Case>& cases) {
+  return std::any_of(cases.begin(), cases.end(), [](const Case& one) {
+    return std::any_of(one.keys.begin(), one.keys.end(),
+                       [](const Key& key) { return key.question.key == kLike && key.question.optional; });
+  });
+}
 
 std::string path_within(const KeyQuestion& question) {
   if (question.type == KeyType::kMap) return question.path();

@@ -49,6 +49,20 @@ TEST(Documents, EveryDescriptionHasAKey) {
                                                  << description.key << " " << description.when;
 }
 
+// `like` may supply a sensor's key, but not that of a node.
+TEST(Documents, ARequiredKeyMayBeSupplied) {
+  const auto& cluster =
+      *std::find_if(documents().begin(), documents().end(), [](const auto& one) { return one.kind == "cluster"; });
+  std::map<std::string, std::string> needs;
+  for (const Row& row : rows_of(cluster, outline_of(cluster)))
+    needs[row.path] = need_words(row.key, row.may_be_alike, "`");
+  EXPECT_EQ(needs["sensors.NAME.kind"], "required, unless `like` supplies it");
+  EXPECT_EQ(needs["pdus.NAME.header"], "required, unless `like` supplies it");
+  EXPECT_EQ(needs["pdus.NAME.header[].name"], "required");
+  EXPECT_EQ(needs["nodes.NAME.tasks"], "required");
+  EXPECT_EQ(needs["sensors.NAME.like"], "optional");
+}
+
 TEST(Documents, AMeaningIsOneSentence) {
   for (const Document& document : documents())
     for (const Row& row : rows_of(document, outline_of(document))) {
