@@ -1,5 +1,8 @@
 // The windows of a drive's timing diagram in few bytes, for the page's script (report/page/timing_windows.js).
 //
+// Windows travel as pictures, not as records: records would need a second painter, in the script, and the C++ one also serves
+// pictures without a page.
+//
 // Pictures of one drive have the same lines again and again, with other numbers. So several windows make a chunk: each
 // line once, with marks for its numbers, and the numbers of the same place in a column. A chunk is JSON, deflated
 // (zlib), in base64:
