@@ -15,8 +15,8 @@ using recording::records::Symbol;
 std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> node, TrueTime before) {
   std::optional<TrueTime> end;
   for (const auto& s : data.symbols)
-    if (s.kind == Symbol::kCas && (!node || s.node == *node) && s.end <= before)
-      end = end ? std::max(*end, s.end) : s.end;
+    if (s.kind == Symbol::kCas && (!node || s.stamp.node == *node) && s.end.true_time <= before)
+      end = end ? std::max(*end, s.end.true_time) : s.end.true_time;
   return end;
 }
 
@@ -28,7 +28,8 @@ std::optional<LeadingNode> leading_node(const StartupData& data) {
       if (const auto cas = last_cas(data, c.node, c.at)) return LeadingNode{c.node, *cas};
   std::optional<LeadingNode> last;
   for (const auto& s : data.symbols)
-    if (s.kind == Symbol::kCas && (!last || s.end > last->cas)) last = LeadingNode{s.node, s.end};
+    if (s.kind == Symbol::kCas && (!last || s.end.true_time > last->cas))
+      last = LeadingNode{s.stamp.node, s.end.true_time};
   return last;
 }
 

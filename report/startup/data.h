@@ -1,4 +1,5 @@
-// The records that the start-up diagram keeps: plain values without views, in the order of arrival.
+// The records that the start-up diagram keeps, in the order of arrival. A record with views has a struct of its own here, which
+// holds its values.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +20,6 @@ struct StartupData {
     recording::records::PocKind from, to;
     std::string from_name, to_name, why, consequence;
   };
-  struct Power {
-    TrueTime at;
-    NodeId node;
-    bool on;
-  };
-  struct Symbol {
-    TrueTime start, end;
-    NodeId node;
-    std::uint8_t channel;
-    recording::records::Symbol kind;
-  };
   struct Frame {
     TrueTime start, end;
     NodeId node;
@@ -39,11 +29,11 @@ struct StartupData {
     bool null_frame, startup;
   };
 
-  std::vector<Change> changes;              // from the whole log: a state lasts until it is left
-  std::vector<Power> power;                 // likewise
-  std::vector<drawing::FaultEvent> faults;  // likewise
-  std::vector<Symbol> symbols;              // up to the window's end: the cycles count from one of them
-  std::vector<Frame> frames;                // likewise
+  std::vector<Change> changes;                          // from the whole log: a state lasts until it is left
+  std::vector<recording::records::PowerChanged> power;  // likewise
+  std::vector<drawing::FaultEvent> faults;              // likewise
+  std::vector<recording::records::SymbolSent> symbols;  // up to the window's end: the cycles count from one of them
+  std::vector<Frame> frames;                            // likewise
 };
 
 }  // namespace ttf::report::startup

@@ -21,12 +21,11 @@ void StartupDiagram::on(const recording::records::StateChanged& r) {
                              std::string(r.to_name), std::string(r.why), std::string(r.consequence)});
 }
 void StartupDiagram::on(const recording::records::PowerChanged& r) {
-  if (drawing::possible(r.stamp.true_time)) data_.power.push_back({r.stamp.true_time, r.stamp.node, r.on});
+  if (drawing::possible(r.stamp.true_time)) data_.power.push_back(r);
 }
 void StartupDiagram::on(const recording::records::SymbolSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;
-  if (drawing::possible(start) && drawing::possible(end) && start <= to_)
-    data_.symbols.push_back({start, end, r.stamp.node, r.channel, r.kind});
+  if (drawing::possible(start) && drawing::possible(end) && start <= to_) data_.symbols.push_back(r);
 }
 void StartupDiagram::on(const recording::records::SlotFrameSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;

@@ -24,10 +24,11 @@ std::vector<drawing::LegendEntry> startup_legend(const StartupData& data, const 
   if (startup) legend.push_back({K::kBox, "startup frame", std::string(kStartupFrameFill), {}, true});
   if (null) legend.push_back({K::kBox, "null frame", std::string(drawing::kGrey), {}, false});
   if (other) legend.push_back({K::kBox, "other frame", std::string(kOtherFrameFill), {}, true});
-  if (std::ranges::any_of(data.symbols, [&](const auto& s) { return visible(s.start, s.end); }))
+  if (std::ranges::any_of(data.symbols, [&](const auto& s) { return visible(s.stamp.true_time, s.end.true_time); }))
     legend.push_back({K::kBox, "symbol", std::string(drawing::kBlack), {}, true});
   const auto power = [&](bool on) {
-    return std::ranges::any_of(data.power, [&](const auto& p) { return p.on == on && visible(p.at, p.at); });
+    return std::ranges::any_of(
+        data.power, [&](const auto& p) { return p.on == on && visible(p.stamp.true_time, p.stamp.true_time); });
   };
   if (power(true))
     legend.push_back({K::kMarker, "power on", std::string(drawing::kGreen), drawing::Marker::kTriangle, true});

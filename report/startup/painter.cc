@@ -38,9 +38,9 @@ class StartupPainter {
     if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
     for (const auto& c : data.changes) on_flexray_.insert(c.node);
     for (const auto& f : data.frames) on_flexray_.insert(f.node);
-    for (const auto& s : data.symbols) on_flexray_.insert(s.node);
+    for (const auto& s : data.symbols) on_flexray_.insert(s.stamp.node);
     std::set<NodeId> nodes = on_flexray_;
-    for (const auto& p : data.power) nodes.insert(p.node);
+    for (const auto& p : data.power) nodes.insert(p.stamp.node);
     plot_.x = 40;
     write_head();
     double y = plot_.y + faults_.height();
@@ -186,23 +186,26 @@ class StartupPainter {
   // A symbol is widened to its left, because the frame of cycle 0 follows at once.
   void symbols() {
     for (const auto& s : data_.symbols) {
-      if (!visible(s.start, s.end)) continue;
-      drawing::Area area = row(s.node, s.channel, s.start, s.end, 2.5);
-      area.x = x(s.end) - area.width;
+      const TrueTime start = s.stamp.true_time, end = s.end.true_time;
+      if (!visible(start, end)) continue;
+      drawing::Area area = row(s.stamp.node, s.channel, start, end, 2.5);
+      area.x = x(end) - area.width;
       svg_->rect(area, {.fill = drawing::kBlack},
-                 fmt::format("{}, {} ms", symbol_name(s.kind), drawing::number(in_ms(s.start))), "symbol");
+                 fmt::format("{}, {} ms", symbol_name(s.kind), drawing::number(in_ms(start))), "symbol");
     }
   }
 
   void power() {
-    for (const auto& p : data_.power)
-      if (visible(p.at, p.at))
-        svg_->marker(p.on ? drawing::Marker::kTriangle : drawing::Marker::kDownTriangle,
-                     {x(p.at), top(p.node) + kNotes - 2}, 9,
-                     {.fill = p.on ? drawing::kGreen : drawing::kVermilion, .stroke = "#ffffff", .width = 0.6},
-                     fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off",
-                                 drawing::number(in_ms(p.at))),
-                     "power");
+    for (const auto& p : data_.power) {
+      const TrueTime at = p.stamp.true_time;
+      if (!visible(at, at)) continue;
+      svg_->marker(p.on ? drawing::Marker::kTriangle : drawing::Marker::kDownTriangle,
+                   {x(at), top(p.stamp.node) + kNotes - 2}, 9,
+                   {.fill = p.on ? drawing::kGreen : drawing::kVermilion, .stroke = "#ffffff", .width = 0.6},
+                   fmt::format("{} {} at {} ms", names_.node(p.stamp.node), p.on ? "powered on" : "powered off",
+                               drawing::number(in_ms(at))),
+                   "power");
+    }
   }
 
   // Labels bars in full or short, as they fit; notes appear only where space is free.
@@ -219,13 +222,17 @@ class StartupPainter {
         break;
       }
     }
-    for (const auto& p : data_.power)  // keeps notes off the markers
-      if (visible(p.at, p.at)) space_.take({x(p.at) - 5, top(p.node) + kNotes - 8, 10, 11});
+    for (const auto& p : data_.power) {  // keeps notes off the markers
+      const TrueTime at = p.stamp.true_time;
+      if (visible(at, at)) space_.take({x(at) - 5, top(p.stamp.node) + kNotes - 8, 10, 11});
+    }
     std::optional<std::pair<NodeId, TrueTime>> noted;
     for (const auto& s : data_.symbols) {
-      if (!visible(s.start, s.end) || noted == std::pair(s.node, s.start)) continue;  // one note for both channels
-      noted = std::pair(s.node, s.start);
-      note(symbol_name(s.kind), {.size = text_}, {x(s.start), top(s.node) + kNotes});
+      const NodeId node = s.stamp.node;
+      const TrueTime start = s.stamp.true_time;
+      if (!visible(start, s.end.true_time) || noted == std::pair(node, start)) continue;  // one note for both channels
+      noted = std::pair(node, start);
+      note(symbol_name(s.kind), {.size = text_}, {x(start), top(node) + kNotes});
     }
     svg_->close_group();
   }

@@ -25,7 +25,7 @@ std::set<NodeId> active_from_the_start(const StartupData& data) {
     bool active = false;
   };
   std::map<NodeId, Sign> first;  // each node's first sign of state
-  for (const StartupData::Power& p : data.power) first.try_emplace(p.node, Sign{p.at, !p.on});
+  for (const auto& p : data.power) first.try_emplace(p.stamp.node, Sign{p.stamp.true_time, !p.on});
   for (const StartupData::Change& c : data.changes)
     if (const auto [sign, is_first] = first.try_emplace(c.node, Sign{c.at, false}); !is_first && c.at < sign->second.at)
       sign->second = {c.at, false};
@@ -52,8 +52,8 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
   // Both lists have the log's order; at one instant, the supply goes before the state.
   auto power = data.power.begin();
   const auto supply_until = [&](TrueTime at) {
-    for (; power != data.power.end() && power->at <= at; ++power)
-      if (!power->on) leave(power->node, power->at);
+    for (; power != data.power.end() && power->stamp.true_time <= at; ++power)
+      if (!power->on) leave(power->stamp.node, power->stamp.true_time);
   };
   std::map<NodeId, bool> seen;
   for (const StartupData::Change& c : data.changes) {

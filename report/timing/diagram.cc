@@ -35,28 +35,24 @@ void TimingDiagram::on(const recording::records::SlotFrameSent& r) {
                                  r.stamp.global.ns != r.stamp.local.ns});
 }
 void TimingDiagram::on(const recording::records::ListHop& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.sensor, r.sequence, r.pdu});
+  if (near(r.stamp.true_time, r.stamp.true_time)) data_.hops.push_back(r);
 }
 void TimingDiagram::on(const recording::records::TaskRun& r) {
   if (drawing::possible(r.start.true_time.ns) && near(r.activated.true_time, r.end.true_time))
-    data_.executions.push_back(
-        {r.activated.true_time, r.start.true_time, r.end.true_time, r.start.node, r.task, r.deadline_met});
+    data_.executions.push_back(r);
 }
 void TimingDiagram::on(const recording::records::ListFused& r) {
-  if (drawing::possible(r.measured.ns) && near(r.stamp.true_time, r.stamp.true_time))
-    data_.fused.push_back({r.stamp.true_time, r.stamp.node, r.step, r.id, r.measured, r.disposition});
+  if (drawing::possible(r.measured.ns) && near(r.stamp.true_time, r.stamp.true_time)) data_.fused.push_back(r);
 }
 void TimingDiagram::on(const recording::records::FusionStep& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time)) data_.steps.push_back({r.stamp.true_time, r.stamp.node, r.step});
+  if (near(r.stamp.true_time, r.stamp.true_time)) data_.steps.push_back(r);
 }
 void TimingDiagram::on(const recording::records::ImageWritten& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.images.push_back({r.stamp.true_time, r.stamp.node, r.sequence, {r.newest.begin(), r.newest.end()}});
+    data_.images.push_back({r.stamp, r.sequence, {r.newest.begin(), r.newest.end()}});
 }
 void TimingDiagram::on(const recording::records::FeatureUsed& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.uses.push_back({r.stamp.true_time, r.stamp.node, r.image_sequence, r.fresh, r.stale});
+  if (near(r.stamp.true_time, r.stamp.true_time)) data_.uses.push_back({r.stamp, r.image_sequence, r.stale});
 }
 
 void TimingDiagram::on(const recording::records::FaultActivity& r) {
@@ -70,8 +66,7 @@ void TimingDiagram::on(const recording::records::ChannelFrame& r) {
 }
 
 void TimingDiagram::on(const recording::records::TimingProblem& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.problems.push_back({r.stamp.true_time, r.stamp.node, r.what, r.late, r.cycle, r.slot, r.channel, r.count});
+  if (near(r.stamp.true_time, r.stamp.true_time)) data_.problems.push_back(r);
 }
 
 bool TimingDiagram::shows_anything() const {
@@ -80,8 +75,9 @@ bool TimingDiagram::shows_anything() const {
     return std::ranges::any_of(all, [&](const auto& one) { return within(one.start, one.end); });
   };
   return std::ranges::any_of(data_.measurements, [&](const auto& one) { return within(one.at, one.at); }) ||
-         any(data_.can_frames) || any(data_.slot_frames) ||
-         std::ranges::any_of(data_.executions, [&](const auto& one) { return within(one.activated, one.end); });
+         any(data_.can_frames) || any(data_.slot_frames) || std::ranges::any_of(data_.executions, [&](const auto& one) {
+           return within(one.activated.true_time, one.end.true_time);
+         });
 }
 
 std::string TimingDiagram::svg(TimingUse use, const drawing::Sheet& sheet) const {
@@ -95,8 +91,9 @@ std::string TimingDiagram::svg(TimingUse use, const drawing::Sheet& sheet) const
                                   sheet);
   // A log records an execution at its end, a merged log at its start: sorting gives the same picture.
   TimingData data = data_;
-  std::ranges::stable_sort(data.executions, {},
-                           [](const TimingData::Execution& one) { return std::tuple(one.start, one.node); });
+  std::ranges::stable_sort(data.executions, {}, [](const recording::records::TaskRun& one) {
+    return std::tuple(one.start.true_time, one.start.node);
+  });
   return paint_timing(names_, data, cycle_, from_, to_, use, sheet);
 }
 

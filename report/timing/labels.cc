@@ -31,14 +31,15 @@ class LabelPainter {
       label(text, {.size = text_, .halo = true}, at, m.at);
     }
     for (const auto& s : canvas_.data.steps) {
-      const TimingData::Execution* box = nullptr;
+      const recording::records::TaskRun* box = nullptr;
+      const std::int64_t at = s.stamp.true_time.ns;
       for (const auto& r : canvas_.data.executions)
-        if (r.node == s.node && r.start.ns <= s.at.ns + 2000 && s.at.ns <= r.end.ns + 2000 &&
-            (box == nullptr || r.start > box->start))
+        if (r.start.node == s.stamp.node && r.start.true_time.ns <= at + 2000 && at <= r.end.true_time.ns + 2000 &&
+            (box == nullptr || r.start.true_time > box->start.true_time))
           box = &r;
       if (box == nullptr) continue;
-      in_box(fmt::format("{}", s.step), box->start, box->end,
-             canvas_.y({LaneKey::Kind::kTask, index_of(box->node), box->task}), "#c9d7e6");
+      in_box(fmt::format("{}", s.step), box->start.true_time, box->end.true_time,
+             canvas_.y({LaneKey::Kind::kTask, index_of(box->start.node), box->task}), "#c9d7e6");
     }
     // A number alone does not tell its list. On a screen pointing at it does.
     const bool brief_counts = !canvas_.tags.on() && !canvas_.sheet.on_paper();

@@ -17,7 +17,7 @@ std::set<LaneKey> all_keys(const TimingData& data, const Ways& ways) {
   for (const auto& m : data.measurements) keys.insert({LaneKind::kSensor, index_of(m.id.sensor), 0});
   for (const auto& f : data.can_frames) keys.insert({LaneKind::kCan, f.bus, 0});
   for (const auto& f : data.slot_frames) keys.insert({LaneKind::kChannel, f.channel, 0});
-  for (const auto& r : data.executions) keys.insert({LaneKind::kTask, index_of(r.node), r.task});
+  for (const auto& r : data.executions) keys.insert({LaneKind::kTask, index_of(r.start.node), r.task});
   for (const auto* some : {&ways.measurements, &ways.images})
     for (const Way& way : *some)
       for (const Leg& leg : way.legs) keys.insert({leg.from.lane, leg.to.lane});
@@ -69,7 +69,7 @@ std::string label_of(const LaneKey& key, const drawing::Names& names) {
 std::vector<Lane> lanes_of(const TimingData& data, const drawing::Names& names, const Ways& ways) {
   const std::set<NodeId> fusion = fusion_nodes(data);
   std::set<NodeId> features;
-  for (const auto& u : data.uses) features.insert(u.node);
+  for (const auto& u : data.uses) features.insert(u.stamp.node);
   const auto section_of = [&](const LaneKey& key) {
     switch (key.kind) {
       case LaneKind::kSensor: return 0;

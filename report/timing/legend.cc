@@ -41,12 +41,15 @@ std::vector<drawing::LegendEntry> timing_legend(const TimingData& data, const dr
   if (any_late) legend.push_back({K::kArrow, "out of sequence", "#444444", {}, false, "5 3"});
   if (any_waiting) legend.push_back({K::kArrow, "held back", "#444444", {}, false, "1.5 2.5"});
   if (any_dropped) legend.push_back({K::kMarker, "dropped", std::string(drawing::kBlack), drawing::Marker::kCross});
-  if (std::ranges::any_of(data.executions, [&](const auto& r) { return visible(r.activated, r.end); })) {
+  const auto any_run = [&](bool missed) {
+    return std::ranges::any_of(data.executions, [&](const auto& r) {
+      return !(missed && r.deadline_met) && visible(r.activated.true_time, r.end.true_time);
+    });
+  };
+  if (any_run(false)) {
     legend.push_back({K::kBox, "task", std::string(kTaskFill), {}, true});
     legend.push_back({K::kLine, "activated, waiting", "#666666"});
-    if (std::ranges::any_of(data.executions,
-                            [&](const auto& r) { return !r.deadline_met && visible(r.activated, r.end); }))
-      legend.push_back({K::kBox, "task, deadline missed", std::string(kDeadlineMissed), {}, true});
+    if (any_run(true)) legend.push_back({K::kBox, "task, deadline missed", std::string(kDeadlineMissed), {}, true});
   }
   return legend;
 }

@@ -253,21 +253,23 @@ class TimingPainter : TimingCanvas {
 
   void tasks() {
     for (const auto& r : data.executions) {
-      if (!visible(r.activated, r.end)) continue;
-      const double centre = y({LaneKey::Kind::kTask, index_of(r.node), r.task});
-      if (r.activated < r.start) {
-        svg_->tag_next(tags.span(r.activated, r.start));
-        svg_->line({x(r.activated), centre}, {x(r.start), centre}, {.stroke = "#666666", .width = 1.5});
-        svg_->tag_next(tags.at(r.activated));
-        svg_->line({x(r.activated), centre - 4}, {x(r.activated), centre + 4}, {.stroke = "#666666", .width = 1.0});
+      const TrueTime activated = r.activated.true_time, start = r.start.true_time, end = r.end.true_time;
+      if (!visible(activated, end)) continue;
+      const NodeId node = r.start.node;
+      const double centre = y({LaneKey::Kind::kTask, index_of(node), r.task});
+      if (activated < start) {
+        svg_->tag_next(tags.span(activated, start));
+        svg_->line({x(activated), centre}, {x(start), centre}, {.stroke = "#666666", .width = 1.5});
+        svg_->tag_next(tags.at(activated));
+        svg_->line({x(activated), centre - 4}, {x(activated), centre + 4}, {.stroke = "#666666", .width = 1.0});
       }
-      const double width = std::max(1.5, x(r.end) - x(r.start));
-      svg_->tag_next(tags.span(r.start, r.end));
-      svg_->rect({x(r.start), centre - kBox / 2, width, kBox},
+      const double width = std::max(1.5, x(end) - x(start));
+      svg_->tag_next(tags.span(start, end));
+      svg_->rect({x(start), centre - kBox / 2, width, kBox},
                  {.fill = r.deadline_met ? "#c9d7e6" : kDeadlineMissed,
                   .stroke = r.deadline_met ? "#5b7083" : drawing::kBlack,
                   .width = r.deadline_met ? 0.6 : 1.6},
-                 fmt::format("{}: {}{}{}", names.node(r.node), names.task(r.node, r.task), times(r.start, r.end),
+                 fmt::format("{}: {}{}{}", names.node(node), names.task(node, r.task), times(start, end),
                              r.deadline_met ? "" : ", deadline missed"),
                  r.deadline_met ? "task" : "task missed");
     }

@@ -11,16 +11,16 @@
 namespace ttf::report::timing {
 namespace {
 
-std::optional<LaneKey> lane_of(const TimingData::Problem& p, const std::vector<Lane>& lanes) {
+std::optional<LaneKey> lane_of(const recording::records::TimingProblem& p, const std::vector<Lane>& lanes) {
   const auto found = std::ranges::find_if(lanes, [&](const Lane& lane) {
     if (p.slot != 0) return lane.key.kind == LaneKey::Kind::kChannel && lane.key.index == p.channel;
-    return lane.key.kind == LaneKey::Kind::kTask && lane.key.index == index_of(p.node);
+    return lane.key.kind == LaneKey::Kind::kTask && lane.key.index == index_of(p.stamp.node);
   });
   return found == lanes.end() ? std::nullopt : std::optional(found->key);
 }
 
-std::string words_of(const TimingData::Problem& p, const drawing::Names& names) {
-  std::string words = fmt::format("{}: {}", names.node(p.node), to_text(p.what));
+std::string words_of(const recording::records::TimingProblem& p, const drawing::Names& names) {
+  std::string words = fmt::format("{}: {}", names.node(p.stamp.node), to_text(p.what));
   if (p.what == recording::records::TimingFault::kFramesLost)
     return words + fmt::format(", {} of slot {}", p.count, p.slot);
   if (p.slot != 0) words += fmt::format(", slot {} of cycle {}", p.slot, p.cycle);
@@ -31,9 +31,10 @@ std::string words_of(const TimingData::Problem& p, const drawing::Names& names) 
 
 ProblemMarks::ProblemMarks(const TimingData& data, const drawing::Names& names, const std::vector<Lane>& lanes,
                            TrueTime from, TrueTime to) {
-  for (const TimingData::Problem& p : data.problems) {
-    if (p.at < from || p.at >= to) continue;
-    if (const auto lane = lane_of(p, lanes)) marks_.push_back({*lane, p.at, words_of(p, names)});
+  for (const recording::records::TimingProblem& p : data.problems) {
+    const TrueTime at = p.stamp.true_time;
+    if (at < from || at >= to) continue;
+    if (const auto lane = lane_of(p, lanes)) marks_.push_back({*lane, at, words_of(p, names)});
   }
 }
 

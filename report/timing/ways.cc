@@ -53,21 +53,26 @@ class Followed {
 
   std::vector<Event> events() const {
     std::vector<Event> events;
-    const auto add = [&](What what, const auto& list, auto at, auto about) {
-      for (std::size_t i = 0; i < list.size(); ++i) events.push_back({list[i].*at, what, about(list[i]), i});
+    const auto add = [&](What what, const auto& list, auto place) {
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto [at, about] = place(list[i]);
+        events.push_back({at, what, about, i});
+      }
     };
-    const auto by_node = [](const auto& one) { return index_of(one.node); };
+    const auto stamped = [](const auto& one) { return std::pair(one.stamp.true_time, index_of(one.stamp.node)); };
     using Data = TimingData;
-    add(What::kSlotFrame, data_.slot_frames, &Data::SlotFrame::start,
-        [](const Data::SlotFrame& frame) { return std::size_t{frame.channel}; });
-    add(What::kCanFrame, data_.can_frames, &Data::CanFrame::end, [](const Data::CanFrame& frame) { return frame.bus; });
-    add(What::kHop, data_.hops, &Data::HopAt::at, by_node);
-    add(What::kMeasured, data_.measurements, &Data::Measurement::at,
-        [](const Data::Measurement& one) { return index_of(one.id.sensor); });
-    add(What::kFused, data_.fused, &Data::Fused::at, by_node);
-    add(What::kImage, data_.images, &Data::Image::at, by_node);
-    add(What::kUse, data_.uses, &Data::Use::at, by_node);
-    add(What::kExecution, data_.executions, &Data::Execution::start, by_node);
+    add(What::kSlotFrame, data_.slot_frames,
+        [](const Data::SlotFrame& one) { return std::pair(one.start, std::size_t{one.channel}); });
+    add(What::kCanFrame, data_.can_frames, [](const Data::CanFrame& one) { return std::pair(one.end, one.bus); });
+    add(What::kHop, data_.hops, stamped);
+    add(What::kMeasured, data_.measurements,
+        [](const Data::Measurement& one) { return std::pair(one.at, index_of(one.id.sensor)); });
+    add(What::kFused, data_.fused, stamped);
+    add(What::kImage, data_.images, stamped);
+    add(What::kUse, data_.uses, stamped);
+    add(What::kExecution, data_.executions, [](const recording::records::TaskRun& one) {
+      return std::pair(one.start.true_time, index_of(one.start.node));
+    });
     std::ranges::sort(events);
     return events;
   }
@@ -103,28 +108,31 @@ class Followed {
       case What::kFused: tell(data_.fused[event.index]); break;
       case What::kImage: {
         const auto& i = data_.images[event.index];
-        follower_.act({Deed::kImage, i.at, i.node, i.newest, i.sequence});
+        follower_.act({Deed::kImage, i.stamp.true_time, i.stamp.node, i.newest, i.sequence});
         break;
       }
       case What::kUse: {
         const auto& u = data_.uses[event.index];
-        if (!u.stale) follower_.act({Deed::kUsed, u.at, u.node, {}, u.image});
+        if (!u.stale) follower_.act({Deed::kUsed, u.stamp.true_time, u.stamp.node, {}, u.image});
         break;
       }
       case What::kExecution: {
         const auto& r = data_.executions[event.index];
-        follower_.executed(r.node, r.start, r.end, mark({{Kind::kTask, index_of(r.node), r.task}, r.start, r.end}));
+        const TrueTime start = r.start.true_time, end = r.end.true_time;
+        follower_.executed(r.start.node, start, end, mark({{Kind::kTask, index_of(r.start.node), r.task}, start, end}));
         break;
       }
     }
   }
-  void tell(const TimingData::HopAt& h) {
+  void tell(const recording::records::ListHop& h) {
     if (h.sensor == kNoSensor) {
-      if (h.hop == recording::records::Hop::kRead) follower_.read(h.node, h.pdu, h.sequence);
-      if (h.hop == recording::records::Hop::kWritten) follower_.wrote(h.node, h.pdu);
+      if (h.hop == recording::records::Hop::kRead) follower_.read(h.stamp.node, h.pdu, h.sequence);
+      if (h.hop == recording::records::Hop::kWritten) follower_.wrote(h.stamp.node, h.pdu);
       return;
     }
-    const auto act = [&](Deed deed) { follower_.act({deed, h.at, h.node, {{h.sensor, h.sequence}}}); };
+    const auto act = [&](Deed deed) {
+      follower_.act({deed, h.stamp.true_time, h.stamp.node, {{h.sensor, h.sequence}}});
+    };
     switch (h.hop) {
       case recording::records::Hop::kRead: act(Deed::kRead); break;
       case recording::records::Hop::kWritten: act(Deed::kWritten); break;
@@ -136,9 +144,9 @@ class Followed {
       case recording::records::Hop::kStale: break;
     }
   }
-  void tell(const TimingData::Fused& f) {
-    const auto act = [&](Deed deed) { follower_.act({deed, f.at, f.node, {f.id}}); };
-    switch (f.what) {
+  void tell(const recording::records::ListFused& f) {
+    const auto act = [&](Deed deed) { follower_.act({deed, f.stamp.true_time, f.stamp.node, {f.id}}); };
+    switch (f.disposition) {
       case recording::records::Disposition::kFused:
       case recording::records::Disposition::kFusedLate: act(Deed::kFused); break;
       case recording::records::Disposition::kHeld: act(Deed::kHeld); break;
@@ -165,16 +173,16 @@ std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& d
   while (i < data.fused.size()) {
     // Lists of one fusion instant arrive together: they are compared with earlier instants only.
     std::optional<GlobalTime> newest_here = newest;
-    const TrueTime at = data.fused[i].at;
-    for (; i < data.fused.size() && data.fused[i].at == at; ++i) {
+    const TrueTime at = data.fused[i].stamp.true_time;
+    for (; i < data.fused.size() && data.fused[i].stamp.true_time == at; ++i) {
       const auto& f = data.fused[i];
-      const auto [entry, first] = seen.try_emplace(f.id, f.at);
-      if (!first && f.at - entry->second < MeasurementWays::kLongestWay &&
-          f.what != recording::records::Disposition::kFusedLate)
+      const auto [entry, first] = seen.try_emplace(f.id, at);
+      if (!first && at - entry->second < MeasurementWays::kLongestWay &&
+          f.disposition != recording::records::Disposition::kFusedLate)
         continue;
-      entry->second = f.at;
-      if ((newest && f.measured < *newest) || f.what == recording::records::Disposition::kFusedLate)
-        late.insert({f.id, f.at});
+      entry->second = at;
+      if ((newest && f.measured < *newest) || f.disposition == recording::records::Disposition::kFusedLate)
+        late.insert({f.id, at});
       if (!newest_here || f.measured > *newest_here) newest_here = f.measured;
     }
     newest = newest_here;
@@ -291,8 +299,8 @@ class Arrows {
 
 std::set<NodeId> fusion_nodes(const TimingData& data) {
   std::set<NodeId> nodes;
-  for (const auto& s : data.steps) nodes.insert(s.node);
-  for (const auto& i : data.images) nodes.insert(i.node);
+  for (const auto& s : data.steps) nodes.insert(s.stamp.node);
+  for (const auto& i : data.images) nodes.insert(i.stamp.node);
   return nodes;
 }
 

@@ -262,6 +262,10 @@ TEST(StartupExtent, IsTheStartUpOrTheReturnOfANodeOrItsLoss) {
 StartupData::Change change(std::int64_t at, int node, PocKind from, PocKind to) {
   return {{at}, static_cast<NodeId>(node), from, to, "from", "to", "why", ""};
 }
+recording::records::Stamp stamp(std::int64_t at, int node) { return {{at}, {}, {}, static_cast<NodeId>(node)}; }
+recording::records::SymbolSent symbol(std::int64_t at, int node, recording::records::Symbol kind) {
+  return {stamp(at, node), stamp(at + 10, node), 0, kind};
+}
 
 //   node 0     ready 10 |===| 20 listen |======| 40 off     60 on, listen |====| 100
 TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
@@ -269,7 +273,7 @@ TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
   data.changes = {change(10, 0, PocKind::kDefaultConfig, PocKind::kReady),
                   change(20, 0, PocKind::kReady, PocKind::kColdstartListen),
                   change(60, 0, PocKind::kDefaultConfig, PocKind::kColdstartListen)};
-  data.power = {{{10}, NodeId{0}, true}, {{40}, NodeId{0}, false}, {{60}, NodeId{0}, true}};
+  data.power = {{stamp(10, 0), true}, {stamp(40, 0), false}, {stamp(60, 0), true}};
   const auto spans = state_spans(data, {0}, {100});
   ASSERT_EQ(spans.size(), 3u);
   EXPECT_EQ(spans[0].start.ns, 10);
@@ -282,11 +286,8 @@ TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
 
 TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheStart) {
   StartupData data;
-  data.power = {{{10}, NodeId{0}, false},
-                {{10}, NodeId{1}, true},
-                {{20}, NodeId{1}, false},
-                {{30}, NodeId{2}, false},
-                {{50}, NodeId{0}, true}};
+  data.power = {
+      {stamp(10, 0), false}, {stamp(10, 1), true}, {stamp(20, 1), false}, {stamp(30, 2), false}, {stamp(50, 0), true}};
   data.changes = {change(10, 1, PocKind::kDefaultConfig, PocKind::kReady),
                   change(25, 2, PocKind::kNormalActive, PocKind::kHalt),
                   change(50, 0, PocKind::kDefaultConfig, PocKind::kReady)};
@@ -311,10 +312,9 @@ TEST(StartupStates, ANodeThatBeganIntegratedWasInItsFirstStateFromTheBeginningOn
 // Two nodes send a CAS. The one that became active out of the consistency check leads, by its own CAS.
 TEST(StartupCycles, TheLeadingNodeIsTheOneThatWasActiveOutOfTheConsistencyCheck) {
   StartupData data;
-  data.symbols = {{{90}, {100}, NodeId{1}, 0, recording::records::Symbol::kCas},
-                  {{290}, {300}, NodeId{0}, 0, recording::records::Symbol::kCas},
-                  {{340}, {350}, NodeId{0}, 0, recording::records::Symbol::kWakeup},
-                  {{390}, {400}, NodeId{1}, 0, recording::records::Symbol::kCas}};
+  data.symbols = {symbol(90, 1, recording::records::Symbol::kCas), symbol(290, 0, recording::records::Symbol::kCas),
+                  symbol(340, 0, recording::records::Symbol::kWakeup),
+                  symbol(390, 1, recording::records::Symbol::kCas)};
   EXPECT_EQ(leading_node(data)->node, NodeId{1}) << "the last one while nobody is active";
   data.changes = {change(350, 2, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive),
                   change(380, 0, PocKind::kColdstartConsistencyCheck, PocKind::kNormalActive)};

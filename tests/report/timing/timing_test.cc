@@ -293,9 +293,12 @@ TEST(TimingDiagram, CyclesNoBusCanHaveMakeNoGrid) {
 // Ways, checked stop by stop.
 class Ways : public ::testing::Test {
  protected:
-  static TimingData::Fused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us, Disposition what,
-                                 std::uint8_t sensor = 0) {
-    return {at_us(us), NodeId{5}, 1, {SensorId{sensor}, sequence}, {measured_us * 1000}, what};
+  static recording::records::Stamp stamp(std::int64_t us, int node) {
+    return {at_us(us), {}, {}, static_cast<NodeId>(node)};
+  }
+  static recording::records::ListFused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us,
+                                             Disposition what, std::uint8_t sensor = 0) {
+    return {stamp(us, 5), 1, {SensorId{sensor}, sequence}, {measured_us * 1000}, what};
   }
   std::vector<Way> ways() const { return ways_of(data_).measurements; }
   TimingData data_;
@@ -306,13 +309,13 @@ TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7, 0, NodeId{0}, SensorId{0}},
                       {0, at_us(2500), at_us(3000), PduId{0}, 7, 1, NodeId{0}, SensorId{0}}};
-  data_.hops = {{at_us(4000), NodeId{2}, recording::records::Hop::kRead, SensorId{0}, 7, PduId{}}};
-  data_.executions = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
-                      {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
+  data_.hops = {{stamp(4000, 2), recording::records::Hop::kRead, PduId{}, SensorId{0}, 7}};
+  data_.executions = {{stamp(4000, 2), 0, stamp(3000, 2), stamp(9000, 2), true},
+                      {stamp(13000, 5), 0, stamp(13000, 5), stamp(14000, 5), true}};
   for (std::uint8_t channel : {0, 1})
     data_.slot_frames.push_back(
         {at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0, SensorId{0}});
-  data_.steps = {{at_us(13000), NodeId{5}, 1}};
+  data_.steps = {{stamp(13000, 5), 1}};
   data_.fused = {fused(13000, 7, 0, Disposition::kFused)};
   const auto all = ways();
   ASSERT_EQ(all.size(), 1u);
@@ -397,7 +400,7 @@ TEST_F(Ways, HoweverManyStepsHoldAListItWaitsOnce) {
 TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(80000), {SensorId{0}, 1}}};
   data_.fused = {fused(13000, 0, 0, Disposition::kDroppedTooOld)};
-  data_.hops = {{at_us(90000), NodeId{2}, recording::records::Hop::kOverwritten, SensorId{0}, 1, PduId{}}};
+  data_.hops = {{stamp(90000, 2), recording::records::Hop::kOverwritten, PduId{}, SensorId{0}, 1}};
   const auto all = ways();
   EXPECT_TRUE(all[0].dropped);
   EXPECT_TRUE(all[1].dropped);
@@ -429,9 +432,9 @@ TEST_F(Ways, AnotherNumberIsAnotherList) {
 // A task ends as the next begins: lists written then are the first one's.
 TEST_F(Ways, WhatIsWrittenIsOfTheRunThatEndsThen) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
-  data_.executions = {{at_us(4000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
-                      {at_us(9000), at_us(9000), at_us(9500), NodeId{2}, 1, true}};
-  data_.hops = {{at_us(9000), NodeId{2}, recording::records::Hop::kWritten, SensorId{0}, 7, PduId{}}};
+  data_.executions = {{stamp(4000, 2), 0, stamp(4000, 2), stamp(9000, 2), true},
+                      {stamp(9000, 2), 1, stamp(9000, 2), stamp(9500, 2), true}};
+  data_.hops = {{stamp(9000, 2), recording::records::Hop::kWritten, PduId{}, SensorId{0}, 7}};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 1u);
   EXPECT_EQ(all[0].last.lane, (LaneKey{LaneKey::Kind::kTask, 2, 0}));
@@ -449,12 +452,12 @@ TEST_F(Ways, AListThatIsHeldForLongIsFollowed) {
 }
 
 TEST_F(Ways, AnImageGoesOverItsSlotsToTheFeatureService) {
-  data_.images = {{at_us(1000), NodeId{5}, 4, {}}};
-  data_.executions = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true},
-                      {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
+  data_.images = {{stamp(1000, 5), 4, {}}};
+  data_.executions = {{stamp(1000, 5), 1, stamp(1000, 5), stamp(1500, 5), true},
+                      {stamp(30000, 6), 0, stamp(30000, 6), stamp(30300, 6), true}};
   data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0, kNoSensor},
                        {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1, kNoSensor}};
-  data_.uses = {{at_us(30000), NodeId{6}, 4, true}};
+  data_.uses = {{stamp(30000, 6), 4}};
   const auto all = ways_of(data_).images;
   ASSERT_EQ(all.size(), 1u);
   ASSERT_EQ(all[0].legs.size(), 3u);
