@@ -6,7 +6,7 @@
 namespace ttf::recording::scene {
 namespace {
 
-constexpr int kEllipsePoints = 24, kArcPoints = 32;
+constexpr int kArcPoints = 32;
 
 }  // namespace
 

@@ -20,6 +20,7 @@ template <class Object> Pose place_of(const Object& object) { return {object.x, 
 
 // The ellipse of so many standard deviations has 39 % (1), 86 % (2) or 99 % (3) of a Gaussian in the plane.
 inline constexpr double kEllipseSigmas = 2.0;
+inline constexpr int kEllipsePoints = 24;
 // Returns the outline of an object's position as a Gaussian; empty if a damaged log has none.
 std::vector<Point> ellipse(const records::ImageObject& object);
 

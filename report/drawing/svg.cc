@@ -88,6 +88,19 @@ Area text_area(Point at, std::string_view text, const TextStyle& style) {
   return {left, at.y - 0.8 * style.size, width, style.size};
 }
 
+MarkerShape shape_of(Marker kind) {
+  switch (kind) {
+    case Marker::kCircle: break;
+    case Marker::kCross: return {{{{-1, -1}, {1, 1}}, {{-1, 1}, {1, -1}}}, false};
+    case Marker::kPlus: return {{{{-1, 0}, {1, 0}}, {{0, -1}, {0, 1}}}, false};
+    case Marker::kTriangle: return {{{{0, -1.1}, {1, 0.8}, {-1, 0.8}}}};
+    case Marker::kSquare: return {{{{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}}}};
+    case Marker::kDiamond: return {{{{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}}}};
+    case Marker::kDownTriangle: return {{{{0, 1.1}, {1, -0.8}, {-1, -0.8}}}};
+  }
+  return {};
+}
+
 Svg::Svg(double width, double height, std::string_view title, const Sheet& sheet)
     : width_(width), height_(height), title_(title), sheet_(sheet) {}
 
@@ -159,38 +172,21 @@ void Svg::arrow(Point a, Point b, const Paint& paint, std::string_view hover, st
 void Svg::marker(Marker kind, Point at, double size, const Paint& paint, std::string_view hover,
                  std::string_view css_class) {
   const double r = size / 2;
-  const auto shape = [&](std::initializer_list<Point> offsets) {
-    std::vector<Point> points;
-    for (const Point& o : offsets) points.push_back({at.x + r * o.x, at.y + r * o.y});
-    polyline(points, paint, true, hover, css_class);
-  };
-  switch (kind) {
-    case Marker::kCircle:
-      fmt::format_to(std::back_inserter(body_), "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", number(at.x), number(at.y),
-                     number(r));
-      add_class(body_, css_class);
-      add_paint(body_, paint);
-      finish_element("circle", hover);
-      break;
-    case Marker::kCross:
-      body_ += fmt::format("<path d=\"M{0} {2}L{1} {3}M{0} {3}L{1} {2}\"", number(at.x - r), number(at.x + r),
-                           number(at.y - r), number(at.y + r));
-      add_class(body_, css_class);
-      add_paint(body_, paint);
-      finish_element("path", hover);
-      break;
-    case Marker::kPlus:
-      body_ += fmt::format("<path d=\"M{0} {2}L{1} {2}M{3} {4}L{3} {5}\"", number(at.x - r), number(at.x + r),
-                           number(at.y), number(at.x), number(at.y - r), number(at.y + r));
-      add_class(body_, css_class);
-      add_paint(body_, paint);
-      finish_element("path", hover);
-      break;
-    case Marker::kTriangle: shape({{0, -1.1}, {1, 0.8}, {-1, 0.8}}); break;
-    case Marker::kSquare: shape({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}}); break;
-    case Marker::kDiamond: shape({{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}}); break;
-    case Marker::kDownTriangle: shape({{0, 1.1}, {1, -0.8}, {-1, -0.8}}); break;
+  const MarkerShape shape = shape_of(kind);
+  if (shape.lines.empty()) {
+    fmt::format_to(std::back_inserter(body_), "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", number(at.x), number(at.y),
+                   number(r));
+  } else {
+    std::string d;
+    for (std::vector<Point> line : shape.lines) {
+      for (Point& p : line) p = {at.x + r * p.x, at.y + r * p.y};
+      d += path_of(line, shape.closed);
+    }
+    fmt::format_to(std::back_inserter(body_), "<path d=\"{}\"", d);
   }
+  add_class(body_, css_class);
+  add_paint(body_, paint);
+  finish_element(shape.lines.empty() ? "circle" : "path", hover);
 }
 
 void Svg::text(Point at, std::string_view text, const TextStyle& style) {

@@ -62,6 +62,13 @@ inline constexpr double kLineHeight = 14;
 
 enum class Marker : std::uint8_t { kCircle, kCross, kTriangle, kSquare, kDiamond, kDownTriangle, kPlus };
 
+// A marker's lines about its place, in halves of its size, y down. A circle has none.
+struct MarkerShape {
+  std::vector<std::vector<Point>> lines;
+  bool closed = true;
+};
+MarkerShape shape_of(Marker kind);
+
 class Svg {
  public:
   // On paper all text has one size, whatever its style says, and the picture its size in millimetres.

@@ -2,8 +2,6 @@
 "use strict";
 const SceneControls = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
-  const LAYERS = { truth: "true objects", tracks: "tracks", ellipses: "ellipses (2 sigma)", trails: "trails (2 s)",
-    warnings: "warnings", fields: "fields" };
   const { make, buttons } = Elements;
 
   // The player acts: play, go, zoom, all, redraw, and what a pointer does in a panel.
@@ -80,9 +78,12 @@ const SceneControls = (() => {
     layers() {
       const observing = this.scenes.flatMap((scene) => scene.sensors.filter((sensor) => !sensor.odometry));
       const sensors = new Set(observing.map((sensor) => sensor.name));
+      const { sigmas, trail } = this.scenes[0].rules;
+      const words = { truth: "true objects", tracks: "tracks", ellipses: `ellipses (${sigmas} sigma)`,
+        trails: `trails (${trail} s)`, warnings: "warnings", fields: "fields" };
       const box = make("div", { className: "legend" });
-      for (const name of [...Object.keys(LAYERS), ...sensors]) {
-        const one = make("button", { type: "button", textContent: LAYERS[name] ?? `${name}: observations` });
+      for (const name of [...Object.keys(words), ...sensors]) {
+        const one = make("button", { type: "button", textContent: words[name] ?? `${name}: observations` });
         one.setAttribute("aria-pressed", true);
         one.addEventListener("click", () => {
           if (!this.hidden.delete(name)) this.hidden.add(name);

@@ -1,5 +1,4 @@
-// A drive seen from above, unpacked from the page's data. report/scene/packed.h has the columns and the rules' numbers,
-// report/scene/view.h the rules of an instant.
+// A drive seen from above, unpacked from the page's data. report/scene/packed.h explains the columns, and decides what is shown.
 "use strict";
 const SceneData = (() => {
   const column = (Type, text) => {
@@ -27,16 +26,19 @@ const SceneData = (() => {
     return low;
   };
 
-  // Returns the part with the same id in the moment `by` further on, for each part; -1 without one.
-  const same = (kind, by) => {
-    const out = new Int32Array(kind.id.length).fill(-1);
-    for (let m = 0; m < kind.at.length; ++m) {
-      if (m + by < 0 || m + by >= kind.at.length) continue;
-      const there = new Map();
-      for (let p = kind.begin[m + by]; p < kind.begin[m + by + 1]; ++p) there.set(kind.id[p], p);
-      for (let p = kind.begin[m]; p < kind.begin[m + 1]; ++p) out[p] = there.get(kind.id[p]) ?? -1;
-    }
-    return out;
+  // Adds to each part: its moment; the newest earlier part with its id; that of the next moment. -1: none.
+  const link = (kind) => {
+    const parts = kind.id.length, last = new Map();
+    for (const name of ["moment", "before", "next"]) kind[name] = new Int32Array(parts).fill(-1);
+    for (let m = 0; m < kind.at.length; ++m)
+      for (let p = kind.begin[m]; p < kind.begin[m + 1]; ++p) {
+        const q = last.get(kind.id[p]) ?? -1;
+        kind.moment[p] = m;
+        kind.before[p] = q;
+        if (q >= 0 && kind.moment[q] === m - 1) kind.next[q] = p;
+        last.set(kind.id[p], p);
+      }
+    return kind;
   };
   const turn = (angle) => angle - 65534 * Math.round(angle / 65534);
 
@@ -45,18 +47,17 @@ const SceneData = (() => {
       Object.assign(this, { label: json.label, colour: json.colour, from: json.from, to: json.to, unit: json.unit,
         note: json.note, sensors: json.sensors, rules: json.rules });
       const place = { x: Int16Array, y: Int16Array };
-      this.truth = moments(json.truth, { id: Uint16Array, ...place, heading: Int16Array });
-      this.images = moments(json.images, {
+      this.truth = link(moments(json.truth, { id: Uint16Array, ...place, heading: Int16Array }));
+      this.images = link(moments(json.images, {
         id: Uint16Array, ...place, heading: Int16Array, speed: Int16Array, length: Uint16Array, width: Uint16Array,
         sigma_x: Uint16Array, sigma_y: Uint16Array, correlation: Int8Array, status: Uint8Array,
-      });
+      }));
       // How the vehicle drove at an image: then speeds are over ground.
       this.own = moments(json.own, { speed: Int16Array, yaw_rate: Float32Array });
       this.moves = this.own.at.length > 0;
       this.lists = json.lists.map((list) => moments(list, place));
-      this.warned = moments(json.warnings, { id: Uint16Array, collision: Float32Array, gap: Float32Array });
-      this.truth.next = same(this.truth, 1);
-      this.images.before = same(this.images, -1);
+      this.warned = moments(json.warnings, { id: Uint16Array, word: Uint16Array });
+      this.words = json.warnings.words;
       const [ids, length, width] = ["id", "length", "width"].map((name) => column(Uint16Array, json.truth.sizes[name]));
       this.sizes = new Map([...ids].map((id, i) => [id, [length[i] / 100, width[i] / 100]]));
     }
@@ -77,9 +78,8 @@ const SceneData = (() => {
 
     objects(t) {
       const { truth, unit, sizes } = this, m = newest(truth.at, t), out = [];
-      if (m < 0 || t - truth.at[m] > this.rules.object_life) return out;
-      const wait = m + 1 < truth.at.length ? truth.at[m + 1] - truth.at[m] : Infinity;
-      const part = wait <= this.rules.object_life ? (t - truth.at[m]) / wait : 0;
+      if (m < 0) return out;
+      const part = (t - truth.at[m]) / (truth.at[m + 1] - truth.at[m]);
       for (let p = truth.begin[m]; p < truth.begin[m + 1]; ++p) {
         const q = truth.next[p] < 0 ? p : truth.next[p], id = truth.id[p], [length, width] = sizes.get(id) ?? [0, 0];
         out.push({
@@ -107,17 +107,17 @@ const SceneData = (() => {
     }
 
     tracks(t) {
-      const { images, unit } = this, m = newest(images.at, t), out = [];
-      if (m < 0 || t - images.at[m] > this.rules.object_life) return out;
+      const { images, unit, rules } = this, m = newest(images.at, t), out = [];
+      if (m < 0) return out;
       const own = this.own_motion(m);
       for (let p = images.begin[m]; p < images.begin[m + 1]; ++p) {
         const then = { x: images.x[p] * unit, y: images.y[p] * unit, heading: images.heading[p] / 32767 * Math.PI,
           speed: images.speed[p] / 100, own };
         out.push({
-          p, m, id: images.id[p], ...then, ...this.moved_on(then, t - images.at[m]),
+          p, id: images.id[p], ...then, ...this.moved_on(then, t - images.at[m]),
           length: images.length[p] / 100, width: images.width[p] / 100, sigma_x: images.sigma_x[p] / 100,
           sigma_y: images.sigma_y[p] / 100, correlation: images.correlation[p] / 127,
-          confirmed: (images.status[p] & 1) !== 0, coasting: (images.status[p] & 2) !== 0,
+          confirmed: (images.status[p] & rules.confirmed) !== 0, coasting: (images.status[p] & rules.coasting) !== 0,
         });
       }
       return out;
@@ -126,25 +126,22 @@ const SceneData = (() => {
     // Calls `draw(x, y)` for the places of a track in its newest images, from the newest on.
     trail(track, t, draw) {
       const { images, unit } = this;
-      for (let { p, m } = track; p >= 0 && t - images.at[m] <= this.rules.trail; p = images.before[p], --m)
+      for (let { p } = track; p >= 0 && t - images.at[images.moment[p]] <= this.rules.trail; p = images.before[p])
         draw(images.x[p] * unit, images.y[p] * unit);
     }
 
     // Calls `draw(x, y)` for each observation of a sensor's newest list.
     observations(sensor, t, draw) {
       const list = this.lists[sensor], m = newest(list.at, t);
-      if (m < 0 || t - list.at[m] > this.rules.list_life) return;
+      if (m < 0) return;
       for (let p = list.begin[m]; p < list.begin[m + 1]; ++p) draw(list.x[p] * this.unit, list.y[p] * this.unit);
     }
 
     // Returns the words of each warning, by the track's id.
     warnings(t) {
       const { warned } = this, m = newest(warned.at, t), out = new Map();
-      if (m < 0 || t - warned.at[m] > this.rules.object_life) return out;
-      for (let p = warned.begin[m]; p < warned.begin[m + 1]; ++p)
-        out.set(warned.id[p],
-          Number.isFinite(warned.collision[p]) ? `collision in ${warned.collision[p].toFixed(1)} s` :
-          Number.isFinite(warned.gap[p])       ? `gap of ${warned.gap[p].toFixed(1)} s` : "warning");
+      if (m < 0) return out;
+      for (let p = warned.begin[m]; p < warned.begin[m + 1]; ++p) out.set(warned.id[p], this.words[warned.word[p]]);
       return out;
     }
 

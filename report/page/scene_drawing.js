@@ -1,9 +1,9 @@
 // Draws a scene's instant on a canvas. All objects of a kind are one path, so that a thousand take a few milliseconds.
 "use strict";
 const SceneDrawing = (() => {
-  const MOST_NAMED = 120, NAMED_SCALE = 14;   // px per metre at which all are named
+  const NEAR = 14;   // px per metre at which all are named, and all observations have their markers
   const SMALLEST = 4;   // px: smaller things are dots
-  const ROUND = [...Array(16).keys()].map((k) => [Math.cos(k * Math.PI / 8), Math.sin(k * Math.PI / 8)]);
+  const DOT = { width: 0, dash: "", opacity: 1, covers: 1 }, GRID = { ...DOT, width: 1, covers: 0 };   // as looks of the data
   const variable = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   // Sensors' colours are those of all pictures; on a dark page they are lighter.
   const lighter = (colour) => {
@@ -11,26 +11,19 @@ const SceneDrawing = (() => {
     return `rgb(${parts.map((part) => Math.round(part + (255 - part) * 0.4)).join(" ")})`;
   };
 
-  // Adds lines from point to point, each [x, y] in units of r about the place.
-  const polygon = (c, x, y, r, points) => {
+  // Adds lines from point to point, each [x, y] in units of r about the place, y down.
+  const polygon = (c, x, y, r, points, closed = true) => {
     points.forEach(([u, v], i) => i ? c.lineTo(x + r * u, y + r * v) : c.moveTo(x + r * u, y + r * v));
+    if (closed) c.closePath();
   };
-  const closed = (points) => (c, x, y, r) => { polygon(c, x, y, r, points); c.closePath(); };
-  const crossed = (first, second) => (c, x, y, r) => { polygon(c, x, y, r, first); polygon(c, x, y, r, second); };
-  const MARKS = {
-    circle: (c, x, y, r) => { c.moveTo(x + r, y); c.arc(x, y, r, 0, 7); },
-    cross: crossed([[-1, -1], [1, 1]], [[-1, 1], [1, -1]]),
-    plus: crossed([[-1, 0], [1, 0]], [[0, -1], [0, 1]]),
-    triangle: closed([[0, -1], [1, 1], [-1, 1]]),
-    down_triangle: closed([[0, 1], [1, -1], [-1, -1]]),
-    square: closed([[-1, -1], [1, -1], [1, 1], [-1, 1]]),
-    diamond: closed([[0, -1], [1, 0], [0, 1], [-1, 0]]),
-  };
+  const upright = (points) => points.map(([x, y]) => [x, -y]);
 
   return class {
     // `view` is {x, y, scale}: the centre in metres, and pixels per metre. `hidden` has the names of hidden layers.
     constructor(canvas, data, view, hidden) {
-      Object.assign(this, { canvas, data, view, hidden, c: canvas.getContext("2d") });
+      Object.assign(this, { canvas, data, view, hidden, c: canvas.getContext("2d"), rules: data.rules });
+      const points = this.rules.ellipse_points, angle = (k) => 2 * Math.PI * k / points;
+      this.round = [...Array(points).keys()].map((k) => [Math.cos(angle(k)), Math.sin(angle(k))]);
       this.colours();
     }
     colours() {
@@ -56,13 +49,14 @@ const SceneDrawing = (() => {
     to_y(py) { return this.view.y - (py - this.height / 2) / this.view.scale; }
 
     // Draws one path: `lines(c)` adds to it.
-    path(lines, { stroke, fill, width = 1, dash = [], opacity = 1, covers = 0.25 }) {
+    path(lines, { width, dash, opacity, covers }, colour) {
       const { c } = this;
+      Object.assign(c, { fillStyle: colour, strokeStyle: colour, lineWidth: width || 1 });
+      c.setLineDash(dash.match(/[\d.]+/g) ?? []);
       c.beginPath();
       lines(c);
-      if (fill) { c.globalAlpha = covers; c.fillStyle = fill; c.fill(); }
-      c.globalAlpha = opacity;
-      if (stroke) { c.strokeStyle = stroke; c.lineWidth = width; c.setLineDash(dash); c.stroke(); }
+      if (covers > 0) { c.globalAlpha = covers; c.fill(); }
+      if (width > 0) { c.globalAlpha = opacity; c.stroke(); }
       c.globalAlpha = 1;
     }
     // Returns whether a thing of so many metres is seen as more than a dot.
@@ -79,10 +73,10 @@ const SceneDrawing = (() => {
       c.closePath();
     }
     ellipse(one) {
-      const { c } = this, { sigmas } = this.data.rules;
+      const { c } = this, { sigmas } = this.rules;
       if (!this.large(sigmas * Math.max(one.sigma_x, one.sigma_y))) return;
       const rest = Math.sqrt(Math.max(0, 1 - one.correlation ** 2));
-      ROUND.forEach(([a, b], i) => {
+      this.round.forEach(([a, b], i) => {
         const x = this.px(one.x + sigmas * one.sigma_x * a);
         const y = this.py(one.y + sigmas * one.sigma_y * (one.correlation * a + rest * b));
         if (i) c.lineTo(x, y); else c.moveTo(x, y);
@@ -90,24 +84,27 @@ const SceneDrawing = (() => {
       c.closePath();
     }
     observations(t) {
-      let count = 0;
-      this.data.sensors.forEach((sensor, s) => {
-        if (this.hidden.has(sensor.name)) return;
+      const { rules } = this, lists = this.data.sensors.map((sensor, s) => {
         const places = [];
-        this.data.observations(s, t, (x, y) => places.push([this.px(x), this.py(y)]));
-        count += places.length;
-        const colour = this.sensors[s];
-        if (places.length > MOST_NAMED && this.view.scale < NAMED_SCALE)
-          this.path((to) => { for (const [x, y] of places) to.rect(x - 1, y - 1, 2, 2); }, { fill: colour, covers: 1 });
+        if (!this.hidden.has(sensor.name))
+          this.data.observations(s, t, (x, y) => places.push([this.px(x), this.py(y)]));
+        return places;
+      });
+      const count = lists.reduce((sum, places) => sum + places.length, 0), many = count > rules.most_large;
+      lists.forEach((places, s) => {
+        const { lines, closed } = this.data.sensors[s], r = (many ? rules.small : rules.large) / 2;
+        if (many && this.view.scale < NEAR)
+          this.path((to) => { for (const [x, y] of places) to.rect(x - 1, y - 1, 2, 2); }, DOT, this.sensors[s]);
         else
-          this.path((to) => { for (const [x, y] of places) MARKS[sensor.marker](to, x, y, 4.5); },
-            { stroke: colour, width: 1.5 });
+          this.path((to) => {
+            for (const [x, y] of places) for (const line of lines) polygon(to, x, y, r, line, closed);
+          }, rules.looks.observation, this.sensors[s]);
       });
       return count;
     }
 
     draw(t) {
-      const { c, data, hidden } = this, begin = performance.now();
+      const { c, data, hidden, rules: { looks } } = this, begin = performance.now();
       c.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
       c.clearRect(0, 0, this.width, this.height);
       this.ground();
@@ -116,15 +113,15 @@ const SceneDrawing = (() => {
       const coasting = tracks.filter((one) => one.coasting), seen = tracks.filter((one) => !one.coasting);
       const warnings = hidden.has("warnings") ? new Map() : all.warnings;
       const warned = tracks.filter((one) => warnings.has(one.id));
-      this.path(() => objects.forEach((one) => this.box(one)), { stroke: this.soft, fill: this.soft });
-      if (!hidden.has("trails")) this.path(() => this.trails(tracks, t), { stroke: this.own, opacity: 0.5 });
-      if (!hidden.has("ellipses")) this.path(() => tracks.forEach((one) => this.ellipse(one)), { stroke: this.own });
-      this.path(() => seen.forEach((one) => this.box(one)), { stroke: this.own, width: 1.8 });
-      this.path(() => coasting.forEach((one) => this.box(one)), { stroke: this.own, width: 1.8, dash: [4, 3] });
-      this.path(() => tracks.forEach((one) => this.velocity(one)), { stroke: this.own, width: 1.2 });
+      this.path(() => objects.forEach((one) => this.box(one)), looks.truth, this.soft);
+      if (!hidden.has("trails")) this.path(() => this.trails(tracks, t), looks.trail, this.own);
+      if (!hidden.has("ellipses")) this.path(() => tracks.forEach((one) => this.ellipse(one)), looks.ellipse, this.own);
+      this.path(() => seen.forEach((one) => this.box(one)), looks.track, this.own);
+      this.path(() => coasting.forEach((one) => this.box(one)), looks.coasting, this.own);
+      this.path(() => tracks.forEach((one) => this.velocity(one)), looks.velocity, this.own);
       const observations = this.observations(t);
-      this.path(() => warned.forEach((one) => this.box(one)), { stroke: this.alarm, width: 3 });
-      this.path((to) => this.vehicle(to), { fill: this.ink, covers: 1 });
+      this.path((to) => polygon(to, this.px(0), this.py(0), 1, upright(this.rules.vehicle)), looks.vehicle, this.ink);
+      this.path(() => warned.forEach((one) => this.box(one)), looks.warning, this.alarm);
       this.names(tracks, warnings);
       this.seen = { objects, tracks };
       Object.assign(this.canvas.dataset, {
@@ -145,26 +142,21 @@ const SceneDrawing = (() => {
       return x >= across && y >= up && x + across <= this.width && y + up <= this.height;
     }
 
-    // An arrow head at the origin, along x.
-    vehicle(to) {
-      const x = this.px(0), y = this.py(0);
-      to.moveTo(x + 7, y);
-      to.lineTo(x - 6, y - 6);
-      to.lineTo(x - 6, y + 6);
-    }
     // A thousand trails would be too many lines: then they have fewer points.
     trails(tracks, t) {
       const { c } = this, every = Math.max(1, Math.ceil(tracks.length / 250));
       for (const track of tracks) {
         let n = 0;
-        c.moveTo(this.px(track.x), this.py(track.y));
-        this.data.trail(track, t, (x, y) => { if (n++ % every === 0) c.lineTo(this.px(x), this.py(y)); });
+        this.data.trail(track, t, (x, y) => {
+          if (n++ % every === 0) c[n === 1 ? "moveTo" : "lineTo"](this.px(x), this.py(y));
+        });
       }
     }
     // Points where the track is after a second, as the vehicle sees it.
     velocity(one) {
-      const { c } = this, after = this.data.moved_on(one, 1), way = Math.hypot(after.x - one.x, after.y - one.y);
-      if (way < 0.1 || !this.large(way)) return;
+      const { c, rules } = this, after = this.data.moved_on(one, rules.ahead);
+      const way = Math.hypot(after.x - one.x, after.y - one.y);
+      if (way < rules.least_way || !this.large(way)) return;
       c.moveTo(this.px(one.x), this.py(one.y));
       c.lineTo(this.px(after.x), this.py(after.y));
     }
@@ -186,7 +178,7 @@ const SceneDrawing = (() => {
     // Ids stand above, beside or below their boxes, and cover neither a box nor each other: one without room is left
     // out. A warning is always written.
     names(tracks, warnings) {
-      const all = tracks.length <= MOST_NAMED || this.view.scale > NAMED_SCALE, { c, width, height } = this;
+      const all = tracks.length <= this.rules.most_named || this.view.scale > NEAR, { c, width, height } = this;
       const taken = tracks.map((one) => this.around(one));
       const free = (r) => this.inside(r.x, r.y, r.across, r.up) && !taken.some((other) =>
         Math.abs(r.x - other.x) < r.across + other.across && Math.abs(r.y - other.y) < r.up + other.up);
@@ -222,11 +214,11 @@ const SceneDrawing = (() => {
       this.path((to) => {
         for (const x of xs) { to.moveTo(this.px(x), 0); to.lineTo(this.px(x), this.height); }
         for (const y of ys) { to.moveTo(0, this.py(y)); to.lineTo(this.width, this.py(y)); }
-      }, { stroke: this.grid });
+      }, GRID, this.grid);
       if (!this.hidden.has("fields"))
         this.data.sensors.forEach((sensor, s) => this.path(
-            (to) => closed(sensor.edge.map(([x, y]) => [x, -y]))(to, this.px(0), this.py(0), this.view.scale),
-            { stroke: this.sensors[s], fill: this.sensors[s], dash: [6, 4], opacity: 0.5, covers: 0.05 }));
+            (to) => polygon(to, this.px(0), this.py(0), this.view.scale, upright(sensor.edge)),
+            this.rules.looks.field, this.sensors[s]));
       c.font = "11px system-ui, sans-serif";
       c.textAlign = "center";
       for (const x of xs)

@@ -9,6 +9,7 @@
 
 #include "recording/scene/geometry.h"
 #include "report/drawing/base64.h"
+#include "report/scene/looks.h"
 #include "report/scene/view.h"
 
 namespace ttf::report::scene {
@@ -44,10 +45,14 @@ template <class Number> class Column {
 struct Times {
   Column<double> at;
   Column<std::uint16_t> count;
-  template <class Part> explicit Times(const std::vector<Moment<Part>>& moments) {
-    for (const Moment<Part>& moment : moments) {
-      at.add(static_cast<double>(moment.at.ns) * 1e-9);
-      count.add(static_cast<double>(most(moment)));
+  template <class Part> Times(const std::vector<Moment<Part>>& moments, Duration life) {
+    const auto add = [this](TrueTime t, std::size_t parts) {
+      at.add(static_cast<double>(t.ns) * 1e-9);
+      count.add(static_cast<double>(parts));
+    };
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+      add(moments[m].at, most(moments[m]));
+      if (life != kOwnLife && !counts_until_next(moments, m, life)) add(moments[m].at + life + Duration{1}, 0);
     }
   }
   template <class Part> static std::size_t most(const Moment<Part>& moment) {
@@ -76,7 +81,7 @@ Json truth_json(const Scene& scene, double unit) {
     heading.add(angle(one.heading));
     sizes[static_cast<std::uint16_t>(one.id)] = {one.length, one.width};
   });
-  Json json = Times(scene.truth).json();
+  Json json = Times(scene.truth, kObjectLife).json();
   json["id"] = id.text();
   json["x"] = x.text();
   json["y"] = y.text();
@@ -109,7 +114,7 @@ Json images_json(const Scene& scene, double unit) {
     correlation.add(one.correlation, 127.0);
     status.add(one.status);
   });
-  Json json = Times(scene.images).json();
+  Json json = Times(scene.images, kObjectLife).json();
   json["id"] = id.text();
   json["x"] = x.text();
   json["y"] = y.text();
@@ -130,7 +135,7 @@ Json list_json(const std::vector<Moment<Point>>& moments, double unit) {
     x.add(one.x, 1.0 / unit);
     y.add(one.y, 1.0 / unit);
   });
-  Json json = Times(moments).json();
+  Json json = Times(moments, kListLife).json();
   json["x"] = x.text();
   json["y"] = y.text();
   return json;
@@ -143,39 +148,63 @@ Json own_json(const Scene& scene) {
     speed.add(one.speed, 100.0);
     yaw_rate.add(one.yaw_rate);
   });
-  Json json = Times(scene.own).json();
+  Json json = Times(scene.own, kOwnLife).json();
   json["speed"] = speed.text();
   json["yaw_rate"] = yaw_rate.text();
   return json;
 }
 
 Json warnings_json(const Scene& scene) {
-  Column<std::uint16_t> id;
-  Column<float> collision, gap;
+  Column<std::uint16_t> id, word;
+  Json words = Json::array();
+  std::map<std::string, std::size_t> places;
   each(scene.warnings, [&](const Warning& one) {
+    const auto [place, added] = places.try_emplace(words_of(one), places.size());
+    if (added) words.push_back(place->first);
     id.add(static_cast<double>(index_of(one.track)));
-    collision.add(one.time_to_collision_s);
-    gap.add(one.time_gap_s);
+    word.add(static_cast<double>(place->second));
   });
-  Json json = Times(scene.warnings).json();
+  Json json = Times(scene.warnings, kObjectLife).json();
   json["id"] = id.text();
-  json["collision"] = collision.text();
-  json["gap"] = gap.text();
+  json["word"] = word.text();
+  json["words"] = words;
   return json;
 }
 
 Json sensor_json(const Scene& scene, std::size_t index, const drawing::Names& names) {
-  static constexpr std::string_view kMarkers[] = {"circle",  "cross",         "triangle", "square",
-                                                  "diamond", "down_triangle", "plus"};
   const ViewedSensor& sensor = scene.sensors[index];
-  const drawing::Marker marker = drawing::sensor_marker(names, static_cast<SensorId>(index));
-  Json json{{"name", sensor.name}, {"colour", sensor.colour}, {"marker", kMarkers[static_cast<std::size_t>(marker)]}};
+  const drawing::MarkerShape marker = drawing::shape_of(drawing::sensor_marker(names, static_cast<SensorId>(index)));
+  Json json{{"name", sensor.name}, {"colour", sensor.colour}, {"lines", Json::array()}, {"closed", marker.closed}};
+  for (const std::vector<drawing::Point>& line : marker.lines) {
+    Json& points = json["lines"].emplace_back(Json::array());
+    for (const drawing::Point& p : line) points.push_back({p.x, p.y});
+  }
   if (sensor.odometry) json["odometry"] = true;
   json["edge"] = Json::array();
   if (!sensor.field || !sensor.mounting) return json;
   const auto cm = [](double metres) { return std::round(metres * 100.0) / 100.0; };
   for (const Point& p : recording::scene::mounted(*sensor.mounting, recording::scene::edge(*sensor.field)))
     json["edge"].push_back({cm(p.x), cm(p.y)});
+  return json;
+}
+
+Json rules_json() {
+  Json json{{"trail", kTrail.seconds()},
+            {"sigmas", recording::scene::kEllipseSigmas},
+            {"ellipse_points", recording::scene::kEllipsePoints},
+            {"confirmed", static_cast<int>(recording::records::ImageStatus::kConfirmed)},
+            {"coasting", static_cast<int>(recording::records::ImageStatus::kCoasting)},
+            {"most_named", kMostNamed},
+            {"most_large", kMostLarge},
+            {"large", kLarge},
+            {"small", kSmall},
+            {"ahead", kAhead_s},
+            {"least_way", kLeastWay_m},
+            {"vehicle", Json::array()}};
+  for (const auto& [x, y] : kVehicle) json["vehicle"].push_back({x, y});
+  for (const Look& look : kLooks)
+    json["looks"][std::string(look.part)] = {
+        {"width", look.width}, {"dash", look.dash}, {"opacity", look.opacity}, {"covers", look.covers}};
   return json;
 }
 
@@ -201,11 +230,7 @@ Json packed(const Scene& scene, const drawing::Names& names, const std::string& 
             {"to", static_cast<double>(scene.last.ns) * 1e-9},
             {"unit", unit},
             {"note", scene.thinned_words()},
-            {"rules",
-             {{"object_life", kObjectLife.seconds()},
-              {"list_life", kListLife.seconds()},
-              {"trail", kTrail.seconds()},
-              {"sigmas", recording::scene::kEllipseSigmas}}},
+            {"rules", rules_json()},
             {"sensors", Json::array()},
             {"truth", truth_json(scene, unit)},
             {"images", images_json(scene, unit)},

@@ -10,17 +10,21 @@
 
 #include "recording/scene/geometry.h"
 #include "report/drawing/axes.h"
+#include "report/scene/looks.h"
 #include "report/scene/view.h"
 
 namespace ttf::report::scene {
 namespace {
 
 using drawing::LegendEntry;
-constexpr std::size_t kMostNamed = 100, kMostLarge = 200;  // tracks with an id, observations in full size
-constexpr double kBeside = 90;                             // units left and right of the plot
+constexpr double kBeside = 90;  // units left and right of the plot
 constexpr std::string_view kTruth = "#777777", kTrack = drawing::kBlack, kWarning = "#d00000";
 
 double wide(float value) { return static_cast<double>(value); }
+
+drawing::Paint line_of(const Look& look, std::string_view colour) {
+  return {.stroke = colour, .width = look.width, .dash = look.dash, .opacity = look.opacity};
+}
 
 recording::records::ImageObject image_of(const ShownTrack& track) {
   recording::records::ImageObject object;
@@ -70,8 +74,9 @@ std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const d
   if (!view.tracks.empty()) {
     const bool named = view.tracks.size() <= kMostNamed;
     add(LegendEntry::Kind::kBox,
-        fmt::format("track, with {}ellipse of 2 sigma and trail of 2 s; arrow: its way in one second{}",
-                    named ? "its id, " : "", scene.own.empty() ? "" : ", as the vehicle sees it"),
+        fmt::format("track, with {}ellipse of {:g} sigma and trail of {:g} s; arrow: its way in one second{}",
+                    named ? "its id, " : "", recording::scene::kEllipseSigmas, kTrail.seconds(),
+                    scene.own.empty() ? "" : ", as the vehicle sees it"),
         kTrack);
     const auto coasts = [](const ShownTrack& one) {
       return has(one.status, recording::records::ImageStatus::kCoasting);
@@ -104,24 +109,27 @@ class Painter {
   void field(const ViewedSensor& sensor) {
     if (!sensor.field || !sensor.mounting) return;
     const std::vector<Point> edge = recording::scene::mounted(*sensor.mounting, recording::scene::edge(*sensor.field));
-    outline(edge, {.fill = sensor.colour, .opacity = 0.05}, {}, "field");
-    outline(edge, {.stroke = sensor.colour, .width = 0.8, .dash = "6 4", .opacity = 0.6}, sensor.name, "field");
+    outline(edge, {.fill = sensor.colour, .opacity = look_of("field").covers}, {}, "field");
+    outline(edge, line_of(look_of("field"), sensor.colour), sensor.name, "field");
   }
   void truth(const TrueObject& one) {
-    outline(corners(one), {.fill = "#dddddd", .stroke = kTruth, .width = 1.1},
+    const std::string fill = drawing::tint(kTruth, 1.0 - look_of("truth").covers);  // hides what is below it
+    drawing::Paint paint = line_of(look_of("truth"), kTruth);
+    paint.fill = fill;
+    outline(corners(one), paint,
             fmt::format("object {}: {:.1f} m long, {:.1f} m wide", index_of(one.id), one.length, one.width), "truth");
   }
   void track(const ShownTrack& one, const View& view, std::span<const Point> trail) {
-    if (trail.size() > 1) outline(trail, {.stroke = kTrack, .width = 1.0, .opacity = 0.6}, {}, "trail", false);
+    if (trail.size() > 1) outline(trail, line_of(look_of("trail"), kTrack), {}, "trail", false);
     const std::vector<Point> around = recording::scene::ellipse(image_of(one));
-    if (!around.empty()) outline(around, {.stroke = kTrack, .width = 0.8}, {}, "ellipse");
+    if (!around.empty()) outline(around, line_of(look_of("ellipse"), kTrack), {}, "ellipse");
     const bool coasting = has(one.status, recording::records::ImageStatus::kCoasting);
-    outline(corners(one), {.stroke = kTrack, .width = 1.6, .dash = coasting ? "4 3" : ""},
+    outline(corners(one), line_of(coasting ? look_of("coasting") : look_of("track"), kTrack),
             fmt::format("track {}: {:.1f} m/s", index_of(one.id), one.speed), "track");
-    const Place after_a_second = moved_on(view, one, 1.0);
-    if (std::hypot(after_a_second.x - wide(one.x), after_a_second.y - wide(one.y)) < 0.1) return;
-    svg_.arrow(frame_.at(wide(one.x), wide(one.y)), frame_.at(after_a_second.x, after_a_second.y),
-               {.stroke = kTrack, .width = 1.0}, {}, "velocity");
+    const Place later = moved_on(view, one, kAhead_s);
+    if (std::hypot(later.x - wide(one.x), later.y - wide(one.y)) < kLeastWay_m) return;
+    svg_.arrow(frame_.at(wide(one.x), wide(one.y)), frame_.at(later.x, later.y), line_of(look_of("velocity"), kTrack),
+               {}, "velocity");
   }
   // Writes beside an object, where there is room.
   template <class Object>
@@ -155,19 +163,18 @@ void paint(const Scene& scene, const View& view, const drawing::Names& names, co
   for (std::size_t t = 0; t < view.tracks.size(); ++t) painter.track(view.tracks[t], view, view.trails[t]);
   std::size_t observations = 0;
   for (const auto& points : view.lists) observations += points.size();
-  const double size = observations <= kMostLarge ? 8.0 : 5.0;
+  const double size = observations <= kMostLarge ? kLarge : kSmall;
   for (std::size_t s = 0; s < view.lists.size(); ++s)
     for (const Point& p : view.lists[s])
       svg.marker(drawing::sensor_marker(names, static_cast<SensorId>(s)), frame.at(p.x, p.y), size,
-                 {.stroke = scene.sensors[s].colour, .width = 1.4}, scene.sensors[s].name, "observation");
-  const drawing::Point own = frame.at(0, 0);  // an arrow head along x
-  svg.polyline(std::array{drawing::Point{own.x + 7, own.y}, drawing::Point{own.x - 6, own.y - 6},
-                          drawing::Point{own.x - 6, own.y + 6}},
-               {.fill = drawing::kBlack}, true, "vehicle", "vehicle");
+                 line_of(look_of("observation"), scene.sensors[s].colour), scene.sensors[s].name, "observation");
+  std::vector<drawing::Point> own;
+  for (const auto& [x, y] : kVehicle) own.push_back({frame.at(0, 0).x + x, frame.at(0, 0).y - y});
+  svg.polyline(own, {.fill = drawing::kBlack, .opacity = look_of("vehicle").covers}, true, "vehicle", "vehicle");
   drawing::LabelSpace labels;
   for (const Warning& warning : view.warnings) {
     const auto one = std::ranges::find(view.tracks, warning.track, &ShownTrack::id);
-    painter.outline(corners(*one), {.stroke = kWarning, .width = 2.6}, words_of(warning), "warning");
+    painter.outline(corners(*one), line_of(look_of("warning"), kWarning), words_of(warning), "warning");
     painter.name(*one, fmt::format("{}: {}", index_of(one->id), words_of(warning)), kWarning, labels);
   }
   for (const ShownTrack& one : view.tracks)

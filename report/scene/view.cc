@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "recording/scene/geometry.h"
@@ -11,9 +12,10 @@
 namespace ttf::report::scene {
 namespace {
 
-// Returns the first moment after `at`; the one before it is the newest.
-template <class Part> auto after(const std::vector<Moment<Part>>& moments, TrueTime at) {
-  return std::ranges::upper_bound(moments, at, {}, &Moment<Part>::at);
+// Returns the moment that counts; null without one.
+template <class Part> const Moment<Part>* newest(const std::vector<Moment<Part>>& moments, TrueTime at, Duration life) {
+  const auto next = std::ranges::upper_bound(moments, at, {}, &Moment<Part>::at);
+  return next == moments.begin() || at - std::prev(next)->at > life ? nullptr : &*std::prev(next);
 }
 
 template <class Part, class Id> const Part* found(const Moment<Part>& moment, Id id) {
@@ -22,15 +24,14 @@ template <class Part, class Id> const Part* found(const Moment<Part>& moment, Id
 }
 
 void add_truth(const Scene& scene, TrueTime at, View& view) {
-  const auto next = after(scene.truth, at);
-  if (next == scene.truth.begin()) return;
-  const Moment<TrueObject>& now = *std::prev(next);
-  if (at - now.at > kObjectLife) return;
-  view.truth = now.parts;
-  if (next == scene.truth.end() || next->at - now.at > kObjectLife) return;
-  const auto part = static_cast<float>((at - now.at).seconds() / (next->at - now.at).seconds());
+  const Moment<TrueObject>* now = newest(scene.truth, at, kObjectLife);
+  if (now == nullptr) return;
+  view.truth = now->parts;
+  if (!counts_until_next(scene.truth, static_cast<std::size_t>(now - scene.truth.data()), kObjectLife)) return;
+  const Moment<TrueObject>& next = *(now + 1);
+  const auto part = static_cast<float>((at - now->at).seconds() / (next.at - now->at).seconds());
   for (TrueObject& one : view.truth) {
-    const TrueObject* later = found(*next, one.id);
+    const TrueObject* later = found(next, one.id);
     if (later == nullptr) continue;
     one.x += part * (later->x - one.x);
     one.y += part * (later->y - one.y);
@@ -39,20 +40,17 @@ void add_truth(const Scene& scene, TrueTime at, View& view) {
 }
 
 void add_tracks(const Scene& scene, TrueTime at, View& view) {
-  const auto next = after(scene.images, at);
-  if (next == scene.images.begin()) return;
-  const auto now = std::prev(next);
-  if (at - now->at > kObjectLife) return;
+  const Moment<ShownTrack>* now = newest(scene.images, at, kObjectLife);
+  if (now == nullptr) return;
   view.tracks = now->parts;
-  if (const auto later = after(scene.own, now->at); later != scene.own.begin())
-    view.own = std::prev(later)->parts.front();
+  if (const Moment<OwnMotion>* own = newest(scene.own, now->at, kOwnLife)) view.own = own->parts.front();
   const double since = (at - now->at).seconds();
   for (ShownTrack& track : view.tracks) {
     std::vector<Point>& trail = view.trails.emplace_back();
-    for (auto image = now; at - image->at <= kTrail; --image) {
+    for (const Moment<ShownTrack>* image = now; at - image->at <= kTrail; --image) {
       if (const ShownTrack* then = found(*image, track.id))
         trail.push_back({static_cast<double>(then->x), static_cast<double>(then->y)});
-      if (image == scene.images.begin()) break;
+      if (image == scene.images.data()) break;
     }
     std::ranges::reverse(trail);
     const Place moved = moved_on(view, track, since);
@@ -74,15 +72,13 @@ View view_at(const Scene& scene, TrueTime at) {
   add_truth(scene, at, view);
   add_tracks(scene, at, view);
   for (const std::vector<Moment<Point>>& moments : scene.lists) {
-    const auto next = after(moments, at);
-    const bool seen = next != moments.begin() && at - std::prev(next)->at <= kListLife;
-    view.lists.push_back(seen ? std::prev(next)->parts : std::vector<Point>{});
+    const Moment<Point>* list = newest(moments, at, kListLife);
+    view.lists.push_back(list != nullptr ? list->parts : std::vector<Point>{});
   }
-  const auto next = after(scene.warnings, at);
-  if (next == scene.warnings.begin() || at - std::prev(next)->at > kObjectLife) return view;
-  for (const Warning& warning : std::prev(next)->parts)
-    if (std::ranges::find(view.tracks, warning.track, &ShownTrack::id) != view.tracks.end())
-      view.warnings.push_back(warning);
+  if (const Moment<Warning>* now = newest(scene.warnings, at, kObjectLife))
+    std::ranges::copy_if(now->parts, std::back_inserter(view.warnings), [&](const Warning& warning) {
+      return std::ranges::find(view.tracks, warning.track, &ShownTrack::id) != view.tracks.end();
+    });
   return view;
 }
 

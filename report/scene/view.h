@@ -1,6 +1,8 @@
-// A scene at one instant. The page's script has the same rules (report/page/scene_data.js), and their numbers from here.
+// A scene at one instant. Its rules stand here alone: the page's data (packed.h) has their results.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -8,8 +10,10 @@
 
 namespace ttf::report::scene {
 
-// Truth and images last so long without another one, a list until its sensor's next one, or shorter.
-inline constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife = Duration::milliseconds(300);
+// A moment counts until the next one of its kind, and at most so long: truth, images and warnings; a sensor's lists; the
+// vehicle's motion.
+inline constexpr Duration kObjectLife = Duration::milliseconds(1000), kListLife = Duration::milliseconds(300),
+                          kOwnLife{std::numeric_limits<std::int64_t>::max()};
 inline constexpr Duration kTrail = Duration::milliseconds(2000);
 
 struct View {
@@ -21,6 +25,12 @@ struct View {
   std::vector<std::vector<Point>> trails;  // each track's places in images at most kTrail old, the oldest first
 };
 View view_at(const Scene& scene, TrueTime at);
+
+// Returns whether the moment at this place counts until the next one.
+template <class Part>
+bool counts_until_next(const std::vector<Moment<Part>>& moments, std::size_t place, Duration life) {
+  return place + 1 < moments.size() && moments[place + 1].at - moments[place].at <= life;
+}
 
 // Returns the track's place so many seconds later, in the axes that the vehicle has then.
 Place moved_on(const View& view, const ShownTrack& track, double seconds);

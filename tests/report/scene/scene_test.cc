@@ -18,9 +18,11 @@
 namespace ttf::report::scene {
 namespace {
 
+using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Pointwise;
 using testing::SizeIs;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -215,18 +217,32 @@ TEST(Scene, PackedNumbersComeBack) {
   EXPECT_EQ(json["label"], "tt");
   const double unit = json["unit"];
   EXPECT_NEAR(unit, 700.0 / 32000.0, 1e-12);  // a centimetre does not reach so far
-  EXPECT_THAT(decoded<double>(json["truth"]["at"]), ElementsAre(0.5));
+  EXPECT_THAT(decoded<double>(json["truth"]["at"]), Pointwise(DoubleNear(1e-12), {0.5, 1.500000001}));  // its end
   EXPECT_NEAR(decoded<std::int16_t>(json["truth"]["x"])[0] * unit, -30.125, unit);
   EXPECT_THAT(decoded<std::uint16_t>(json["truth"]["sizes"]["length"]), ElementsAre(440));
   const auto& images = json["images"];
-  EXPECT_THAT(decoded<std::uint16_t>(images["count"]), ElementsAre(2));
+  EXPECT_THAT(decoded<std::uint16_t>(images["count"]), ElementsAre(2, 0));
   EXPECT_THAT(decoded<std::uint16_t>(images["id"]), ElementsAre(7, 300));
   EXPECT_THAT(decoded<std::int16_t>(images["speed"]), ElementsAre(-8050, 32767));  // the end of its type
-  EXPECT_THAT(decoded<float>(json["warnings"]["gap"]), ElementsAre(1.25f));
+  EXPECT_THAT(decoded<std::uint16_t>(json["warnings"]["word"]), ElementsAre(0));
+  EXPECT_EQ(json["warnings"]["words"][0], "gap of 1.2 s");
   EXPECT_THAT(json["sensors"][0]["edge"], SizeIs(34));
-  EXPECT_EQ(json["sensors"][0]["marker"], "cross");
+  EXPECT_THAT(json["sensors"][0]["lines"], SizeIs(2));  // a cross
+  EXPECT_FALSE(json["sensors"][0]["closed"]);
   EXPECT_THAT(json["sensors"][1]["edge"], IsEmpty());
   EXPECT_THAT(json["lists"], SizeIs(2));
+}
+
+// The page's script shows the newest moment, whatever its age.
+TEST(Scene, APackedMomentThatEndsBeforeTheNextIsFollowedByAnEmptyOne) {
+  Records log;
+  for (int t : {1000, 1200, 1600}) log.observation(t, 0, static_cast<std::uint32_t>(t), 28.0);
+  const Scene scene = log.sink.finished();
+  const nlohmann::ordered_json list = packed(scene, synthetic_names(), "tt", 0)["lists"][0];
+  EXPECT_THAT(decoded<double>(list["at"]), Pointwise(DoubleNear(1e-12), {1.0, 1.2, 1.500000001, 1.6, 1.900000001}));
+  EXPECT_THAT(decoded<std::uint16_t>(list["count"]), ElementsAre(1, 1, 0, 1, 0));
+  EXPECT_THAT(view_at(scene, ms(1500)).lists[0], SizeIs(1));
+  EXPECT_THAT(view_at(scene, ms(1501)).lists[0], IsEmpty());
 }
 
 TEST(Scene, AStillShowsEachPartOnce) {
