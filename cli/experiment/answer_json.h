@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "experiments/sweep/answers/text.h"
+#include "experiments/sweep/answers/answer_text.h"
 
 namespace ttf::cli::experiment {
 

@@ -16,7 +16,7 @@
 #include "cli/progress.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "experiments/sweep/answers/text.h"
+#include "experiments/sweep/answers/answer_text.h"
 #include "experiments/sweep/engine.h"
 
 namespace ttf::cli::experiment {

@@ -10,8 +10,8 @@
 #include "core/errors.h"
 #include "schedules/check/checker.h"
 #include "schedules/model/ports.h"
+#include "schedules/modes/mode_text.h"
 #include "schedules/modes/stated.h"
-#include "schedules/modes/text.h"
 
 namespace ttf::cli::schedule {
 namespace {

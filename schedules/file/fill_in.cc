@@ -22,7 +22,7 @@ bool any(const left_out::Instant& at) { return at.instant || at.repetition; }
 bool any_instant(const left_out::Parts& parts) {
   return !parts.lists.empty() || std::any_of(parts.sensors.begin(), parts.sensors.end(), any) ||
          std::any_of(parts.tasks.begin(), parts.tasks.end(), [](const auto& tasks) {
-           return std::any_of(tasks.begin(), tasks.end(), [](const left_out::Task& task) { return any(task.at); });
+           return std::any_of(tasks.begin(), tasks.end(), [](const left_out::TaskParts& task) { return any(task.at); });
          });
 }
 

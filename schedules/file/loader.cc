@@ -304,7 +304,7 @@ class Loader {
     return bindings;
   }
 
-  model::Activation load_activation(YamlMap map, left_out::Task& absent) {
+  model::Activation load_activation(YamlMap map, left_out::TaskParts& absent) {
     absent.line = map.line();
     model::Activation activation;
     activation.kind = map.choice<model::ActivationKind>("kind", {{"time", model::ActivationKind::kTime},
@@ -326,7 +326,7 @@ class Loader {
     return activation;
   }
 
-  void load_task(YamlMap& map, model::Task& task, left_out::Task& absent) {
+  void load_task(YamlMap& map, model::Task& task, left_out::TaskParts& absent) {
     task.line = map.line();
     task.step = map.text("step");
     task.activation = load_activation(map.map("activation"), absent);
@@ -362,7 +362,7 @@ class Loader {
     auto tasks = map.named_maps("tasks");
     if (tasks.size() > model::kMostTasks)
       map.fail("tasks", fmt::format("must have at most {} entries", model::kMostTasks));
-    std::vector<left_out::Task>& absent = left_out_.tasks.emplace_back();
+    std::vector<left_out::TaskParts>& absent = left_out_.tasks.emplace_back();
     for (auto& [name, entry] : tasks) {
       item.tasks.emplace_back().name = name;
       load_task(entry, item.tasks.back(), absent.emplace_back());

@@ -40,7 +40,8 @@ std::optional<Ticks> free_on_processor(const Items& items, const Item& task, Tic
   for (bool moved = true; moved && start - from < task.period;) {
     moved = false;
     for (const Item& other : items.all) {
-      if (&other == &task || other.place.kind != Place::Kind::kTask || other.place.task.node != task.place.task.node)
+      if (&other == &task || other.place.kind != SchedulePlace::Kind::kTask ||
+          other.place.task.node != task.place.task.node)
         continue;
       const std::optional<Ticks> begins = other.fixed ? other.fixed : other.at;
       if (!begins) continue;
@@ -103,12 +104,12 @@ class Putting {
   std::vector<Wait> waits(const Item& item) const {
     std::vector<Wait> found;
     switch (item.place.kind) {
-      case Place::Kind::kMeasurement: break;
-      case Place::Kind::kSlots:
+      case SchedulePlace::Kind::kMeasurement: break;
+      case SchedulePlace::Kind::kSlots:
         if (const auto writer = writer_of(cluster_, item.place.list, model::kFlexRay))
           add_waits(sources_.ready(*writer), found);
         break;
-      case Place::Kind::kTask:
+      case SchedulePlace::Kind::kTask:
         for (const TaskId& task : with_followers(item.place.task)) {
           for (const model::PortBinding& in : task_at(cluster_, task).reads)
             add_waits(sources_.arrival(in.pdu, in.medium), found);
@@ -122,7 +123,7 @@ class Putting {
     for (const Source& source : sources) {
       const auto known = items_.places.find(source.place);
       if (known == items_.places.end()) continue;
-      const bool slots = source.place.kind == Place::Kind::kSlots;
+      const bool slots = source.place.kind == SchedulePlace::Kind::kSlots;
       const std::int64_t sent_ps =
           slots ? items_.all[known->second].duration * cluster_.flexray.gdMacrotick_ps : std::int64_t{0};
       found.push_back({known->second, ticks(cluster_.flexray, source.ns + (sent_ps + 999) / 1'000 + apart_ns_)});
@@ -138,7 +139,7 @@ class Putting {
   void wait_for_fusion(TaskId image, std::vector<Wait>& found) const {
     for (std::size_t t = 0; t < cluster_.node(image.node).tasks.size(); ++t) {
       const TaskId other{image.node, t};
-      const auto fusing = items_.places.find({Place::Kind::kTask, kNoSensor, other, kNoPdu});
+      const auto fusing = items_.places.find({SchedulePlace::Kind::kTask, kNoSensor, other, kNoPdu});
       if (other == image || fusing == items_.places.end()) continue;
       const std::vector<TaskId> all = with_followers(other);
       if (std::any_of(all.begin(), all.end(), [&](TaskId one) { return fuses(cluster_, one); }))
@@ -168,7 +169,7 @@ class Putting {
     }
     if (item.list)
       return free_slots(cluster_, parts_.lists[*item.list], item.duration / cluster_.flexray.gdStaticSlot, from);
-    return item.place.kind == Place::Kind::kTask ? free_on_processor(items_, item, from) : from;
+    return item.place.kind == SchedulePlace::Kind::kTask ? free_on_processor(items_, item, from) : from;
   }
 
   // Puts the item that can begin first. Returns false if none can.
@@ -179,7 +180,7 @@ class Putting {
       Item& item = items_.all[i];
       if (item.at) continue;
       const bool anywhere = item.list && parts_.lists[*item.list].anywhere;
-      if (needs_[i].empty() && !item.fixed && !anywhere && item.place.kind != Place::Kind::kMeasurement)
+      if (needs_[i].empty() && !item.fixed && !anywhere && item.place.kind != SchedulePlace::Kind::kMeasurement)
         return refuse(item, 0, no_beginning(item));
       const auto from = earliest(i);
       if (!from) continue;
@@ -199,10 +200,10 @@ class Putting {
   // Returns why nothing leads to the item.
   std::string no_beginning(const Item& item) const {
     std::vector<model::PortBinding> lists;
-    if (item.place.kind == Place::Kind::kTask) lists = task_at(cluster_, item.place.task).reads;
+    if (item.place.kind == SchedulePlace::Kind::kTask) lists = task_at(cluster_, item.place.task).reads;
     for (const model::PortBinding& list : lists) {
       const std::string& name = cluster_.pdu(list.pdu).name;
-      if (list.medium.is_flexray() && !items_.places.contains({Place::Kind::kSlots, kNoSensor, {}, list.pdu}))
+      if (list.medium.is_flexray() && !items_.places.contains({SchedulePlace::Kind::kSlots, kNoSensor, {}, list.pdu}))
         return fmt::format("{}, which it reads, has no static slots", name);
       if (!list.medium.is_can()) continue;
       const model::CanBus& bus = cluster_.can(list.medium);
@@ -238,7 +239,7 @@ class Putting {
 
   std::optional<Copied> copied_for(const Item& item) const {
     if (item.list) return parts_.lists[*item.list].copied;
-    if (item.place.kind != Place::Kind::kTask) return std::nullopt;
+    if (item.place.kind != SchedulePlace::Kind::kTask) return std::nullopt;
     return parts_.tasks[index_of(item.place.task.node)][item.place.task.task].copied;
   }
 
@@ -260,7 +261,7 @@ class Putting {
       list.slot = static_cast<int>(offset / g.gdStaticSlot) + 1;
       return add_frames(cluster_, list);
     }
-    const bool measures = item.place.kind == Place::Kind::kMeasurement;
+    const bool measures = item.place.kind == SchedulePlace::Kind::kMeasurement;
     model::CycleInstant& at =
         measures ? cluster_.sensors[index_of(item.place.sensor)].at
                  : cluster_.nodes[index_of(item.place.task.node)].tasks[item.place.task.task].activation.at;
@@ -339,10 +340,10 @@ void put_earliest(model::Cluster& cluster, Parts& parts, Findings& findings) {
   Putting(cluster, parts, findings).put();
 }
 
-void set_deadlines(model::Cluster& cluster, const std::vector<std::vector<Task>>& tasks) {
+void set_deadlines(model::Cluster& cluster, const std::vector<std::vector<TaskParts>>& tasks) {
   constexpr std::int64_t kGrain = 10'000;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    if (std::none_of(tasks[n].begin(), tasks[n].end(), [](const Task& task) { return task.deadline; })) continue;
+    if (std::none_of(tasks[n].begin(), tasks[n].end(), [](const TaskParts& task) { return task.deadline; })) continue;
     const auto responses = analysis::worst_responses(cluster, static_cast<NodeId>(n));
     for (std::size_t t = 0; t < tasks[n].size(); ++t) {
       model::Task& task = cluster.nodes[n].tasks[t];

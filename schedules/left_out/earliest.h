@@ -32,6 +32,6 @@ void add_frames(model::Cluster& cluster, const List& list);
 
 // Sets the deadlines of tasks that are left out: the longest time from activation to end, rounded up to 10 us. Without a bound, the
 // longest execution.
-void set_deadlines(model::Cluster& cluster, const std::vector<std::vector<Task>>& tasks);
+void set_deadlines(model::Cluster& cluster, const std::vector<std::vector<TaskParts>>& tasks);
 
 }  // namespace ttf::schedules::left_out

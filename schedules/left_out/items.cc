@@ -31,7 +31,7 @@ class Collector {
     return base_cycle * Ticks{g_.gMacroPerCycle} + (slot - 1) * Ticks{g_.gdStaticSlot};
   }
 
-  void add(Place place, std::string path, int line, int repetition, Ticks duration, std::optional<Ticks> fixed,
+  void add(SchedulePlace place, std::string path, int line, int repetition, Ticks duration, std::optional<Ticks> fixed,
            std::optional<std::size_t> list = std::nullopt) {
     found_.places.try_emplace(place, found_.all.size());
     found_.all.push_back(
@@ -42,8 +42,9 @@ class Collector {
     for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
       const model::Sensor& sensor = cluster_.sensors[s];
       if (!sensor.scheduled) continue;
-      add({Place::Kind::kMeasurement, static_cast<SensorId>(s), {}, kNoPdu}, "sensors." + sensor.name, sensor.line,
-          sensor.at.repetition, 0, parts_.sensors[s].instant ? std::nullopt : std::optional(at(sensor.at)));
+      add({SchedulePlace::Kind::kMeasurement, static_cast<SensorId>(s), {}, kNoPdu}, "sensors." + sensor.name,
+          sensor.line, sensor.at.repetition, 0,
+          parts_.sensors[s].instant ? std::nullopt : std::optional(at(sensor.at)));
     }
   }
 
@@ -53,11 +54,11 @@ class Collector {
       for (std::size_t t = 0; t < node.tasks.size(); ++t) {
         const model::Task& task = node.tasks[t];
         if (!by_time(task)) continue;
-        const Task& left = parts_.tasks[n][t];
+        const TaskParts& left = parts_.tasks[n][t];
         const TaskId id{static_cast<NodeId>(n), t};
         Duration executions = task.worst_case;  // with all that follow it
         for (const TaskId& follower : followers(cluster_, id)) executions += task_at(cluster_, follower).worst_case;
-        add({Place::Kind::kTask, kNoSensor, id, kNoPdu},
+        add({SchedulePlace::Kind::kTask, kNoSensor, id, kNoPdu},
             fmt::format("nodes.{}.tasks.{}.activation", node.name, task.name), left.line, task.activation.at.repetition,
             ticks(g_, analysis::least_apart(cluster_, node, executions).ns),
             left.at.instant ? std::nullopt : std::optional(at(task.activation.at)));
@@ -68,7 +69,7 @@ class Collector {
   void add_lists() {
     for (std::size_t l = 0; l < parts_.lists.size(); ++l) {
       const List& list = parts_.lists[l];
-      add({Place::Kind::kSlots, kNoSensor, {}, list.pdu}, path_of(cluster_, list), list.line, list.repetition,
+      add({SchedulePlace::Kind::kSlots, kNoSensor, {}, list.pdu}, path_of(cluster_, list), list.line, list.repetition,
           cluster_.pdu(list.pdu).max_fragments() * Ticks{g_.gdStaticSlot},
           list.at.instant ? std::nullopt : std::optional(at_slot(list.base_cycle, list.slot)), l);
     }
@@ -77,7 +78,7 @@ class Collector {
   // The first slots of a list are where its data passes.
   void add_standing_lists() {
     for (const model::FrameSlot& frame : cluster_.frames) {
-      const Place place{Place::Kind::kSlots, kNoSensor, {}, frame.pdu};
+      const SchedulePlace place{SchedulePlace::Kind::kSlots, kNoSensor, {}, frame.pdu};
       if (frame.pdu == kNoPdu || frame.fragment != 0 || is_dynamic(g_, frame) || found_.places.contains(place))
         continue;
       int last = frame.slot;

@@ -14,7 +14,7 @@
 namespace ttf::schedules::left_out {
 
 struct Item {
-  Place place;
+  SchedulePlace place;
   std::string path;  // in the file's words; empty for a list that stands
   int line = 0;
   Ticks period = 0, duration = 0;
@@ -24,8 +24,8 @@ struct Item {
 };
 
 struct Items {
-  std::vector<Item> all;                // sensors, tasks, lists, in the order of the file
-  std::map<Place, std::size_t> places;  // a list's first slots
+  std::vector<Item> all;                        // sensors, tasks, lists, in the order of the file
+  std::map<SchedulePlace, std::size_t> places;  // a list's first slots
 };
 
 // Returns the scheduled measurements, the tasks that time activates, and the lists in static slots. Repetitions are known.

@@ -21,7 +21,7 @@ struct Copied {
   SensorId sensor{}, from{};
 };
 
-struct Task {
+struct TaskParts {
   Instant at;                                   // for a task that time activates
   bool deadline = false;                        // left out
   int line = 0;                                 // the activation's
@@ -47,7 +47,7 @@ std::string path_of(const model::Cluster& cluster, const List& list);
 // All that a file leaves out.
 struct Parts {
   std::vector<Instant> sensors;                     // by sensor
-  std::vector<std::vector<Task>> tasks;             // by node and task
+  std::vector<std::vector<TaskParts>> tasks;        // by node and task
   std::vector<List> lists;                          // those with a value left out; the model has no frames of them
   std::vector<std::vector<bool>> shortest_periods;  // by CAN and message
 };

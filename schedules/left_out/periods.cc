@@ -13,7 +13,7 @@ constexpr int kAsked = -1;
 
 }  // namespace
 
-Periods::Periods(model::Cluster& cluster, const std::vector<std::vector<Task>>& tasks)
+Periods::Periods(model::Cluster& cluster, const std::vector<std::vector<TaskParts>>& tasks)
     : cluster_(cluster), tasks_(tasks), seldom_(model::frame_repetitions(cluster.flexray).back()) {
   for (const model::Node& node : cluster_.nodes) state_.emplace_back(node.tasks.size(), 0);
 }

@@ -16,7 +16,7 @@ namespace ttf::schedules::left_out {
 class Periods {
  public:
   // `tasks` by node and task. Both must outlive the object.
-  Periods(model::Cluster& cluster, const std::vector<std::vector<Task>>& tasks);
+  Periods(model::Cluster& cluster, const std::vector<std::vector<TaskParts>>& tasks);
 
   // Sets the repetitions that the tasks and lists leave out.
   void set(std::vector<List>& lists);
@@ -29,7 +29,7 @@ class Periods {
   int derived(TaskId id);
 
   model::Cluster& cluster_;
-  const std::vector<std::vector<Task>>& tasks_;
+  const std::vector<std::vector<TaskParts>>& tasks_;
   const int seldom_;                     // where nothing says how often
   std::vector<std::vector<int>> state_;  // by node and task
 };

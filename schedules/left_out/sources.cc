@@ -38,11 +38,12 @@ std::vector<Source> Sources::ready(TaskId id, int hops) const {
   const model::Task& task = task_at(cluster_, id);
   if (hops > kMostHops) return {};
   switch (task.activation.kind) {
-    case model::ActivationKind::kTime: return {{{Place::Kind::kTask, kNoSensor, id, kNoPdu}, span(task.worst_case)}};
+    case model::ActivationKind::kTime:
+      return {{{SchedulePlace::Kind::kTask, kNoSensor, id, kNoPdu}, span(task.worst_case)}};
     case model::ActivationKind::kSensor: {
       const SensorId sensor = task.activation.sensor;
       if (!cluster_.sensor(sensor).scheduled) return {};
-      return {{{Place::Kind::kMeasurement, sensor, {}, kNoPdu}, span(response(id))}};
+      return {{{SchedulePlace::Kind::kMeasurement, sensor, {}, kNoPdu}, span(response(id))}};
     }
     case model::ActivationKind::kMessage: {
       for (const model::PortBinding& in : task.reads)
@@ -61,7 +62,7 @@ std::vector<Source> Sources::ready(TaskId id, int hops) const {
 }
 
 std::vector<Source> Sources::arrival(PduId pdu, model::MediumId medium, int hops) const {
-  if (medium.is_flexray()) return {{{Place::Kind::kSlots, kNoSensor, {}, pdu}, 0}};
+  if (medium.is_flexray()) return {{{SchedulePlace::Kind::kSlots, kNoSensor, {}, pdu}, 0}};
   const model::CanBus& bus = cluster_.can(medium);
   for (const model::CanMessage& message : bus.messages)
     if (message.pdu == pdu)

@@ -14,19 +14,19 @@
 namespace ttf::schedules::left_out {
 
 // A place of the schedule's own: a scheduled sensor's measurement, a task that time activates, or a list's slots.
-struct Place {
+struct SchedulePlace {
   enum class Kind : std::uint8_t { kMeasurement, kTask, kSlots };
   Kind kind{};
   SensorId sensor = kNoSensor;
   TaskId task{};
   PduId list = kNoPdu;
-  auto operator<=>(const Place&) const = default;
+  auto operator<=>(const SchedulePlace&) const = default;
 };
 
 // So long behind the place's beginning, or behind the end of a list's last slot; as any other clock may measure it, without the
 // difference between clocks.
 struct Source {
-  Place place;
+  SchedulePlace place;
   std::int64_t ns = 0;
 };
 

@@ -8,7 +8,7 @@
 #include "schedules/analysis/ages.h"
 #include "schedules/check/checker.h"
 #include "schedules/check/real_time_rules.h"
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "schedules/file/loader.h"
 #include "sim/drives/step_catalog.h"
 #include "tests/fuzz/fibex_laws.h"

@@ -5,7 +5,7 @@
 
 #include "schedules/analysis/ages.h"
 #include "schedules/analysis/dynamic_load.h"
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
 

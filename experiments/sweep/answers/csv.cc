@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/sweep/answers/text.h"
+#include "experiments/sweep/answers/answer_text.h"
 
 namespace ttf::experiments::sweep::answers {
 namespace {

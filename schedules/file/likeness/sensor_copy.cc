@@ -280,7 +280,7 @@ class Copier {
     return binding;
   }
 
-  void add_task(std::size_t node, model::Task task, left_out::Task left) {
+  void add_task(std::size_t node, model::Task task, left_out::TaskParts left) {
     for (model::PortBinding& in : task.reads) in = rebound(in);
     for (model::PortBinding& out : task.writes) out = rebound(out);
     if (task.activation.kind == model::ActivationKind::kSensor) task.activation.sensor = made_;

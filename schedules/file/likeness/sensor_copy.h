@@ -33,7 +33,7 @@ void read_differences(YamlMap& map, SensorCopy& copy);
 // The cluster, and the parts that its file leaves out.
 struct Unfinished {
   model::Cluster& cluster;
-  std::vector<std::vector<left_out::Task>>& tasks;
+  std::vector<std::vector<left_out::TaskParts>>& tasks;
   std::vector<left_out::List>& lists;
   std::vector<std::vector<bool>>& shortest_periods;
 };

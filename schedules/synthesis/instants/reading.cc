@@ -144,11 +144,11 @@ class Reader {
   }
 
   // Returns the activity of a place, if the plan knows its instant or chooses it.
-  std::optional<std::size_t> activity_of(const left_out::Place& place) const {
+  std::optional<std::size_t> activity_of(const left_out::SchedulePlace& place) const {
     switch (place.kind) {
-      case left_out::Place::Kind::kMeasurement: return made_.sensors[index_of(place.sensor)];
-      case left_out::Place::Kind::kTask: return made_.tasks[index_of(place.task.node)][place.task.task];
-      case left_out::Place::Kind::kSlots: {
+      case left_out::SchedulePlace::Kind::kMeasurement: return made_.sensors[index_of(place.sensor)];
+      case left_out::SchedulePlace::Kind::kTask: return made_.tasks[index_of(place.task.node)][place.task.task];
+      case left_out::SchedulePlace::Kind::kSlots: {
         const auto slots = slots_of_.find(place.list);
         return slots == slots_of_.end() ? std::nullopt : std::optional(slots->second);
       }
@@ -162,7 +162,7 @@ class Reader {
       const auto before = activity_of(source.place);
       if (!before) continue;
       std::int64_t ns = source.ns;
-      if (source.place.kind == left_out::Place::Kind::kSlots)
+      if (source.place.kind == left_out::SchedulePlace::Kind::kSlots)
         ns += (problem().activities[*before].duration * g_.gdMacrotick_ps + 999) / 1'000;
       follow(*before, after, ns);
     }

@@ -24,7 +24,7 @@
 namespace ttf::schedules::synthesis::plan {
 
 using LeftOut = left_out::Instant;
-using PlannedTask = left_out::Task;
+using PlannedTask = left_out::TaskParts;
 using PlannedList = left_out::List;  // slots of a list
 
 // How often a sensor may measure.

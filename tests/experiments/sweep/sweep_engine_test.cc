@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/file_bytes.h"
-#include "experiments/sweep/answers/text.h"
+#include "experiments/sweep/answers/answer_text.h"
 #include "tests/experiments/sweep/small_sweep.h"
 #include "tests/experiments/sweep/store_folder.h"
 #include "tests/support/full_disk.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "schedules/analysis/slot_groups.h"
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "tests/schedules/check/mutation.h"
 
 namespace ttf::schedules::analysis {

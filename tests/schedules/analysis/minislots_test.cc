@@ -11,7 +11,7 @@
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/analysis/dynamic_load.h"
 #include "schedules/analysis/slot_groups.h"
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "schedules/timing/response/flexray_dynamic.h"
 #include "tests/schedules/cluster_file.h"
 

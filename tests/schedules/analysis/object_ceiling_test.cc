@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "tests/schedules/cluster_file.h"
 
 namespace ttf::schedules::analysis {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "tests/schedules/check/mutation.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"

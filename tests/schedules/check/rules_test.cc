@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "schedules/file/loader.h"
 
 namespace ttf::schedules::check {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "schedules/analysis/ages.h"
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 #include "tests/schedules/cluster_dump.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/support/patterns.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/sweep/answers/answer_text.h"
 #include "experiments/sweep/answers/figures.h"
-#include "experiments/sweep/answers/text.h"
 #include "tests/experiments/sweep/small_sweep.h"
 #include "tests/experiments/sweep/store_folder.h"
 

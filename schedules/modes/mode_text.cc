@@ -1,4 +1,4 @@
-#include "schedules/modes/text.h"
+#include "schedules/modes/mode_text.h"
 
 #include <fmt/format.h>
 

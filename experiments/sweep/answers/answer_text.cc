@@ -1,4 +1,4 @@
-#include "experiments/sweep/answers/text.h"
+#include "experiments/sweep/answers/answer_text.h"
 
 #include <fmt/format.h>
 

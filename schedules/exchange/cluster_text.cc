@@ -1,4 +1,4 @@
-#include "schedules/exchange/text.h"
+#include "schedules/exchange/cluster_text.h"
 
 #include <fmt/format.h>
 
