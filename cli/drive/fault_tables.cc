@@ -8,6 +8,7 @@
 #include "evaluation/faults/reach.h"
 #include "recording/records/enumerations.h"
 #include "report/drawing/tables.h"
+#include "report/drive/injected_table.h"
 
 namespace ttf::cli::drive {
 namespace {
@@ -25,7 +26,6 @@ using recording::records::CanError;
 
 double seconds(TrueTime at) { return (at - TrueTime{}).seconds(); }
 std::string cell(TrueTime at) { return report::drawing::cell(seconds(at), 6); }
-std::string cell(const std::optional<TrueTime>& at) { return at ? cell(*at) : "-"; }
 
 std::string node_name(NodeId node, const schedules::model::Cluster& cluster) {
   return index_of(node) < cluster.nodes.size() ? cluster.node(node).name : "-";
@@ -47,12 +47,10 @@ template <class Each> void for_each(const FaultFindings& findings, Each each) {
 }
 
 std::string injected_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
-  report::drawing::Table table(
-      {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "its first act"});
+  report::drawing::Table table(report::drive::injected_columns());
   table.end_in_words();
   for (const FaultSeen& fault : findings.faults)
-    table.add({fmt::format("{}", fault.fault), fault.kind, node_name(fault.node, cluster), cell(fault.begins),
-               cell(fault.first_act), fmt::format("{}", fault.acts), cell(fault.ends), fault.text});
+    table.add(report::drive::injected_row(fault, node_name(fault.node, cluster)));
   return table.text();
 }
 

@@ -100,11 +100,7 @@ void FaultAccount::on(const recording::records::FaultActivity& activity) {
   auto& place = place_[activity.fault];
   if (!place) {
     place = findings_.faults.size();
-    FaultSeen& seen = findings_.faults.emplace_back();
-    seen.fault = activity.fault;
-    seen.kind = activity.kind;
-    seen.node = activity.node;
-    seen.begins = activity.at;
+    findings_.faults.emplace_back();
     causes_.begins(activity.fault, activity.at);
     const std::vector<bool> named = named_by(fault, cluster_);
     for (std::size_t n = 0; n < named.size(); ++n) {
@@ -115,21 +111,9 @@ void FaultAccount::on(const recording::records::FaultActivity& activity) {
       clocks_.forget(node);
     }
   }
-  FaultSeen& seen = findings_.faults[*place];
-  switch (activity.what) {
-    case recording::records::FaultAct::kActs:
-      causes_.acts(activity.fault, activity.at);
-      ++seen.acts;
-      if (seen.first_act) break;
-      seen.first_act = activity.at;
-      seen.text = activity.text;
-      break;
-    case recording::records::FaultAct::kEnds:
-      causes_.ends(activity.fault, activity.at);
-      seen.ends = activity.at;
-      break;
-    case recording::records::FaultAct::kBegins: break;
-  }
+  findings_.faults[*place].take(activity);
+  if (activity.what == recording::records::FaultAct::kActs) causes_.acts(activity.fault, activity.at);
+  if (activity.what == recording::records::FaultAct::kEnds) causes_.ends(activity.fault, activity.at);
 }
 
 void FaultAccount::on(const recording::records::StateChanged& change) {

@@ -23,6 +23,7 @@
 #include "evaluation/faults/causes.h"
 #include "evaluation/faults/checks.h"
 #include "evaluation/faults/frame_clocks.h"
+#include "evaluation/faults/injected_fault.h"
 #include "evaluation/faults/slot_ledger.h"
 #include "evaluation/faults/standings.h"
 #include "faults/plan.h"
@@ -74,14 +75,7 @@ struct FaultEffects {
   bool nothing() const;  // no check saw it and no node changed
 };
 
-struct FaultSeen : FaultEffects {
-  std::uint32_t fault = 0;  // index in the plan
-  std::string kind, text;   // the plan's name of the kind; its first act, empty if it never acted
-  NodeId node = kNoNode;    // kNoNode: a fault of the medium
-  TrueTime begins{};
-  std::optional<TrueTime> ends, first_act;
-  std::uint64_t acts = 0;
-};
+struct FaultSeen : FaultEffects, InjectedFault {};
 
 // The errors of one controller on a private CAN, from the first fault's begin on. A fault on the CAN is their cause, or
 // a node without supply; they are not told apart.

@@ -118,23 +118,6 @@ void DriveSeriesSink::on(const recording::records::TaskRun& r) {
   if (!r.deadline_met) ++series_.deadlines_missed[{r.start.node, r.task}];
 }
 
-void DriveSeriesSink::on(const recording::records::FaultActivity& r) {
-  const auto [entry, first] = series_.faults.try_emplace(r.fault);
-  FaultTold& fault = entry->second;
-  if (first) {
-    fault.kind = r.kind;
-    fault.node = r.node;
-    fault.text = r.text;
-  }
-  const double at = seconds_of(r.at);
-  if (r.what == recording::records::FaultAct::kBegins) fault.begins_s = at;
-  if (r.what == recording::records::FaultAct::kEnds) fault.ends_s = at;
-  if (r.what != recording::records::FaultAct::kActs) return;
-  if (fault.acts++ > 0) return;
-  fault.first_act_s = at;
-  fault.text = r.text;
-}
-
 void DriveSeriesSink::on(const recording::records::GuardianIntervention& r) {
   ++series_.guardian[std::string(r.why) + (r.cut ? ": cut" : ": blocked")];
 }

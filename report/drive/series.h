@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "evaluation/faults/injected_fault.h"
 #include "fusion/metrics/point.h"
 #include "recording/records/records.h"
 
@@ -20,13 +21,6 @@ namespace ttf::report::drive {
 
 struct TimedValue {
   double t_s = 0.0, value = 0.0;
-};
-
-struct FaultTold {
-  std::string kind, text;  // text: of its first act, or of its begin if it never acted
-  NodeId node = kNoNode;
-  std::optional<double> begins_s, first_act_s, ends_s;
-  std::uint64_t acts = 0;
 };
 
 struct DriveSeries {
@@ -39,7 +33,7 @@ struct DriveSeries {
   std::map<NodeId, std::vector<TimedValue>> offset_corrections;                             // microticks
   std::map<NodeId, std::map<recording::records::SlotStatus, std::uint64_t>> slot_problems;  // count by status
   std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;                // by task
-  std::map<std::uint32_t, FaultTold> faults;
+  std::map<std::uint32_t, evaluation::faults::InjectedFault> faults;                        // by index in the plan
   std::map<std::string, std::uint64_t> guardian;  // interventions of central guardians by reason
   std::uint64_t missed = 0, spurious = 0, matched = 0;
   double end_s = 0.0;  // the end of the last task
@@ -59,7 +53,7 @@ class DriveSeriesSink final : public recording::records::Sink {
   void on(const recording::records::ClockCorrected& r) override;
   void on(const recording::records::SlotProblem& r) override;
   void on(const recording::records::TaskRun& r) override;
-  void on(const recording::records::FaultActivity& r) override;
+  void on(const recording::records::FaultActivity& r) override { series_.faults[r.fault].take(r); }
   void on(const recording::records::GuardianIntervention& r) override;
 
  private:

@@ -5,27 +5,35 @@
 
 #include "recording/records/enumerations.h"
 #include "report/drawing/names.h"
+#include "report/drawing/tables.h"
+#include "report/drive/injected_table.h"
 #include "report/drive/tables.h"
 
 namespace ttf::report::drive {
 namespace {
 
-std::string seconds_cell(const std::optional<double>& t) { return t ? fmt::format("{:.6f}", *t) : "-"; }
+std::string cell(const std::optional<TrueTime>& at) {
+  return at ? drawing::cell((*at - TrueTime{}).seconds(), 6) : "-";
+}
 
 }  // namespace
+
+std::vector<std::string> injected_columns() {
+  return {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "its first act"};
+}
+
+std::vector<std::string> injected_row(const evaluation::faults::InjectedFault& fault, const std::string& node) {
+  return {std::to_string(fault.fault), fault.kind,       node,      cell(fault.begins), cell(fault.first_act),
+          std::to_string(fault.acts),  cell(fault.ends), fault.text};
+}
 
 std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
   const drawing::Names names = told.drive->log ? drawing::names_of(told.drive->log->manifest()) : drawing::Names{};
   const std::string& label = told.drive->label;
   const DriveSeries& series = told.series;
-  page::PageTable faults{label + ": injected faults",
-                         {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "its first act"},
-                         {}};
+  page::PageTable faults{label + ": injected faults", injected_columns(), {}};
   for (const auto& [index, fault] : series.faults)
-    faults.rows.push_back({fmt::format("{} {}", index, fault.kind),
-                           fault.node == kNoNode ? "-" : names.node(fault.node), seconds_cell(fault.begins_s),
-                           seconds_cell(fault.first_act_s), std::to_string(fault.acts), seconds_cell(fault.ends_s),
-                           fault.text});
+    faults.rows.push_back(injected_row(fault, fault.node == kNoNode ? "-" : names.node(fault.node)));
   page::PageTable slots{
       label + ": slots without exactly one valid frame, by receiver", {"receiver", "status", "times"}, {}};
   for (const auto& [node, by_status] : series.slot_problems)

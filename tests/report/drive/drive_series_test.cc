@@ -110,11 +110,11 @@ TEST(DriveSeries, AFaultIsToldByItsFirstAct) {
                                             "omission", "the first"});
   sink.on(recording::records::FaultActivity{TrueTime{3'000'000}, 3, recording::records::FaultAct::kActs, NodeId{2},
                                             "omission", "the second"});
-  const FaultTold fault = sink.finish().faults.at(3);
+  const evaluation::faults::InjectedFault fault = sink.finish().faults.at(3);
   EXPECT_EQ(fault.acts, 2u);
   EXPECT_EQ(fault.text, "the first");
-  EXPECT_EQ(fault.first_act_s, 0.002);
-  EXPECT_FALSE(fault.ends_s.has_value());
+  EXPECT_EQ(fault.first_act, TrueTime{2'000'000});
+  EXPECT_FALSE(fault.ends.has_value());
 }
 
 TEST(DriveSeries, AThinnedSeriesKeepsItsExtremes) {
