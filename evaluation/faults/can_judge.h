@@ -1,5 +1,6 @@
 // Judges whether a single fault on a CAN harmed fault-free nodes, and which checks noticed it (can_checks.h). It uses
-// what hosts queue and receive, and the controllers' records.
+// what hosts queue and receive, and the controllers' records. No record of a drive has a received frame, so its account
+// counts the controllers' errors alone (CanSeen in fault_account.h).
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// The harms that a fault may do to fault-free nodes, and the checks that may notice it. The judge of single
-// faults (judge.h) uses them inside a simulation, the account of a drive's faults (fault_account.h) on its records.
+// The harms that a fault may do to fault-free nodes, and the checks that may notice it, in the records of a drive
+// (fault_account.h) or of a trial with a single fault (judge.h).
 //
 // A fault-free node is one that the fault does not name (reach.h). From the beginning of the fault on, it is
 // harmed when
@@ -21,7 +21,7 @@
 #include <string_view>
 #include <utility>
 
-#include "bus/controller/controller.h"
+#include "recording/records/records.h"
 
 namespace ttf::evaluation::faults {
 
@@ -48,17 +48,25 @@ inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, H
                                          Harm::kFrameForged};
 std::string_view name_of(Harm harm);
 
-// Calls `seen` with every check in the status of a slot (bus::controller::SlotStatus).
-template <class Seen> void for_each_check(bus::controller::SlotStatus status, Seen seen) {
-  constexpr std::array<std::pair<bus::controller::SlotStatus, Check>, 6> kOfSlots{
-      {{bus::controller::kSyntaxError, Check::kSyntax},
-       {bus::controller::kContentError, Check::kContent},
-       {bus::controller::kBoundaryViolation, Check::kBoundary},
-       {bus::controller::kTransmissionConflict, Check::kConflict},
-       {bus::controller::kNoFrame, Check::kNoFrame},
-       {bus::controller::kUnexpectedFrame, Check::kUnexpected}}};
+// Calls `seen` with every check of a controller in its record.
+template <class Seen> void for_each_check(const recording::records::SlotProblem& problem, Seen seen) {
+  using recording::records::SlotStatus;
+  constexpr std::array<std::pair<SlotStatus, Check>, 6> kOfSlots{{{SlotStatus::kSyntaxError, Check::kSyntax},
+                                                                  {SlotStatus::kContentError, Check::kContent},
+                                                                  {SlotStatus::kBoundaryViolation, Check::kBoundary},
+                                                                  {SlotStatus::kTransmissionConflict, Check::kConflict},
+                                                                  {SlotStatus::kNoFrame, Check::kNoFrame},
+                                                                  {SlotStatus::kUnexpectedFrame, Check::kUnexpected}}};
   for (const auto& [bit, check] : kOfSlots)
-    if ((status & bit) != 0) seen(check);
+    if ((problem.status & bit) != 0) seen(check);
+}
+template <class Seen> void for_each_check(const recording::records::ClockCorrected& corrected, Seen seen) {
+  if (corrected.offset_missing || corrected.rate_missing) seen(Check::kMissingTerm);
+  if (corrected.offset_limited || corrected.rate_limited) seen(Check::kLimit);
+}
+template <class Seen> void for_each_check(const recording::records::StateChanged& change, Seen seen) {
+  if (change.to == recording::records::PocKind::kNormalPassive) seen(Check::kPassive);
+  if (change.to == recording::records::PocKind::kHalt) seen(Check::kHalt);
 }
 
 }  // namespace ttf::evaluation::faults

@@ -123,14 +123,9 @@ void FaultAccount::on(const recording::records::StateChanged& change) {
   const Cause cause = causes_.of_node(node, at);
   if (!starts_as_planned(node) || falls_back(change))
     changed(cause, node, change.from_name, change.to_name, change.why, at);
-  if (change.to == PocKind::kNormalPassive) notice(cause, Check::kPassive, node, cycle_at(at), at);
-  if (change.to == PocKind::kHalt) notice(cause, Check::kHalt, node, cycle_at(at), at);
-  if (change.to != PocKind::kNormalActive) {
-    left_active(cause, node, at);
-    return;
-  }
-  standings_.becomes_active(node);
-  causes_.is_back(node);
+  for_each_check(change, [&](Check check) { notice(cause, check, node, cycle_at(at), at); });
+  if (standings_.leaves_by(change)) left_active(cause, node, at);
+  if (standings_.active(node)) causes_.is_back(node);
 }
 
 void FaultAccount::on(const recording::records::PowerChanged& power) {
@@ -142,15 +137,13 @@ void FaultAccount::on(const recording::records::PowerChanged& power) {
   if (!power.on || !starts_as_planned(node)) changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
   if (power.on) return;
   if (cause) causes_.left(node, *cause);
-  left_active(cause, node, at);
+  if (standings_.leaves_by(power)) left_active(cause, node, at);
 }
 
 void FaultAccount::left_active(Cause cause, NodeId node, TrueTime at) {
   clocks_.forget(node);
-  if (!standings_.active(node)) return;
-  if (standings_.counts(node)) harm(cause, Harm::kLeftActive, at, node);
+  if (!standings_.faulty(node)) harm(cause, Harm::kLeftActive, at, node);
   if (cause) causes_.left(node, *cause);
-  standings_.leaves_active(node);
 }
 
 void FaultAccount::on(const recording::records::SlotProblem& problem) {
@@ -173,7 +166,7 @@ void FaultAccount::on(const recording::records::SlotProblem& problem) {
     signal.until = at;
     signal.from = at - bus::wire::frame_duration(g, static_cast<int>(bus::wire::kMaxPayloadBytes / 2));
   }
-  for_each_check(problem.status, [&](Check check) {
+  for_each_check(problem, [&](Check check) {
     signal.silence = check == Check::kNoFrame;
     notice(causes_.of_signal(signal), check, node, problem.cycle, at);
   });
@@ -183,11 +176,7 @@ void FaultAccount::on(const recording::records::ClockCorrected& corrected) {
   const NodeId node = corrected.stamp.node;
   const TrueTime at = corrected.stamp.true_time;
   if (!knows(node)) return;
-  const auto seen = [&](bool yes, Check check) {
-    if (yes) notice(causes_.of_node(node, at), check, node, corrected.cycle, at);
-  };
-  seen(corrected.offset_missing || corrected.rate_missing, Check::kMissingTerm);
-  seen(corrected.offset_limited || corrected.rate_limited, Check::kLimit);
+  for_each_check(corrected, [&](Check check) { notice(causes_.of_node(node, at), check, node, corrected.cycle, at); });
 }
 
 void FaultAccount::on(const recording::records::SlotFrameSent& frame) {
@@ -218,16 +207,11 @@ void FaultAccount::on(const recording::records::GuardianIntervention& kept) {
 // Returns null before the first fault has begun.
 CanSeen* FaultAccount::can_seen(std::uint8_t bus, const recording::records::Stamp& stamp) {
   if (!causes_.any_begun(stamp.true_time)) return nullptr;
-  const auto before = [&](const CanSeen& seen) {
-    return seen.bus != bus ? seen.bus < bus : index_of(seen.node) < index_of(stamp.node);
-  };
-  const auto place = std::find_if_not(findings_.cans.begin(), findings_.cans.end(), before);
-  if (place != findings_.cans.end() && place->bus == bus && place->node == stamp.node) return &*place;
-  CanSeen seen;
-  seen.bus = bus;
-  seen.node = stamp.node;
-  seen.first = stamp.true_time;
-  return &*findings_.cans.insert(place, seen);
+  const auto key = [](const CanSeen& seen) { return std::pair(seen.bus, seen.node); };
+  const std::pair sought(bus, stamp.node);
+  const auto place = std::ranges::lower_bound(findings_.cans, sought, {}, key);
+  if (place != findings_.cans.end() && key(*place) == sought) return &*place;
+  return &*findings_.cans.insert(place, CanSeen{.bus = bus, .node = stamp.node, .first = stamp.true_time});
 }
 
 void FaultAccount::on(const recording::records::CanErrorFrame& error) {

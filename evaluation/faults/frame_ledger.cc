@@ -47,12 +47,8 @@ void FrameLedger::owe(Owed& owed, NodeId sender, int slot) {
   if (!standings_.active(sender)) return;
   for (const schedules::model::FrameSlot& own : cluster_.frames) {
     if (own.slot != slot || own.sender != sender) continue;
-    for (std::size_t n = 0; n < standings_.size(); ++n) {
-      const auto receiver = static_cast<NodeId>(n);
-      if (receiver != sender && standings_.counts(receiver) &&
-          (comes_on(own, cluster_, receiver, Channel::kA) || comes_on(own, cluster_, receiver, Channel::kB)))
-        owed.receivers[n] = true;
-    }
+    for (std::size_t n = 0; n < standings_.size(); ++n)
+      if (is_owed(own, cluster_, standings_, static_cast<NodeId>(n))) owed.receivers[n] = true;
   }
 }
 

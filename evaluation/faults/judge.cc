@@ -6,8 +6,6 @@
 
 namespace ttf::evaluation::faults {
 
-using bus::poc::PocKind;
-
 FaultJudge::FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings settings)
     : FlexRayJudgeBase(settings.from, settings.until, cluster.nodes.size()), settings_(std::move(settings)),
       standings_(cluster, !settings_.starts_up), ledger_(cluster, standings_, [this](const SlotLoss& loss) {
@@ -19,42 +17,26 @@ FaultJudge::FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings s
 }
 
 void FaultJudge::notice(Check check, NodeId by, TrueTime when) {
+  if (check == Check::kPassive) set_first(judgement_.passive, when);
+  if (check == Check::kHalt) set_first(judgement_.halt, when);
   if (when < settings_.settled && settings_.usual[static_cast<std::size_t>(check)]) return;
   const bool itself = standings_.faulty(by);
   FlexRayJudgeBase::notice(check, !itself, itself, when);
 }
 
-void FaultJudge::state_changed(NodeId node, PocKind from, PocKind to, TrueTime when) {
-  // It leaves normal active, too, if it has lost its supply meanwhile and begins anew.
-  if (to != PocKind::kNormalActive || from == PocKind::kDefaultConfig) left_active(node, when);
-  if (to == PocKind::kNormalPassive) {
-    notice(Check::kPassive, node, when);
-    set_first(judgement_.passive, when);
-  }
-  if (to == PocKind::kHalt) {
-    notice(Check::kHalt, node, when);
-    set_first(judgement_.halt, when);
-  }
-  if (to == PocKind::kNormalActive) {
-    standings_.becomes_active(node);
-    came_back(node, when);
-  }
+void FaultJudge::on(const recording::records::StateChanged& change) {
+  notice(change);
+  if (standings_.leaves_by(change)) left_active(change.stamp.node, change.stamp.true_time);
+  if (standings_.active(change.stamp.node)) came_back(change.stamp.node, change.stamp.true_time);
+}
+
+void FaultJudge::on(const recording::records::PowerChanged& power) {
+  if (standings_.leaves_by(power)) left_active(power.stamp.node, power.stamp.true_time);
 }
 
 void FaultJudge::left_active(NodeId node, TrueTime when) {
-  if (!standings_.active(node)) return;
-  if (standings_.counts(node)) harm(Harm::kLeftActive, when, node);
+  if (!standings_.faulty(node)) harm(Harm::kLeftActive, when, node);
   went_out(node, when);
-  standings_.leaves_active(node);
-}
-
-void FaultJudge::slot_problem(NodeId node, bus::controller::SlotStatus status, TrueTime when) {
-  for_each_check(status, [&](Check check) { notice(check, node, when); });
-}
-
-void FaultJudge::clock_corrected(NodeId node, bool missing, bool limit_reached, TrueTime when) {
-  if (missing) notice(Check::kMissingTerm, node, when);
-  if (limit_reached) notice(Check::kLimit, node, when);
 }
 
 void FaultJudge::precision(Duration apart, TrueTime when) {

@@ -1,18 +1,23 @@
-// Judges whether a single fault harmed fault-free nodes, and which checks noticed it (checks.h). It uses the
-// controllers' reports to their hosts and the difference of the clocks. frame_ledger.h defines overdue frames.
+// Judges whether a single fault harmed fault-free nodes, and which checks noticed it (checks.h), from the records of a
+// trial.
+//
+// H3 to H5 use what no record holds: the clocks' difference at sampled instants, and the frames as they were received
+// (frame_ledger.h). Records alone, as in a drive's account (fault_account.h), count otherwise. In 12,000 trials of the
+// shipped campaign they miss 151 of 1910 harms by lost frames and all 11 by forged ones. In 120 others they call a frame
+// lost that came.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "bus/controller/controller.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "evaluation/faults/checks.h"
 #include "evaluation/faults/frame_ledger.h"
 #include "evaluation/faults/judgement.h"
 #include "evaluation/faults/standings.h"
+#include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::evaluation::faults {
@@ -31,18 +36,20 @@ struct JudgeSettings {
   std::array<bool, kAllChecks.size()> usual{};
 };
 
-class FaultJudge : private FlexRayJudgeBase {
+class FaultJudge final : public recording::records::Sink, private FlexRayJudgeBase {
  public:
   // Nodes are in normal operation if the drive begins so; else they have no supply.
   FaultJudge(const schedules::model::Cluster& cluster, JudgeSettings settings);
   FaultJudge(const FaultJudge&) = delete;
   FaultJudge& operator=(const FaultJudge&) = delete;
 
-  // Events, in the order of time.
-  void state_changed(NodeId node, bus::poc::PocKind from, bus::poc::PocKind to, TrueTime at);
-  void lost_supply(NodeId node, TrueTime at) { left_active(node, at); }
-  void slot_problem(NodeId node, bus::controller::SlotStatus status, TrueTime at);
-  void clock_corrected(NodeId node, bool missing, bool limit_reached, TrueTime at);
+  // Records and events come in the order of time.
+  using recording::records::Sink::on;
+  void on(const recording::records::StateChanged&) override;
+  void on(const recording::records::PowerChanged&) override;
+  void on(const recording::records::SlotProblem& problem) override { notice(problem); }
+  void on(const recording::records::ClockCorrected& corrected) override { notice(corrected); }
+  void on(const recording::records::GuardianIntervention& kept) override { notice(Check::kGuardian, kNoNode, kept.at); }
   // `frame` is valid during the call only.
   void frame_sent(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
                   TrueTime at) {
@@ -52,7 +59,6 @@ class FaultJudge : private FlexRayJudgeBase {
                       TrueTime at) {
     ledger_.received(node, slot, channel, frame, at);
   }
-  void guardian_intervened(TrueTime at) { notice(Check::kGuardian, kNoNode, at); }
   // The difference among the synchronised fault-free nodes.
   void precision(Duration apart, TrueTime at);
 
@@ -62,6 +68,9 @@ class FaultJudge : private FlexRayJudgeBase {
 
  private:
   void notice(Check check, NodeId by, TrueTime at);
+  template <class Record> void notice(const Record& record) {
+    for_each_check(record, [&](Check check) { notice(check, record.stamp.node, record.stamp.true_time); });
+  }
   void left_active(NodeId node, TrueTime at);
 
   JudgeSettings settings_;

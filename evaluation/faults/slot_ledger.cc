@@ -95,17 +95,16 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
     if (slot.at + slot_ * (cluster_.flexray.gNumberOfStaticSlots - frame.slot + 1) > over) continue;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto receiver = static_cast<NodeId>(n);
-      if (receiver == frame.sender || !cycle.counted[n] || !standings_.counts(receiver)) continue;
-      bool shared = false, received = false, forged = false;
+      if (!cycle.counted[n] || !is_owed(frame, cluster_, standings_, receiver)) continue;
+      bool received = false, forged = false;
       for (const Channel channel : schedules::model::kBothChannels) {
         if (!comes_on(frame, cluster_, receiver, channel)) continue;
         const auto c = index_of(channel);
-        shared = true;
         received = received || (slot.sent[c] && !slot.reported[c][n]);
         forged = forged || (!slot.sent[c] && !slot.reported[c][n]);
       }
       if (forged) told_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, true});
-      if (shared && !received) told_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, false});
+      if (!received) told_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, false});
     }
   }
 }

@@ -1,10 +1,12 @@
-// A frame that did not reach its receiver, or came from another sender; and the owners of slots.
+// A frame that did not reach its receiver, or came from another sender; the owners of slots, and those to whom a frame
+// is owed.
 #pragma once
 
 #include <cstdint>
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "evaluation/faults/standings.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::evaluation::faults {
@@ -28,6 +30,15 @@ inline bool comes_on(const schedules::model::FrameSlot& frame, const schedules::
   const auto& to = cluster.node(receiver).flexray;
   return from && to && includes(frame.channels, channel) && includes(from->pChannels, channel) &&
          includes(to->pChannels, channel);
+}
+
+// Returns whether the frame, if its sender counts, is owed to the receiver: a fault-free, normal active node that hears the
+// sender.
+inline bool is_owed(const schedules::model::FrameSlot& frame, const schedules::model::Cluster& cluster,
+                    const Standings& standings, NodeId receiver) {
+  using enum schedules::model::Channel;
+  return receiver != frame.sender && standings.counts(receiver) &&
+         (comes_on(frame, cluster, receiver, kA) || comes_on(frame, cluster, receiver, kB));
 }
 
 }  // namespace ttf::evaluation::faults

@@ -1,6 +1,7 @@
 #include "evaluation/faults/standings.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ttf::evaluation::faults {
 
@@ -13,9 +14,15 @@ bool Standings::all_fault_free_active() const {
   return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.faulty || node.active; });
 }
 
-void Standings::becomes_active(NodeId node) {
-  nodes_[index_of(node)].active = true;
-  nodes_[index_of(node)].has_to_start = false;
+bool Standings::leaves_by(const recording::records::StateChanged& change) {
+  Node& node = nodes_[index_of(change.stamp.node)];
+  const bool active = change.to == recording::records::PocKind::kNormalActive;
+  if (active) node.has_to_start = false;
+  return std::exchange(node.active, active) && !active;
+}
+
+bool Standings::leaves_by(const recording::records::PowerChanged& power) {
+  return !power.on && std::exchange(nodes_[index_of(power.stamp.node)].active, false);
 }
 
 }  // namespace ttf::evaluation::faults

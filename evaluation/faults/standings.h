@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "recording/records/records.h"
 #include "schedules/model/cluster.h"
 
 namespace ttf::evaluation::faults {
@@ -24,8 +25,9 @@ class Standings {
   bool all_fault_free_active() const;
 
   void becomes_faulty(NodeId node) { nodes_[index_of(node)].faulty = true; }
-  void becomes_active(NodeId node);
-  void leaves_active(NodeId node) { nodes_[index_of(node)].active = false; }
+  // Take a change of state or supply. Return whether the node left normal operation: H1 if it is not faulty.
+  bool leaves_by(const recording::records::StateChanged& change);
+  bool leaves_by(const recording::records::PowerChanged& power);
 
  private:
   struct Node {

@@ -142,8 +142,10 @@ class TrialSimulation::Witness final : public bus::controller::ControllerEvents 
   void cycle_started(std::int64_t cycle, Microticks) override {
     host_.write(trial_.simulation_->controller(node_), cycle);
   }
-  void slot_problem(std::int64_t, int, Channel, bus::controller::SlotStatus status, Microticks) override {
-    trial_.judge_.slot_problem(node_, status, trial_.now());
+  void slot_problem(std::int64_t cycle, int slot, Channel channel, bus::controller::SlotStatus status,
+                    Microticks) override {
+    trial_.judge_.on(recording::records::SlotProblem{trial_.stamp(node_), cycle, static_cast<std::uint16_t>(slot),
+                                                     static_cast<std::uint8_t>(channel), status});
   }
   void frame_sent(const bus::ports::Transmission& sent, std::int64_t, bool, PduId, std::uint32_t, int, bool) override {
     trial_.judge_.frame_sent(node_, sent.slot, sent.channel, sent.content, trial_.now());
@@ -153,10 +155,11 @@ class TrialSimulation::Witness final : public bus::controller::ControllerEvents 
                       Microticks) override {
     trial_.judge_.frame_received(node_, slot, channel, frame, trial_.now());
   }
-  void clock_corrected(std::int64_t, const timebase::Correction& offset, const timebase::Correction& rate,
+  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
                        Microticks) override {
-    trial_.judge_.clock_corrected(node_, offset.missing || rate.missing, offset.limit_reached || rate.limit_reached,
-                                  trial_.now());
+    trial_.judge_.on(recording::records::ClockCorrected{trial_.stamp(node_), cycle, offset.value, rate.value,
+                                                        offset.missing, rate.missing, offset.limit_reached,
+                                                        rate.limit_reached});
   }
   void state_changed(PocKind from, const bus::poc::PocStep& step, Microticks) override {
     trial_.state_changed(node_, from, step);
@@ -193,7 +196,7 @@ TrialSimulation::TrialSimulation(const TrialSetting& setting, const std::optiona
   for (const Channel channel : schedules::model::kBothChannels)
     if (sim::medium::StarCoupler* coupler = simulation_->coupler(channel))
       coupler->on_intervention([this](const sim::medium::StarCoupler::Intervention& intervention) {
-        judge_.guardian_intervened(intervention.at);
+        judge_.on(recording::records::GuardianIntervention{.at = intervention.at, .why = {}});
         if (story_ != nullptr) story_->guardian_intervened(intervention);
       });
 }
@@ -218,7 +221,7 @@ std::optional<TrueTime> TrialSimulation::run_until_all_active(TrueTime end) {
 }
 
 void TrialSimulation::state_changed(NodeId node, PocKind from, const bus::poc::PocStep& step) {
-  judge_.state_changed(node, from, step.next.kind, now());
+  judge_.on(recording::records::StateChanged{stamp(node), from, step.next.kind, {}, {}, {}, {}});
   if (story_ != nullptr) story_->state_changed(node, from, step, now());
   const int cycles = setting_.campaign.restart_halted_after;
   if (step.next.kind == PocKind::kHalt && cycles > 0)
@@ -257,7 +260,7 @@ void TrialSimulation::restart_halted(TrueTime at) {
 }
 
 void TrialSimulation::power_off(NodeId node) {
-  judge_.lost_supply(node, now());
+  judge_.on(recording::records::PowerChanged{stamp(node), false});
   simulation_->power_off(node);
 }
 

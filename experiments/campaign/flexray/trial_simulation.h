@@ -1,5 +1,5 @@
 // One simulation of a cluster for a trial, with a fault or without. It has controllers on drawn clocks, hosts
-// that write their lists, and the judge. The judge receives the reports of controllers and guardians.
+// that write their lists, and the judge. The judge receives the records of controllers and guardians.
 #pragma once
 
 #include <cstdint>
@@ -51,6 +51,8 @@ class TrialSimulation final : public sim::medium::Disturbance,
  private:
   class Witness;
   void state_changed(NodeId node, bus::poc::PocKind from, const bus::poc::PocStep& step);
+  // As its record has it, but at the simulation's own time.
+  recording::records::Stamp stamp(NodeId node) const { return {now(), {}, {}, node}; }
   void sample_precision();
   void restart_halted(TrueTime at);
 

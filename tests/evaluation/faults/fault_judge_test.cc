@@ -10,7 +10,8 @@
 namespace ttf::evaluation::faults {
 namespace {
 
-using bus::poc::PocKind;
+using recording::records::PocKind;
+using recording::records::SlotStatus;
 using schedules::model::Channel;
 
 constexpr NodeId kFaulty{0}, kAlice{1}, kBob{2};
@@ -18,6 +19,10 @@ constexpr TrueTime kBegins{20'000'000};
 constexpr Duration kBusCycle{5'000'000};
 
 TrueTime in_cycle(int cycle, int us = 0) { return TrueTime{cycle * kBusCycle.ns + us * 1'000}; }
+
+void slot_problem(FaultJudge& judge, NodeId node, SlotStatus status, TrueTime at) {
+  judge.on(recording::records::SlotProblem{{at, {}, {}, node}, 0, 2, 0, status});
+}
 
 class Story : public testing::Test {
  protected:
@@ -52,6 +57,9 @@ class Story : public testing::Test {
     const auto bytes = frame(channel, cycle, content);
     judge_.frame_received(kBob, 2, channel, bus::wire::decode_frame(channel, bytes), in_cycle(cycle, 80));
   }
+  void changes(NodeId node, PocKind from, PocKind to, TrueTime at) {
+    judge_.on(recording::records::StateChanged{{at, {}, {}, node}, from, to, {}, {}, {}, {}});
+  }
   const Judgement& end() { return judge_.finish(in_cycle(10)); }
   const std::optional<Judgement::Harmed>& harm(Harm harm) { return end().harms[static_cast<std::size_t>(harm)]; }
 
@@ -75,31 +83,31 @@ TEST_F(Story, NothingHappensAndNobodyIsHarmed) {
 }
 
 TEST_F(Story, H1AFaultFreeNodeThatLeavesNormalActiveIsHarmed) {
-  judge_.state_changed(kFaulty, PocKind::kNormalActive, PocKind::kHalt, in_cycle(5));
+  changes(kFaulty, PocKind::kNormalActive, PocKind::kHalt, in_cycle(5));
   EXPECT_FALSE(judge_.finish(in_cycle(5)).harmed()) << "the faulty one may";
-  judge_.state_changed(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(6));
+  changes(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(6));
   ASSERT_TRUE(harm(Harm::kLeftActive));
   EXPECT_EQ(harm(Harm::kLeftActive)->node, kBob);
   EXPECT_EQ(harm(Harm::kLeftActive)->first, in_cycle(6));
 }
 
 TEST_F(Story, H1WhatWasBeforeTheFaultIsNotItsHarm) {
-  judge_.state_changed(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(3));
-  judge_.state_changed(kBob, PocKind::kNormalPassive, PocKind::kNormalActive, in_cycle(5));
+  changes(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(3));
+  changes(kBob, PocKind::kNormalPassive, PocKind::kNormalActive, in_cycle(5));
   EXPECT_FALSE(end().harmed());
 }
 
 TEST_F(StartUpStory, H2AFaultFreeNodeThatNeverStartsIsHarmed) {
-  judge_.state_changed(kAlice, PocKind::kColdstartJoin, PocKind::kNormalActive, in_cycle(8));
-  judge_.state_changed(kBob, PocKind::kIntegrationListen, PocKind::kInitialiseSchedule, in_cycle(9));
+  changes(kAlice, PocKind::kColdstartJoin, PocKind::kNormalActive, in_cycle(8));
+  changes(kBob, PocKind::kIntegrationListen, PocKind::kInitialiseSchedule, in_cycle(9));
   EXPECT_FALSE(judge_.all_fault_free_active());
   ASSERT_TRUE(harm(Harm::kNotStarted));
   EXPECT_EQ(harm(Harm::kNotStarted)->node, kBob);
 }
 
 TEST_F(StartUpStory, H2WhoStartsLateHasStarted) {
-  judge_.state_changed(kAlice, PocKind::kColdstartJoin, PocKind::kNormalActive, in_cycle(8));
-  judge_.state_changed(kBob, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive, in_cycle(9));
+  changes(kAlice, PocKind::kColdstartJoin, PocKind::kNormalActive, in_cycle(8));
+  changes(kBob, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive, in_cycle(9));
   EXPECT_TRUE(judge_.all_fault_free_active());
   EXPECT_FALSE(end().harmed()) << "the faulty node does not have to";
 }
@@ -136,7 +144,7 @@ TEST_F(Story, H4TheLastFrameIsLostTooOnceItIsOverdue) {
 }
 
 TEST_F(Story, H4WhoIsNotNormalActiveIsOwedNothing) {
-  judge_.state_changed(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(3));
+  changes(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(3));
   alice_sends(5);
   EXPECT_FALSE(end().harmed());
 }
@@ -166,14 +174,13 @@ TEST_F(Story, H5AFrameThatWasNotSentInThisCycleIsForged) {
 }
 
 TEST_F(Story, ChecksOfTheFaultyNodeAreKeptApart) {
-  judge_.slot_problem(kBob, bus::controller::kNoFrame, in_cycle(5));
-  judge_.slot_problem(
-      kBob,
-      static_cast<bus::controller::SlotStatus>(bus::controller::kSyntaxError | bus::controller::kBoundaryViolation),
-      in_cycle(6));
-  judge_.clock_corrected(kFaulty, true, true, in_cycle(7));
-  judge_.state_changed(kFaulty, PocKind::kNormalActive, PocKind::kHalt, in_cycle(7));
-  judge_.guardian_intervened(in_cycle(8));
+  slot_problem(judge_, kBob, SlotStatus::kNoFrame, in_cycle(5));
+  slot_problem(judge_, kBob, static_cast<SlotStatus>(SlotStatus::kSyntaxError | SlotStatus::kBoundaryViolation),
+               in_cycle(6));
+  judge_.on(recording::records::ClockCorrected{
+      .stamp = {in_cycle(7), {}, {}, kFaulty}, .rate_missing = true, .offset_limited = true});
+  changes(kFaulty, PocKind::kNormalActive, PocKind::kHalt, in_cycle(7));
+  judge_.on(recording::records::GuardianIntervention{.at = in_cycle(8), .why = {}});
   const auto& others = end().seen_by_others;
   const auto& itself = end().seen_by_itself;
   const auto of = [](const auto& since, Check check) { return since[static_cast<std::size_t>(check)]; };
@@ -191,13 +198,13 @@ TEST_F(Story, ChecksOfTheFaultyNodeAreKeptApart) {
 }
 
 TEST_F(Story, ReintegrationCountsFromTheFaultsEndOrFromLeavingIfThatWasLater) {
-  judge_.lost_supply(kFaulty, in_cycle(5));
-  judge_.state_changed(kFaulty, PocKind::kDefaultConfig, PocKind::kConfig, in_cycle(6));
-  judge_.state_changed(kFaulty, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive, in_cycle(9));
+  judge_.on(recording::records::PowerChanged{{in_cycle(5), {}, {}, kFaulty}, false});
+  changes(kFaulty, PocKind::kDefaultConfig, PocKind::kConfig, in_cycle(6));
+  changes(kFaulty, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive, in_cycle(9));
   EXPECT_EQ(judge_.finish(in_cycle(9)).reintegration, kBusCycle * 3) << "the fault ended in cycle 6";
   EXPECT_EQ(end().still_out, 0);
-  judge_.state_changed(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(10));
-  judge_.state_changed(kBob, PocKind::kNormalPassive, PocKind::kNormalActive, in_cycle(14));
+  changes(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(10));
+  changes(kBob, PocKind::kNormalPassive, PocKind::kNormalActive, in_cycle(14));
   EXPECT_EQ(judge_.finish(in_cycle(14)).reintegration, kBusCycle * 4);
 }
 
@@ -208,11 +215,11 @@ TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {
   settings.settled = in_cycle(8);
   settings.usual[static_cast<std::size_t>(Check::kNoFrame)] = true;
   FaultJudge judge(cluster, settings);
-  judge.slot_problem(kBob, bus::controller::kNoFrame, in_cycle(7));
+  slot_problem(judge, kBob, SlotStatus::kNoFrame, in_cycle(7));
   EXPECT_FALSE(judge.finish(in_cycle(7)).detected());
-  judge.slot_problem(kBob, bus::controller::kSyntaxError, in_cycle(7));
+  slot_problem(judge, kBob, SlotStatus::kSyntaxError, in_cycle(7));
   EXPECT_TRUE(judge.finish(in_cycle(7)).detected()) << "a check that a start-up does not show";
-  judge.slot_problem(kBob, bus::controller::kNoFrame, in_cycle(8));
+  slot_problem(judge, kBob, SlotStatus::kNoFrame, in_cycle(8));
   EXPECT_TRUE(judge.finish(in_cycle(8)).seen_by_others[static_cast<std::size_t>(Check::kNoFrame)]);
 }
 
