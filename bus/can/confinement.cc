@@ -50,7 +50,7 @@ struct Row {
   Confinement (*next)(const Confinement&);
 };
 
-constexpr std::array<Row, kErrorStates * kConfinementEvents> kTable{{
+constexpr std::array<Row, recording::records::kCanStates * kConfinementEvents> kTable{{
     {S::kActive, E::kReceiverError, received_wrong},
     {S::kActive, E::kReceiverOutlasted, receiver_by_8},
     {S::kActive, E::kTransmitterError, transmitter_by_8},

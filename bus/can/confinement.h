@@ -16,7 +16,6 @@
 namespace ttf::bus::can {
 
 using recording::records::CanState;
-inline constexpr std::size_t kErrorStates = 3;
 
 enum class ConfinementEvent : std::uint8_t {
   kReceiverError,         // 1: a receiver detected an error, not a bit error in a flag of its own

@@ -200,14 +200,14 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
     const SlotBoard::Seen& status = board.at(slot);
     const bool both_valid = status.valid[0] && status.valid[1];
-    if ((status.errors[0] | status.errors[1]) == 0 && (both_valid || !slots.others_send_in(slot))) continue;
+    if ((status.errors[0] | status.errors[1]) == kValidFrame && (both_valid || !slots.others_send_in(slot))) continue;
     const auto expected = slots.expected(slot, now);
     for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
       const auto c = index_of(channel);
-      std::uint8_t errors = status.errors[c];
-      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr)
+      SlotStatus errors = status.errors[c];
+      if (errors == kValidFrame && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr)
         errors = kNoFrame;
-      if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
+      if (errors != kValidFrame) events.slot_problem(clock->cycle(), slot, channel, errors, at);
     }
   }
 }
@@ -308,9 +308,9 @@ SlotSeen FlexRayController::slot_status(int slot, schedules::model::Channel chan
   const State& s = *state_;
   TTF_CHECK(slot >= 1 && slot <= s.g.gNumberOfStaticSlots, "static slot {} of {}", slot, s.g.gNumberOfStaticSlots);
   const SlotBoard::Seen& seen = s.board.kept(slot);
-  const std::uint8_t errors = seen.errors[index_of(channel)];
-  return {seen.valid[index_of(channel)],      (errors & kSyntaxError) != 0,          (errors & kContentError) != 0,
-          (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0, (errors & kUnexpectedFrame) != 0};
+  const SlotStatus errors = seen.errors[index_of(channel)];
+  return {seen.valid[index_of(channel)],   has(errors, kSyntaxError),          has(errors, kContentError),
+          has(errors, kBoundaryViolation), has(errors, kTransmissionConflict), has(errors, kUnexpectedFrame)};
 }
 
 SyncStatus FlexRayController::sync_status() const {

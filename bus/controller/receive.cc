@@ -43,7 +43,7 @@ bool receiver_on(poc::PocKind kind) {
 inline void FlexRayController::State::judge(const ports::Reception& reception, bool conflict) {
   if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
     judge_symbol_window(reception, conflict);
-  std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
+  SlotStatus errors = conflict ? kTransmissionConflict | kSyntaxError : kValidFrame;
   if (!is_frame(reception)) errors |= kSyntaxError;
   const int slot = static_slot_at(reception.start);
   if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
@@ -199,7 +199,7 @@ void FlexRayController::State::cross_slots(const ports::Reception& reception, in
 }
 
 // Judges a reception before or after the static segment, as `slot` says.
-void FlexRayController::State::judge_elsewhere(const ports::Reception& reception, int slot, std::uint8_t errors,
+void FlexRayController::State::judge_elsewhere(const ports::Reception& reception, int slot, SlotStatus errors,
                                                bool conflict) {
   const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, minislot, errors);
@@ -216,11 +216,10 @@ void FlexRayController::State::judge_elsewhere(const ports::Reception& reception
                          reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
   if (poc::in_startup(poc.kind) || (in_window && is_cas(reception) && !conflict)) return;
   if (!in_window) errors |= kBoundaryViolation;
-  events.slot_problem(clock->cycle(), 0, reception.channel, static_cast<SlotStatus>(errors | kSyntaxError),
-                      reception.end);
+  events.slot_problem(clock->cycle(), 0, reception.channel, errors | kSyntaxError, reception.end);
 }
 
-void FlexRayController::State::judge_static(const ports::Reception& reception, int slot, std::uint8_t errors) {
+void FlexRayController::State::judge_static(const ports::Reception& reception, int slot, SlotStatus errors) {
   const auto c = index_of(reception.channel);
   SlotBoard::Seen& status = board.at(slot);
   if (const int last = last_static_slot_of(reception); last != slot) {
@@ -229,12 +228,12 @@ void FlexRayController::State::judge_static(const ports::Reception& reception, i
   }
   if (status.element[c]) errors |= kSyntaxError;  // a second communication element
   status.element[c] = true;
-  if (errors == 0 && !is_of_slot(reception.frame.header, slot, slot_at.counter)) errors |= kContentError;
+  if (errors == kValidFrame && !is_of_slot(reception.frame.header, slot, slot_at.counter)) errors |= kContentError;
   status.errors[c] |= errors;
-  if (errors != 0) {
+  if (errors != kValidFrame) {
     // Activity that outlasts the segment is judged after the segment has been closed.
     if (!board.under_way() && !poc::in_startup(poc.kind))
-      events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+      events.slot_problem(clock->cycle(), slot, reception.channel, errors, reception.end);
     return;
   }
   status.valid[c] = true;
@@ -283,20 +282,20 @@ int FlexRayController::State::count_minislots(const ports::Reception& reception)
   return last;
 }
 
-void FlexRayController::State::judge_dynamic(const ports::Reception& reception, int minislot, std::uint8_t errors) {
+void FlexRayController::State::judge_dynamic(const ports::Reception& reception, int minislot, SlotStatus errors) {
   const wire::FrameHeader& header = reception.frame.header;
   const int slot = dynamic[index_of(reception.channel)].counter.slot_in(minislot);
   if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
 
-  if (errors == 0 && !is_of_dynamic_slot(header, slot)) errors |= kContentError;
-  if (errors == 0) {
+  if (errors == kValidFrame && !is_of_dynamic_slot(header, slot)) errors |= kContentError;
+  if (errors == kValidFrame) {
     if (!poc::in_startup(poc.kind))
       events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
     const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
     if (!is_as_expected(reception.frame, expected) || !store(*expected, reception)) errors |= kUnexpectedFrame;
   }
-  if (errors != 0 && !poc::in_startup(poc.kind))
-    events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+  if (errors != kValidFrame && !poc::in_startup(poc.kind))
+    events.slot_problem(clock->cycle(), slot, reception.channel, errors, reception.end);
 }
 
 // Returns whether a valid dynamic frame may hold the fragment that the schedule has there.

@@ -22,11 +22,11 @@ class SlotBoard {
  public:
   // The status of one slot, by channel.
   struct Seen {
-    std::array<bool, 2> valid{};           // a valid frame
-    std::array<bool, 2> element{};         // a communication element has begun in the slot
-    std::array<std::uint8_t, 2> errors{};  // SlotStatus
+    std::array<bool, 2> valid{};    // a valid frame
+    std::array<bool, 2> element{};  // a communication element has begun in the slot
+    std::array<SlotStatus, 2> errors{};
 
-    bool nothing(std::size_t channel) const { return !element[channel] && errors[channel] == 0; }
+    bool nothing(std::size_t channel) const { return !element[channel] && errors[channel] == kValidFrame; }
     bool nothing() const { return (std::bit_cast<std::uint16_t>(element) | std::bit_cast<std::uint16_t>(errors)) == 0; }
   };
 

@@ -166,7 +166,7 @@ struct FlexRayController::State {
   void hear_in_startup(const ports::Reception& reception, bool conflict);  // or without a schedule
   void hear(const ports::Reception& reception);                            // without a schedule
   void judge(const ports::Reception& reception, bool conflict);            // within the schedule
-  void judge_static(const ports::Reception& reception, int slot, std::uint8_t errors);
+  void judge_static(const ports::Reception& reception, int slot, SlotStatus errors);
   // A valid frame decodes without error, lies within its slot, and has a header that is right there.
   static bool is_frame(const ports::Reception& reception) {
     return reception.signal == ports::Signal::kFrame && reception.frame.error == wire::FrameError::kNone;
@@ -186,9 +186,9 @@ struct FlexRayController::State {
   void accept(const ports::Reception& reception, schedules::model::Channel channel, int slot,
               const schedules::model::FrameSlot* expected);
   bool is_as_expected(const wire::DecodedFrame& heard, const schedules::model::FrameSlot* expected) const;
-  void judge_elsewhere(const ports::Reception& reception, int slot, std::uint8_t errors, bool conflict);
+  void judge_elsewhere(const ports::Reception& reception, int slot, SlotStatus errors, bool conflict);
   void cross_slots(const ports::Reception& reception, int slot, int last);
-  void judge_dynamic(const ports::Reception& reception, int minislot, std::uint8_t errors);
+  void judge_dynamic(const ports::Reception& reception, int minislot, SlotStatus errors);
   int count_minislots(const ports::Reception& reception);
   bool store(const schedules::model::FrameSlot& slot, const ports::Reception& reception);
   // Returns 0 before the segment and gNumberOfStaticSlots + 1 after it; any other slot is in slot_at then.

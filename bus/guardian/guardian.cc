@@ -10,26 +10,6 @@ namespace ttf::bus::guardian {
 using schedules::model::Channel;
 using schedules::model::FrameSlot;
 
-std::string_view to_text(GuardianReason reason) {
-  switch (reason) {
-    case GuardianReason::kForwarded: return "forwarded";
-    case GuardianReason::kOtherForwarded: return "another signal is being forwarded";
-    case GuardianReason::kUndecodable: return "the coupler cannot decode it";
-    case GuardianReason::kNobodysTime: return "it lies outside all slots";
-    case GuardianReason::kNotItsSlot: return "the branch does not have the slot in this cycle";
-    case GuardianReason::kOutsideWindow: return "it begins too far from the action point";
-    case GuardianReason::kWrongHeader: return "its header does not fit the slot";
-    case GuardianReason::kNoSymbolNow: return "no symbol is due";
-    case GuardianReason::kNoColdstartNode: return "during start-up only coldstart nodes may send it";
-    case GuardianReason::kNoStartupFrame: return "during start-up only the branch's startup frame may pass";
-    case GuardianReason::kOtherLeads: return "another branch leads the start-up";
-    case GuardianReason::kTooSoon: return "during start-up the branch may send only once a cycle";
-    case GuardianReason::kLeadFailed: return "the branch led a failed start-up and must wait for others";
-    case GuardianReason::kNoWakeup: return "no wake-up pattern is due from the branch";
-  }
-  TTF_CHECK(false, "reason {}", static_cast<int>(reason));
-}
-
 SignalLengths::SignalLengths(const schedules::model::GlobalParameters& flexray, std::int64_t microtick_ps)
     : flexray_(flexray), microtick_ps_(microtick_ps) {}
 

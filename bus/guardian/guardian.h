@@ -34,9 +34,7 @@
 //       stays valid; a frame that broke off or was cut is undecodable
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "bus/controller/dynamic_segment.h"
@@ -44,34 +42,14 @@
 #include "bus/ports/flexray_port.h"
 #include "core/ids.h"
 #include "core/time.h"
+#include "recording/records/enumerations.h"
 #include "schedules/model/cluster.h"
 #include "timebase/cycle_clock.h"
 
 namespace ttf::bus::guardian {
 
-enum class GuardianReason : std::uint8_t {
-  kForwarded,
-  kOtherForwarded,   // G7
-  kUndecodable,      // G5
-  kNobodysTime,      // G5: between the segments, in the idle time
-  kNotItsSlot,       // G1, G3
-  kOutsideWindow,    // G2, G3
-  kWrongHeader,      // G1, G3
-  kNoSymbolNow,      // G4, G5
-  kNoColdstartNode,  // G6
-  kNoStartupFrame,   // G6
-  kOtherLeads,       // S1, G8
-  kTooSoon,          // S2
-  kLeadFailed,       // S3
-  kNoWakeup,         // S5
-};
-inline constexpr std::array kAllGuardianReasons = {
-    GuardianReason::kForwarded,      GuardianReason::kOtherForwarded, GuardianReason::kUndecodable,
-    GuardianReason::kNobodysTime,    GuardianReason::kNotItsSlot,     GuardianReason::kOutsideWindow,
-    GuardianReason::kWrongHeader,    GuardianReason::kNoSymbolNow,    GuardianReason::kNoColdstartNode,
-    GuardianReason::kNoStartupFrame, GuardianReason::kOtherLeads,     GuardianReason::kTooSoon,
-    GuardianReason::kLeadFailed,     GuardianReason::kNoWakeup};
-std::string_view to_text(GuardianReason reason);
+using recording::records::GuardianReason;
+using recording::records::kAllGuardianReasons;
 
 // A signal that begins at the coupler; instants in microticks of the guardian.
 struct GuardianSignal {

@@ -39,7 +39,6 @@
 //   R10 READY sets coldstart inhibit (register CCSV: "due to CHI command READY"); the return from wake-up does not.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "bus/poc/event.h"
@@ -51,27 +50,8 @@
 namespace ttf::bus::poc {
 
 // A step passes through wake-up standby, startup prepare, abort startup and startup success; its reason names them.
+using recording::records::kAllPocKinds;
 using recording::records::PocKind;
-inline constexpr std::array kAllPocKinds = {
-    PocKind::kDefaultConfig,
-    PocKind::kConfig,
-    PocKind::kReady,
-    PocKind::kWakeupListen,
-    PocKind::kWakeupSend,
-    PocKind::kWakeupDetect,
-    PocKind::kColdstartListen,
-    PocKind::kColdstartCollisionResolution,
-    PocKind::kColdstartConsistencyCheck,
-    PocKind::kColdstartGap,
-    PocKind::kIntegrationListen,
-    PocKind::kInitialiseSchedule,
-    PocKind::kIntegrationColdstartCheck,
-    PocKind::kColdstartJoin,
-    PocKind::kIntegrationConsistencyCheck,
-    PocKind::kNormalActive,
-    PocKind::kNormalPassive,
-    PocKind::kHalt,
-};
 
 // The frames that media access may send.
 enum class MacMode : std::uint8_t { kNothing, kStartupFrame, kKeySlot, kAll };

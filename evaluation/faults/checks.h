@@ -58,7 +58,7 @@ template <class Seen> void for_each_check(const recording::records::SlotProblem&
                                                                   {SlotStatus::kNoFrame, Check::kNoFrame},
                                                                   {SlotStatus::kUnexpectedFrame, Check::kUnexpected}}};
   for (const auto& [bit, check] : kOfSlots)
-    if ((problem.status & bit) != 0) seen(check);
+    if (has(problem.status, bit)) seen(check);
 }
 template <class Seen> void for_each_check(const recording::records::ClockCorrected& corrected, Seen seen) {
   if (corrected.offset_missing || corrected.rate_missing) seen(Check::kMissingTerm);

@@ -18,6 +18,8 @@
 #include <optional>
 #include <span>
 
+#include "recording/records/enumerations.h"
+
 namespace ttf::nodes::control {
 
 struct GapPlannerConfig {
@@ -28,7 +30,7 @@ struct GapPlannerConfig {
   double start_up_s = 2.5;
 };
 
-enum class PlannerState { kDecelerate, kHold, kAccelerate, kStop };
+using recording::records::PlannerState;
 
 // The most important object: gap [m], speed over ground [m/s].
 struct MostImportant {

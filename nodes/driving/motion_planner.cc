@@ -122,7 +122,7 @@ void MotionPlanner::run(host::StepContext& context) {
     memory_.speed.reset();
     tell_region(context, std::nullopt, record);
     const bool stops = memory_.state == control::PlannerState::kStop;
-    return plan_.issue(context, {stops, 0.0, static_cast<std::uint8_t>(memory_.state)}, record);
+    return plan_.issue(context, {stops, 0.0, memory_.state}, record);
   }
   way_.list(context, objects_);
   const std::optional<Chosen> chosen = most_important(*own);
@@ -138,7 +138,7 @@ void MotionPlanner::run(host::StepContext& context) {
     record.speed_ahead = chosen->object.speed;
   }
   tell_region(context, chosen, record);
-  plan_.issue(context, {true, std::max(0.0, asked), static_cast<std::uint8_t>(memory_.state)}, record);
+  plan_.issue(context, {true, std::max(0.0, asked), memory_.state}, record);
 }
 
 }  // namespace ttf::nodes::driving

@@ -12,7 +12,7 @@ Plan decode_plan(const schedules::model::PduLayout& layout, const bus::cni::List
                  const PlanSignals& signals) {
   if (host::element_count(layout, list) == 0) return {};
   const auto value = [&](std::size_t signal) { return host::element_value(layout, list, 0, signals[signal]); };
-  return {value(0) != 0.0, value(1), static_cast<std::uint8_t>(value(2))};
+  return {value(0) != 0.0, value(1), static_cast<recording::records::PlannerState>(value(2))};
 }
 
 PlanOutput::PlanOutput(const schedules::model::Cluster& cluster, const schedules::model::Task& task)
@@ -25,7 +25,7 @@ void PlanOutput::issue(host::StepContext& context, const Plan& plan, recording::
   out.begin(sequence_, 1, context.stamp.global);
   out.set(0, signals_[0], plan.valid ? 1.0 : 0.0);
   out.set(0, signals_[1], plan.speed);
-  out.set(0, signals_[2], plan.state);
+  out.set(0, signals_[2], static_cast<double>(plan.state));
   out.set(0, signals_[3], static_cast<double>(index_of(record.track)));
   const Plan sent = decode_plan(out.layout(), out.view(), signals_);
   record.stamp = context.stamp;

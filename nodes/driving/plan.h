@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "nodes/host/step.h"
@@ -15,7 +16,7 @@ namespace ttf::nodes::driving {
 struct Plan {
   bool valid = false;
   double speed = 0.0;
-  std::uint8_t state = 0;
+  recording::records::PlannerState state{};
 };
 
 using PlanSignals = std::array<std::size_t, 4>;

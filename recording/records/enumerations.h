@@ -2,6 +2,8 @@
 // number without an enumerator, as in a damaged log, has no words of its own.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -56,6 +58,7 @@ constexpr std::string_view to_text(CanError error) {
 
 // The state of error confinement of such a controller.
 enum class CanState : std::uint8_t { kActive = 0, kPassive = 1, kBusOff = 2 };
+inline constexpr std::size_t kCanStates = 3;
 constexpr std::string_view to_text(CanState state) {
   switch (state) {
     case CanState::kActive: return "error active";
@@ -82,7 +85,7 @@ inline std::string to_text(ChannelState state) {
 }
 
 // The status of a slot on one channel (FlexRay 2.1A vSS): bits. The last one is the host's view of a valid frame.
-enum SlotStatus : std::uint8_t {
+enum class SlotStatus : std::uint8_t {
   kValidFrame = 0,
   kSyntaxError = 1,
   kContentError = 2,
@@ -93,11 +96,13 @@ enum SlotStatus : std::uint8_t {
   // is not that of the slot's list.
   kUnexpectedFrame = 32
 };
+template <> inline constexpr bool kIsBits<SlotStatus> = true;
 // Returns "status 0" and the like if no bit is known.
 inline std::string to_text(SlotStatus status) {
-  const std::string text = bits_text(status, {"syntax error", "content error", "boundary violation",
-                                              "transmission conflict", "no frame", "unexpected frame"});
-  return text.empty() ? "status " + std::to_string(unsigned{status}) : text;
+  const auto bits = static_cast<unsigned>(status);
+  const std::string text = bits_text(bits, {"syntax error", "content error", "boundary violation",
+                                            "transmission conflict", "no frame", "unexpected frame"});
+  return text.empty() ? "status " + std::to_string(bits) : text;
 }
 
 // A step of a list on its way from task to task.
@@ -147,6 +152,26 @@ enum class PocKind : std::uint8_t {
   kIntegrationConsistencyCheck = 0x28,
   kInitialiseSchedule = 0x29
 };
+inline constexpr std::array kAllPocKinds = {
+    PocKind::kDefaultConfig,
+    PocKind::kConfig,
+    PocKind::kReady,
+    PocKind::kWakeupListen,
+    PocKind::kWakeupSend,
+    PocKind::kWakeupDetect,
+    PocKind::kColdstartListen,
+    PocKind::kColdstartCollisionResolution,
+    PocKind::kColdstartConsistencyCheck,
+    PocKind::kColdstartGap,
+    PocKind::kIntegrationListen,
+    PocKind::kInitialiseSchedule,
+    PocKind::kIntegrationColdstartCheck,
+    PocKind::kColdstartJoin,
+    PocKind::kIntegrationConsistencyCheck,
+    PocKind::kNormalActive,
+    PocKind::kNormalPassive,
+    PocKind::kHalt,
+};
 constexpr std::string_view to_text(PocKind kind) {
   switch (kind) {
     case PocKind::kDefaultConfig: return "default config";
@@ -179,6 +204,61 @@ constexpr std::string_view to_text(Symbol symbol) {
     case Symbol::kMediaTest: return "media access test symbol";
   }
   return "symbol";
+}
+
+// The reason of a central guardian to block a signal. Comments name its rules (bus/guardian/guardian.h).
+enum class GuardianReason : std::uint8_t {
+  kForwarded = 0,
+  kOtherForwarded = 1,   // G7
+  kUndecodable = 2,      // G5
+  kNobodysTime = 3,      // G5: between the segments, in the idle time
+  kNotItsSlot = 4,       // G1, G3
+  kOutsideWindow = 5,    // G2, G3
+  kWrongHeader = 6,      // G1, G3
+  kNoSymbolNow = 7,      // G4, G5
+  kNoColdstartNode = 8,  // G6
+  kNoStartupFrame = 9,   // G6
+  kOtherLeads = 10,      // S1, G8
+  kTooSoon = 11,         // S2
+  kLeadFailed = 12,      // S3
+  kNoWakeup = 13,        // S5
+};
+inline constexpr std::array kAllGuardianReasons = {
+    GuardianReason::kForwarded,      GuardianReason::kOtherForwarded, GuardianReason::kUndecodable,
+    GuardianReason::kNobodysTime,    GuardianReason::kNotItsSlot,     GuardianReason::kOutsideWindow,
+    GuardianReason::kWrongHeader,    GuardianReason::kNoSymbolNow,    GuardianReason::kNoColdstartNode,
+    GuardianReason::kNoStartupFrame, GuardianReason::kOtherLeads,     GuardianReason::kTooSoon,
+    GuardianReason::kLeadFailed,     GuardianReason::kNoWakeup};
+constexpr std::string_view to_text(GuardianReason reason) {
+  switch (reason) {
+    case GuardianReason::kForwarded: return "forwarded";
+    case GuardianReason::kOtherForwarded: return "another signal is being forwarded";
+    case GuardianReason::kUndecodable: return "the coupler cannot decode it";
+    case GuardianReason::kNobodysTime: return "it lies outside all slots";
+    case GuardianReason::kNotItsSlot: return "the branch does not have the slot in this cycle";
+    case GuardianReason::kOutsideWindow: return "it begins too far from the action point";
+    case GuardianReason::kWrongHeader: return "its header does not fit the slot";
+    case GuardianReason::kNoSymbolNow: return "no symbol is due";
+    case GuardianReason::kNoColdstartNode: return "during start-up only coldstart nodes may send it";
+    case GuardianReason::kNoStartupFrame: return "during start-up only the branch's startup frame may pass";
+    case GuardianReason::kOtherLeads: return "another branch leads the start-up";
+    case GuardianReason::kTooSoon: return "during start-up the branch may send only once a cycle";
+    case GuardianReason::kLeadFailed: return "the branch led a failed start-up and must wait for others";
+    case GuardianReason::kNoWakeup: return "no wake-up pattern is due from the branch";
+  }
+  return "";
+}
+
+// The state of a motion planner (nodes/control/gap_planner.h).
+enum class PlannerState : std::uint8_t { kDecelerate = 0, kHold = 1, kAccelerate = 2, kStop = 3 };
+constexpr std::string_view to_text(PlannerState state) {
+  switch (state) {
+    case PlannerState::kDecelerate: return "decelerate";
+    case PlannerState::kHold: return "hold";
+    case PlannerState::kAccelerate: return "accelerate";
+    case PlannerState::kStop: return "stop";
+  }
+  return "";
 }
 
 // A missed instant in real time.

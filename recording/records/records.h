@@ -119,7 +119,7 @@ struct SlotProblem {
   std::int64_t cycle = 0;
   std::uint16_t slot = 0;
   std::uint8_t channel = 0;
-  SlotStatus status = kValidFrame;
+  SlotStatus status = SlotStatus::kValidFrame;
 };
 
 // A list of a PDU on its way: each hop is one record, so that a diagram can draw the arrows.
@@ -199,10 +199,10 @@ struct GuardianIntervention {
   NodeId branch = kNoNode;   // the branch of this node
   std::uint8_t channel = 0;  // 0 A, 1 B
   GuardedSignal signal = GuardedSignal::kFrame;
-  std::uint8_t reason = 0;  // as bus::GuardianReason; 0 if cut
-  bool cut = false;         // else blocked
-  TrueTime until{};         // cut: the bus signal went through until then; blocked: `at`
-  std::string_view why;     // the reason in words
+  GuardianReason reason = GuardianReason::kForwarded;  // kForwarded if cut
+  bool cut = false;                                    // else blocked
+  TrueTime until{};                                    // cut: the bus signal went through until then; blocked: `at`
+  std::string_view why;                                // the reason in words
 };
 
 // The largest difference between any two nodes' global times within a double cycle, as the simulator sees it:
@@ -408,7 +408,7 @@ struct SequencePlanned {
   Duration length{};  // expected, by the times of earlier detections
 };
 
-// A motion plan: the speed [m/s] to drive at, and the planner's state (nodes/control/gap_planner.h). An invalid one
+// A motion plan: the speed [m/s] to drive at, and the planner's state. An invalid one
 // asks for nothing. It rests on the most important object. The own place is that on the lane [m, rad]. The region [px]
 // holds the object. Without an object the track is kNoTrack. Without a region the camera is kNoSensor.
 struct PlanMade {
@@ -416,7 +416,7 @@ struct PlanMade {
   PduId pdu{};
   std::uint32_t sequence = 0;
   bool valid = false;
-  std::uint8_t state = 0;
+  PlannerState state = PlannerState::kDecelerate;
   double speed = 0;
   TrackId track = kNoTrack;
   double gap = 0, speed_ahead = 0;

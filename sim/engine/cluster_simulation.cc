@@ -36,10 +36,10 @@ recording::records::GuardianIntervention record_of(const medium::StarCoupler::In
           one.branch,
           static_cast<std::uint8_t>(one.channel),
           signal_of(one.signal),
-          static_cast<std::uint8_t>(one.reason),
+          one.reason,
           cut,
           one.until,
-          cut ? "it lasts longer than its kind may" : bus::guardian::to_text(one.reason)};
+          cut ? "it lasts longer than its kind may" : to_text(one.reason)};
 }
 
 void add(nodes::host::ExecutiveCounts& sum, const nodes::host::ExecutiveCounts& one) {

@@ -64,7 +64,7 @@ struct Heard final : controller::ControllerEvents {
     std::int64_t cycle;
     int slot;
     schedules::model::Channel channel;
-    int status;
+    controller::SlotStatus status;
   };
   struct Sent {
     std::int64_t cycle;

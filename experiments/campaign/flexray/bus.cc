@@ -38,7 +38,7 @@ class StoryInWords final : public TrialStory {
                fmt::format("guardian of {} {} {} of {}{}{}", letter(intervention.channel), cut ? "cuts off" : "blocks",
                            to_text(intervention.signal),
                            intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
-                           cut ? "" : ": ", cut ? "" : bus::guardian::to_text(intervention.reason)),
+                           cut ? "" : ": ", cut ? "" : to_text(intervention.reason)),
                Story::Of::kGuardians);
   }
   void judged(const evaluation::faults::Judgement& judgement) override {

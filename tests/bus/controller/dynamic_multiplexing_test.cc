@@ -197,7 +197,7 @@ TEST(MessageId, AnUnknownMissingOrUnexpectedOneMakesTheFrameUnexpected) {
     int slot;
     bool preamble;
     std::vector<int> first;
-    int status;
+    SlotStatus status;
   };
   for (const Case& one : {Case{12, true, {0x12, 0x34}, kValidFrame}, Case{12, true, {0x34, 0x12}, kUnexpectedFrame},
                           Case{12, false, {}, kUnexpectedFrame}, Case{12, false, {0x12, 0x34}, kUnexpectedFrame},
@@ -215,7 +215,7 @@ TEST(MessageId, AnUnknownMissingOrUnexpectedOneMakesTheFrameUnexpected) {
     node.run_to(0, 841);
     node.heard.problems.clear();
     frame.arrive(node);
-    const int status = node.heard.problems.empty() ? kValidFrame : node.heard.problems[0].status;
+    const SlotStatus status = node.heard.problems.empty() ? kValidFrame : node.heard.problems[0].status;
     EXPECT_EQ(status, one.status) << one.slot << (one.preamble ? " with" : " without");
     EXPECT_EQ(node.heard.arrived.size(), one.status == kValidFrame ? 1u : 0u);
   }

@@ -101,7 +101,7 @@ TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
     for (std::size_t n = 0; n < 4; ++n) {
       ASSERT_TRUE(rig.heard(n).problems.empty())
           << "seed " << seed << " node " << n << " slot " << rig.heard(n).problems[0].slot << " status "
-          << rig.heard(n).problems[0].status;
+          << to_text(rig.heard(n).problems[0].status);
       for (std::size_t m = 0; m < 4; ++m) {
         if (m == n) continue;
         std::vector<std::uint32_t> all(written[m]);

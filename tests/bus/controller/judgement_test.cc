@@ -10,7 +10,7 @@ namespace ttf::bus::controller {
 namespace {
 
 // One frame each, with one error each. Returns the controller's status of its slot in cycle 0.
-int status_of(const Frame& frame, int slot, std::int64_t cycle = 0) {
+SlotStatus status_of(const Frame& frame, int slot, std::int64_t cycle = 0) {
   Alone node;
   frame.arrive(node);
   node.run_to(cycle + 1);

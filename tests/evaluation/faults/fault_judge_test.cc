@@ -175,8 +175,7 @@ TEST_F(Story, H5AFrameThatWasNotSentInThisCycleIsForged) {
 
 TEST_F(Story, ChecksOfTheFaultyNodeAreKeptApart) {
   slot_problem(judge_, kBob, SlotStatus::kNoFrame, in_cycle(5));
-  slot_problem(judge_, kBob, static_cast<SlotStatus>(SlotStatus::kSyntaxError | SlotStatus::kBoundaryViolation),
-               in_cycle(6));
+  slot_problem(judge_, kBob, SlotStatus::kSyntaxError | SlotStatus::kBoundaryViolation, in_cycle(6));
   judge_.on(recording::records::ClockCorrected{
       .stamp = {in_cycle(7), {}, {}, kFaulty}, .rate_missing = true, .offset_limited = true});
   changes(kFaulty, PocKind::kNormalActive, PocKind::kHalt, in_cycle(7));

@@ -36,7 +36,7 @@ class Ledger : public testing::Test {
     problem.cycle = cycle;
     problem.slot = 2;
     problem.channel = channel;
-    problem.status = recording::records::kNoFrame;
+    problem.status = recording::records::SlotStatus::kNoFrame;
     ledger_.on(problem);
   }
   void cycle(int cycle, bool lost) {

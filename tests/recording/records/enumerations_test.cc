@@ -27,10 +27,12 @@ template <class Enum> void expect_words_of_their_own(unsigned enumerators) {
 
 TEST(Enumerations, EachEnumeratorHasWordsThatLeadBackToIt) {
   expect_words_of_their_own<CanError>(5);
-  expect_words_of_their_own<CanState>(3);
-  expect_words_of_their_own<PocKind>(18);
+  expect_words_of_their_own<CanState>(kCanStates);
+  expect_words_of_their_own<PocKind>(kAllPocKinds.size());
   expect_words_of_their_own<Symbol>(3);
   expect_words_of_their_own<TimingFault>(5);
+  expect_words_of_their_own<GuardianReason>(kAllGuardianReasons.size());
+  expect_words_of_their_own<PlannerState>(4);
 }
 
 TEST(Enumerations, ASetOfBitsSaysEachOfThemInTheirOrder) {
@@ -38,8 +40,8 @@ TEST(Enumerations, ASetOfBitsSaysEachOfThemInTheirOrder) {
   EXPECT_EQ(to_text(ChannelState::kCut | ChannelState::kHeaderCrc), "header CRC wrong, cut off");
   EXPECT_TRUE(has(ChannelState::kCut | ChannelState::kCoding, ChannelState::kCut));
   EXPECT_FALSE(has(ChannelState::kCoding, ChannelState::kCut | ChannelState::kHeaderCrc));
-  EXPECT_EQ(to_text(static_cast<SlotStatus>(kNoFrame | kSyntaxError)), "syntax error, no frame");
-  EXPECT_EQ(to_text(kValidFrame), "status 0");
+  EXPECT_EQ(to_text(SlotStatus::kNoFrame | SlotStatus::kSyntaxError), "syntax error, no frame");
+  EXPECT_EQ(to_text(SlotStatus::kValidFrame), "status 0");
   EXPECT_EQ(to_text(static_cast<SlotStatus>(64)), "status 64");
 }
 

@@ -25,8 +25,8 @@ struct Problems final : bus::controller::ControllerEvents {
                     Microticks) override {
     if (slot > 64) return;  // dynamic
     const auto s = static_cast<std::size_t>(slot);
-    syntax[s] += (status & bus::controller::kSyntaxError) != 0;
-    content[s] += (status & bus::controller::kContentError) != 0;
+    syntax[s] += has(status, bus::controller::kSyntaxError);
+    content[s] += has(status, bus::controller::kContentError);
     missing[s] += status == bus::controller::kNoFrame;
     unexpected[s] += status == bus::controller::kUnexpectedFrame;
   }

@@ -17,7 +17,10 @@
 namespace ttf::sim::faults {
 
 inline constexpr std::int64_t kCycleNs = 5'000'000;
-inline constexpr unsigned kAnything = 0xff;  // every bit of a slot status
+inline constexpr auto kAnything = static_cast<bus::controller::SlotStatus>(0xff);  // every bit of a slot status
+constexpr bus::controller::SlotStatus anything_but(bus::controller::SlotStatus bits) {
+  return static_cast<bus::controller::SlotStatus>(0xff & ~static_cast<unsigned>(bits));
+}
 
 // A controller's reports.
 struct Said final : bus::controller::ControllerEvents {
@@ -25,7 +28,7 @@ struct Said final : bus::controller::ControllerEvents {
     std::int64_t cycle = 0;
     int slot = 0;
     schedules::model::Channel channel{};
-    unsigned status = 0;
+    bus::controller::SlotStatus status{};
   };
   std::vector<Problem> problems;
   std::vector<bus::poc::PocKind> states;
@@ -35,7 +38,7 @@ struct Said final : bus::controller::ControllerEvents {
 
   void slot_problem(std::int64_t cycle, int slot, schedules::model::Channel channel, bus::controller::SlotStatus status,
                     Microticks at) override {
-    problems.push_back({cycle, slot, channel, static_cast<unsigned>(status)});
+    problems.push_back({cycle, slot, channel, status});
     all.push_back(fmt::format("{} cycle {} slot {} channel {} status {}", at.value, cycle, slot, index_of(channel),
                               static_cast<unsigned>(status)));
   }
@@ -50,9 +53,9 @@ struct Said final : bus::controller::ControllerEvents {
     all.push_back(fmt::format("{} cycle {} offset {} rate {}", at.value, cycle, offset.value, rate.value));
   }
   // How often a slot had one of these problems.
-  int count(int slot, unsigned status) const {
+  int count(int slot, bus::controller::SlotStatus status) const {
     int times = 0;
-    for (const Problem& problem : problems) times += problem.slot == slot && (problem.status & status) != 0 ? 1 : 0;
+    for (const Problem& problem : problems) times += problem.slot == slot && has(problem.status, status) ? 1 : 0;
     return times;
   }
 };

@@ -17,8 +17,8 @@ struct Sum final : recording::records::Sink {
   std::uint64_t sum = 0xcbf29ce484222325;
   std::uint64_t frames = 0, images = 0;
   std::map<std::string, std::uint64_t> acts;
-  std::map<unsigned, std::uint64_t> problems;  // by bit of their status
-  std::map<int, std::uint64_t> empty;          // by slot: no frame in it
+  std::map<bus::controller::SlotStatus, std::uint64_t> problems;  // by bit of their status
+  std::map<int, std::uint64_t> empty;                             // by slot: no frame in it
 
   void on(const recording::records::SlotFrameSent& frame) override {
     ++frames;
@@ -27,9 +27,12 @@ struct Sum final : recording::records::Sink {
   }
   void on(const recording::records::TaskRun& run) override { add(run.end.true_time.ns), add(run.task); }
   void on(const recording::records::SlotProblem& problem) override {
-    add(problem.stamp.true_time.ns), add(problem.status);
-    if ((problem.status & bus::controller::kNoFrame) != 0) ++empty[problem.slot];
-    for (unsigned bit = 1; bit <= 32; bit *= 2) problems[bit] += (problem.status & bit) != 0 ? 1 : 0;
+    add(problem.stamp.true_time.ns), add(static_cast<std::int64_t>(problem.status));
+    if (has(problem.status, bus::controller::kNoFrame)) ++empty[problem.slot];
+    using enum recording::records::SlotStatus;
+    for (const auto bit :
+         {kSyntaxError, kContentError, kBoundaryViolation, kTransmissionConflict, kNoFrame, kUnexpectedFrame})
+      problems[bit] += has(problem.status, bit) ? 1 : 0;
   }
   void on(const recording::records::ImageWritten& image) override { ++images, add(image.valid_at.ns); }
   void on(const recording::records::FaultActivity& activity) override {
@@ -53,7 +56,9 @@ TEST_P(FaultyDrive, TheShippedOneRunsToItsEndAndEveryFaultActs) {
     EXPECT_GE(outcome.faults[i].first, engine::kFirstCycle + fault.from) << ttf::faults::name_of(fault.kind);
     EXPECT_EQ(sum.acts[std::string(ttf::faults::name_of(fault.kind))], outcome.faults[i].times);
   }
-  for (const unsigned status : {1U, 4U, 8U, 16U}) EXPECT_GT(sum.problems[status], 0U) << status;
+  using enum recording::records::SlotStatus;
+  for (const auto status : {kSyntaxError, kBoundaryViolation, kTransmissionConflict, kNoFrame})
+    EXPECT_GT(sum.problems[status], 0U) << to_text(status);
   // The camera's host: 200 ms and the time of integration, on two channels, at four receivers.
   const int slot = drive.cluster.node(*drive.cluster.find_node("camera_pre")).flexray->pKeySlotId;
   EXPECT_GE(sum.empty[slot], 40U * 2 * 4);

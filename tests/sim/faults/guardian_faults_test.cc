@@ -19,12 +19,12 @@ FaultBusConfig star(ttf::faults::Fault fault) {
 
 // Expects all others to report the same about a slot.
 void expect_agreement(const FaultBus& bus, int slot) {
-  for (const unsigned status : {bus::controller::kSyntaxError, bus::controller::kContentError,
-                                bus::controller::kBoundaryViolation, bus::controller::kNoFrame}) {
+  for (const bus::controller::SlotStatus status : {bus::controller::kSyntaxError, bus::controller::kContentError,
+                                                   bus::controller::kBoundaryViolation, bus::controller::kNoFrame}) {
     std::vector<int> counts;
     for (int n = 0; n < 4; ++n)
       if (n != slot - 1) counts.push_back(bus.said(n).count(slot, status));
-    for (const int count : counts) EXPECT_EQ(count, counts[0]) << "status " << status;
+    for (const int count : counts) EXPECT_EQ(count, counts[0]) << to_text(status);
   }
 }
 

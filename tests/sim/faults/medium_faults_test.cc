@@ -71,7 +71,7 @@ TEST(MediumFaults, NoiseIsSeenInSlotsThatAreNobodys) {
     for (const Said::Problem& problem : bus.said(n).problems) {
       EXPECT_EQ(problem.channel, Channel::kB);
       if (problem.slot == 0 || problem.slot > 4) {
-        EXPECT_NE(problem.status & (bus::controller::kSyntaxError | bus::controller::kBoundaryViolation), 0U);
+        EXPECT_TRUE(has(problem.status, bus::controller::kSyntaxError | bus::controller::kBoundaryViolation));
       }
     }
   }
