@@ -16,7 +16,8 @@
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
 //   sensors: {NAME: {like, raw, objects, preprocessing, ...}}   like another one, but for its own keys (likeness/inherit_alike.h);
 //             without device and host both are copied (likeness/sensor_copy.h)
-//         or {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
+//         or {NAME: {kind: laser|camera|..., device, host, measurement: free, period, phase}}   phase is optional;
+//             model/sensor_kind.h has the kinds
 //         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}
 //         or {NAME: {kind, device, host, measurement: completion, after: TASK_OF_HOST,
 //                    shortest_period, longest_period, phase}}

@@ -114,6 +114,7 @@ std::vector<recording::log::SensorStyle> sensor_styles(const Sensors& sensors,
                                                        const schedules::model::Cluster& cluster);
 
 template <IsKind... Kind> consteval auto steps_of() {
+  static_assert(sizeof...(Kind) == schedules::model::kSensorKinds.size(), "each kind of sensor has its steps");
   std::array<SensorSteps, (Kind::kSteps.size() + ...)> steps;
   std::size_t n = 0;
   const auto add = [&](const SensorSteps& one) { steps[n++] = one; };
