@@ -152,7 +152,10 @@ constexpr ColumnOf<FrameRow> kFrameColumns[] = {
     {"cycle",
      [](auto& r) { return value_if(r.frame.flexray && !r.frame.symbol && r.frame.of_controller, r.frame.cycle); }},
     {"id", [](auto& r) { return value_if(!r.frame.symbol && r.kind != "noise", r.frame.id); }},
-    {"sender", [](auto& r) { return r.frame.sender == kNoNode ? std::string() : r.names.node(r.frame.sender); }},
+    {"sender",
+     [](auto& r) {
+       return r.frame.sender == kNoNode && !r.frame.symbol ? std::string() : r.names.node(r.frame.sender);
+     }},
     {"kind", [](auto& r) { return r.kind; }},
     {"flags", [](auto& r) { return r.flags; }},
     {"pdu", [](auto& r) { return r.list ? r.names.pdu(r.frame.pdu) : std::string(); }},
