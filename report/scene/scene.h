@@ -17,8 +17,8 @@
 namespace ttf::report::scene {
 
 using recording::scene::OwnMotion;
-using recording::scene::Place;
 using recording::scene::Point;
+using recording::scene::Pose;
 using recording::scene::ViewedSensor;
 
 struct TrueObject {

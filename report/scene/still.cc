@@ -126,7 +126,7 @@ class Painter {
     const bool coasting = has(one.status, recording::records::ImageStatus::kCoasting);
     outline(corners(one), line_of(coasting ? look_of("coasting") : look_of("track"), kTrack),
             fmt::format("track {}: {:.1f} m/s", index_of(one.id), one.speed), "track");
-    const Place later = moved_on(view, one, kAhead_s);
+    const Pose later = moved_on(view, one, kAhead_s);
     if (std::hypot(later.x - wide(one.x), later.y - wide(one.y)) < kLeastWay_m) return;
     svg_.arrow(frame_.at(wide(one.x), wide(one.y)), frame_.at(later.x, later.y), line_of(look_of("velocity"), kTrack),
                {}, "velocity");

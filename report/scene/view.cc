@@ -53,7 +53,7 @@ void add_tracks(const Scene& scene, TrueTime at, View& view) {
       if (image == scene.images.data()) break;
     }
     std::ranges::reverse(trail);
-    const Place moved = moved_on(view, track, since);
+    const Pose moved = moved_on(view, track, since);
     track.x = static_cast<float>(moved.x);
     track.y = static_cast<float>(moved.y);
     track.heading = static_cast<float>(moved.heading);
@@ -62,8 +62,8 @@ void add_tracks(const Scene& scene, TrueTime at, View& view) {
 
 }  // namespace
 
-Place moved_on(const View& view, const ShownTrack& track, double seconds) {
-  const Place place{static_cast<double>(track.x), static_cast<double>(track.y), static_cast<double>(track.heading)};
+Pose moved_on(const View& view, const ShownTrack& track, double seconds) {
+  const Pose place{static_cast<double>(track.x), static_cast<double>(track.y), static_cast<double>(track.heading)};
   return recording::scene::moved_on(place, static_cast<double>(track.speed), view.own, seconds);
 }
 

@@ -33,7 +33,7 @@ bool counts_until_next(const std::vector<Moment<Part>>& moments, std::size_t pla
 }
 
 // Returns the track's place so many seconds later, in the axes that the vehicle has then.
-Place moved_on(const View& view, const ShownTrack& track, double seconds);
+Pose moved_on(const View& view, const ShownTrack& track, double seconds);
 
 // Returns "collision in 1.2 s", "gap of 0.4 s" or "warning".
 std::string words_of(const Warning& warning);

@@ -28,7 +28,7 @@ using testing::SizeIs;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<ViewedSensor> laser_and_camera() {
-  return {{"laser", "#d55e00", recording::scene::Place{}, recording::scene::ViewedField{1.0, 0.0, 100.0}},
+  return {{"laser", "#d55e00", recording::scene::Pose{}, recording::scene::ViewedField{1.0, 0.0, 100.0}},
           {"camera", "#0072b2", std::nullopt, std::nullopt}};
 }
 TrueTime ms(std::int64_t t) { return {t * 1'000'000}; }

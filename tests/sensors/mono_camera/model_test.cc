@@ -6,21 +6,12 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/sensors/car_at.h"
+
 namespace ttf::sensors::mono_camera {
 namespace {
 
 constexpr ObjectId kFalseBox{0xffff};
-
-ObjectState mono_car(std::uint16_t id, double x, double y, double heading = 0.0) {
-  ObjectState state;
-  state.id = ObjectId{id};
-  state.x = x;
-  state.y = y;
-  state.heading = heading;
-  state.length = 4.4;
-  state.width = 1.8;
-  return state;
-}
 
 MonoCameraConfig exact_mono_camera() {
   MonoCameraConfig config;
@@ -48,7 +39,7 @@ Picture picture(const MonoCameraConfig& config, const std::vector<ObjectState>& 
 TEST(MonoCamera, ACarAheadStandsOnTheGround) {
   const MonoCameraConfig config = exact_mono_camera();
   for (const double x : {10.0, 30.0, 60.0}) {
-    const auto [boxes, truth] = picture(config, {mono_car(0, x, 0.0)});
+    const auto [boxes, truth] = picture(config, {car_at(0, x, 0.0)});
     ASSERT_EQ(boxes.size(), 1U);
     const double rear = x - 2.2;
     EXPECT_NEAR(config.focal_px * config.height_m / boxes[0].bottom, rear, 1e-9);
@@ -56,7 +47,7 @@ TEST(MonoCamera, ACarAheadStandsOnTheGround) {
     EXPECT_NEAR(boxes[0].right - boxes[0].left, config.focal_px * 1.8 / rear, 1e-9);
     EXPECT_EQ(boxes[0].seen_as, sim::world::traffic::ObjectClass::kCar);
   }
-  const auto [left, truth] = picture(config, {mono_car(0, 30.0, 5.0)});
+  const auto [left, truth] = picture(config, {car_at(0, 30.0, 5.0)});
   ASSERT_EQ(left.size(), 1U);
   EXPECT_LT(left[0].right, 0.0) << "columns count to the right";
 }
@@ -65,7 +56,7 @@ TEST(MonoCamera, ACarAheadStandsOnTheGround) {
 TEST(MonoCamera, PitchMovesAllRangesTogether) {
   MonoCameraConfig config = exact_mono_camera();
   config.pitch.fixed = 0.002;
-  const auto [boxes, truth] = picture(config, {mono_car(0, 20.0, -4.0), mono_car(1, 40.0, 4.0)});
+  const auto [boxes, truth] = picture(config, {car_at(0, 20.0, -4.0), car_at(1, 40.0, 4.0)});
   ASSERT_EQ(boxes.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     const double rear = i == 0 ? 17.8 : 37.8;
@@ -85,7 +76,7 @@ TEST(MonoCamera, RangeNoiseGrowsWithTheRangeSquared) {
     const double rear = x - 2.2;
     double sum = 0.0, squared = 0.0, width = 0.0, width_squared = 0.0;
     for (std::uint32_t k = 0; k < kFrames; ++k) {
-      const auto [boxes, truth] = picture(config, {mono_car(0, x, 0.0)}, k);
+      const auto [boxes, truth] = picture(config, {car_at(0, x, 0.0)}, k);
       ASSERT_EQ(boxes.size(), 1U);
       const double error = fh / boxes[0].bottom - rear;
       const double wider = boxes[0].right - boxes[0].left - config.focal_px * 1.8 / rear;
@@ -111,7 +102,7 @@ TEST(MonoCamera, DetectsByTheHeightInThePicture) {
   for (const double x : {20.0, 60.0, 72.0}) {
     int seen = 0;
     for (std::uint32_t k = 0; k < kFrames; ++k)
-      seen += static_cast<int>(picture(config, {mono_car(0, x, 0.0)}, k).truth.size());
+      seen += static_cast<int>(picture(config, {car_at(0, x, 0.0)}, k).truth.size());
     const double expected = probability_of_detection(config, config.focal_px * 1.5 / (x - 2.2));
     EXPECT_NEAR(seen / double{kFrames}, expected, 4.0 * std::sqrt(0.25 / kFrames)) << x;
   }
@@ -124,7 +115,7 @@ TEST(MonoCamera, ClutterAndConfusionAreAsOftenAsStated) {
   constexpr int kFrames = 4000;
   int clutter = 0, seen = 0, confused = 0, trucks = 0;
   for (std::uint32_t k = 0; k < kFrames; ++k) {
-    const auto [boxes, truth] = picture(config, {mono_car(0, 20.0, 1.0)}, k);
+    const auto [boxes, truth] = picture(config, {car_at(0, 20.0, 1.0)}, k);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       EXPECT_LT(boxes[i].left, boxes[i].right);
       EXPECT_LT(boxes[i].top, boxes[i].bottom);
@@ -141,17 +132,16 @@ TEST(MonoCamera, ClutterAndConfusionAreAsOftenAsStated) {
 
 TEST(MonoCamera, SeesNothingOutsideItsPictureOrBehindOthers) {
   const MonoCameraConfig config = exact_mono_camera();
-  EXPECT_TRUE(picture(config, {mono_car(0, 75.0, 0.0)}).truth.empty()) << "too far";
-  EXPECT_TRUE(picture(config, {mono_car(0, 20.0, 15.0)}).truth.empty()) << "aside";
-  EXPECT_TRUE(picture(config, {mono_car(0, -20.0, 0.0)}).truth.empty()) << "behind the camera";
-  EXPECT_TRUE(picture(config, {mono_car(0, 5.5, 0.0)}).truth.empty()) << "the picture ends above its wheels";
-  EXPECT_EQ(picture(config, {mono_car(0, 40.0, 0.0), mono_car(1, 15.0, 0.2)}).truth,
-            std::vector<ObjectId>{ObjectId{1}});
+  EXPECT_TRUE(picture(config, {car_at(0, 75.0, 0.0)}).truth.empty()) << "too far";
+  EXPECT_TRUE(picture(config, {car_at(0, 20.0, 15.0)}).truth.empty()) << "aside";
+  EXPECT_TRUE(picture(config, {car_at(0, -20.0, 0.0)}).truth.empty()) << "behind the camera";
+  EXPECT_TRUE(picture(config, {car_at(0, 5.5, 0.0)}).truth.empty()) << "the picture ends above its wheels";
+  EXPECT_EQ(picture(config, {car_at(0, 40.0, 0.0), car_at(1, 15.0, 0.2)}).truth, std::vector<ObjectId>{ObjectId{1}});
 }
 
 TEST(MonoCamera, LooksInItsRegionsAlone) {
   MonoCameraConfig config = exact_mono_camera();
-  const std::vector<ObjectState> cars = {mono_car(0, 20.0, 4.0), mono_car(1, 40.0, 0.0), mono_car(2, 20.0, -4.0)};
+  const std::vector<ObjectState> cars = {car_at(0, 20.0, 4.0), car_at(1, 40.0, 0.0), car_at(2, 20.0, -4.0)};
   EXPECT_EQ(picture(config, cars).truth.size(), 3U);
   EXPECT_EQ(looked_at(config), config.half_field_rad);
   config.regions[0].left = -50.0, config.regions[0].right = 50.0;
@@ -173,15 +163,14 @@ TEST(MonoCamera, KeepsAsManyBoxesAsItsListHolds) {
   MonoCameraConfig config = exact_mono_camera();
   config.max_boxes = 1;
   config.clutter_per_frame = 5.0;
-  EXPECT_EQ(picture(config, {mono_car(0, 20.0, 4.0), mono_car(1, 40.0, 0.0)}).truth,
-            std::vector<ObjectId>{ObjectId{0}});
+  EXPECT_EQ(picture(config, {car_at(0, 20.0, 4.0), car_at(1, 40.0, 0.0)}).truth, std::vector<ObjectId>{ObjectId{0}});
 }
 
 TEST(MonoCamera, OneObjectsVisibilityNeverShiftsAnothersNoise) {
   MonoCameraConfig config;
   for (std::uint32_t k = 0; k < 20; ++k) {
-    const auto both = picture(config, {mono_car(0, 20.0, -5.0), mono_car(1, 30.0, 5.0)}, k);
-    const auto behind = picture(config, {mono_car(0, -20.0, -5.0), mono_car(1, 30.0, 5.0)}, k);
+    const auto both = picture(config, {car_at(0, 20.0, -5.0), car_at(1, 30.0, 5.0)}, k);
+    const auto behind = picture(config, {car_at(0, -20.0, -5.0), car_at(1, 30.0, 5.0)}, k);
     const auto of_second = [](const Picture& f) {
       const auto found = std::find(f.truth.begin(), f.truth.end(), ObjectId{1});
       return found == f.truth.end() ? MonoBox{} : f.boxes[static_cast<std::size_t>(found - f.truth.begin())];
@@ -207,7 +196,7 @@ TEST(MonoCamera, ADriveHasOnePitch) {
 }
 
 TEST(MonoCamera, TheHeightIsThatOfTheObject) {
-  ObjectState lorry = mono_car(0, 30.0, 0.0);
+  ObjectState lorry = car_at(0, 30.0, 0.0);
   lorry.height = 3.5;
   lorry.kind = sim::world::traffic::ObjectClass::kTruck;
   const auto [boxes, truth] = picture(exact_mono_camera(), {lorry});
@@ -219,8 +208,7 @@ TEST(MonoCamera, TheHeightIsThatOfTheObject) {
 TEST(MonoCamera, TheOwnVehicleHidesItsBlindSides) {
   MonoCameraConfig config = exact_mono_camera();
   config.device.blind.sectors[config.device.blind.count++] = {0.1, 0.3};
-  EXPECT_EQ(picture(config, {mono_car(0, 20.0, 4.0), mono_car(1, 20.0, -4.0)}).truth,
-            std::vector<ObjectId>{ObjectId{1}});
+  EXPECT_EQ(picture(config, {car_at(0, 20.0, 4.0), car_at(1, 20.0, -4.0)}).truth, std::vector<ObjectId>{ObjectId{1}});
 }
 
 }  // namespace

@@ -8,23 +8,13 @@
 #include <vector>
 
 #include "sensors/shape.h"
+#include "tests/sensors/car_at.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::sensors::radar {
 namespace {
 
 constexpr ObjectId kFalseReturn{0xffff};
-
-ObjectState radar_car(std::uint16_t id, double x, double y, double heading = 0.0) {
-  ObjectState state;
-  state.id = ObjectId{id};
-  state.x = x;
-  state.y = y;
-  state.heading = heading;
-  state.length = 4.4;
-  state.width = 1.8;
-  return state;
-}
 
 // One point, always detected, and cells that hold it alone.
 RadarConfig exact_radar() {
@@ -64,7 +54,7 @@ TEST(Radar, DetectsAsOftenAsTheClosedFormSays) {
   constexpr int kLists = 10'000;
   for (const double x : {100.0, 150.0, 220.0}) {
     // A small object, so that its range is known.
-    ObjectState post = radar_car(0, x, 10.0);
+    ObjectState post = car_at(0, x, 10.0);
     post.length = post.width = 0.1;
     const double range = std::hypot(x, 10.0), azimuth = std::atan2(10.0, x);
     const double off = azimuth / (0.5 * config.beam_width_rad);
@@ -85,7 +75,7 @@ TEST(Radar, TheWeatherTakesPowerBothWays) {
 
 TEST(Radar, PointsLieOnTheOutlineAboutTheMiddleOfItsSilhouette) {
   const RadarConfig config = exact_radar();
-  const ObjectState car = radar_car(0, 30.0, 4.0, 0.6);
+  const ObjectState car = car_at(0, 30.0, 4.0, 0.6);
   const auto span = azimuth_span(car);
   ASSERT_TRUE(span);
   constexpr int kLists = 4000;
@@ -101,7 +91,7 @@ TEST(Radar, PointsLieOnTheOutlineAboutTheMiddleOfItsSilhouette) {
 }
 
 TEST(Radar, TheRangeRateIsThatOfThePointFromTheAntenna) {
-  ObjectState car = radar_car(0, 20.0, 5.0, 2.0);
+  ObjectState car = car_at(0, 20.0, 5.0, 2.0);
   car.speed = 7.0;
   car.yaw_rate = 0.8;
   EgoState ego;
@@ -122,7 +112,7 @@ TEST(Radar, TheRangeRateIsThatOfThePointFromTheAntenna) {
 TEST(Radar, RangeRatesFoldAtTheEdgesOfTheirSpan) {
   RadarConfig config = exact_radar();
   config.rate_span_mps = 40.0;
-  ObjectState car = radar_car(0, 50.0, 0.0);
+  ObjectState car = car_at(0, 50.0, 0.0);
   for (const auto& [speed, told] : {std::pair{19.0, 19.0}, {21.0, -19.0}, {60.0, 20.0}, {-21.0, 19.0}}) {
     car.speed = speed;
     const List one = list(config, {car});
@@ -138,7 +128,7 @@ TEST(Radar, NoiseHasItsMoments) {
   config.range_sigma_m = 0.3;
   config.azimuth_sigma_rad = 0.01;
   config.rate_sigma_mps = 0.2;
-  ObjectState post = radar_car(0, 50.0, 0.0);
+  ObjectState post = car_at(0, 50.0, 0.0);
   post.length = post.width = 1e-6;
   post.speed = 3.0;
   constexpr int kLists = 4000;
@@ -162,7 +152,7 @@ TEST(Radar, NoiseHasItsMoments) {
 // Two posts 0.5 m apart, in one cell, and then with range rates of different cells.
 TEST(Radar, EchoesOfOneCellAreTheirMeanByPower) {
   RadarConfig config = exact_radar();
-  ObjectState left = radar_car(0, 50.5, 0.2), right = radar_car(1, 51.0, 0.6);
+  ObjectState left = car_at(0, 50.5, 0.2), right = car_at(1, 51.0, 0.6);
   left.length = left.width = right.length = right.width = 1e-6;
   const List alone = list(config, {left}), other = list(config, {right});
   config.range_cell_m = 2.0;
@@ -181,7 +171,7 @@ TEST(Radar, EchoesOfOneCellAreTheirMeanByPower) {
 
 TEST(Radar, NothingHidesUnlessThereIsAShadow) {
   RadarConfig config = exact_radar();
-  const std::vector<ObjectState> row{radar_car(0, 40.0, 0.0), radar_car(1, 15.0, 0.2)};
+  const std::vector<ObjectState> row{car_at(0, 40.0, 0.0), car_at(1, 15.0, 0.2)};
   EXPECT_EQ(list(config, row).returns.size(), 2U);
   config.shadow = 1e6;
   EXPECT_EQ(list(config, row).truth, std::vector<ObjectId>{ObjectId{1}});
@@ -189,14 +179,14 @@ TEST(Radar, NothingHidesUnlessThereIsAShadow) {
 
 TEST(Radar, FieldRangeAndCapacityBoundTheList) {
   RadarConfig config = exact_radar();
-  EXPECT_TRUE(list(config, {radar_car(0, 20.0, 15.0)}).returns.empty());
-  EXPECT_TRUE(list(config, {radar_car(0, 260.0, 0.0)}).returns.empty());
-  EXPECT_TRUE(list(config, {radar_car(0, -20.0, 0.0)}).returns.empty());
-  EXPECT_TRUE(list(config, {radar_car(0, 0.0, 0.0)}).returns.empty()) << "around the antenna";
+  EXPECT_TRUE(list(config, {car_at(0, 20.0, 15.0)}).returns.empty());
+  EXPECT_TRUE(list(config, {car_at(0, 260.0, 0.0)}).returns.empty());
+  EXPECT_TRUE(list(config, {car_at(0, -20.0, 0.0)}).returns.empty());
+  EXPECT_TRUE(list(config, {car_at(0, 0.0, 0.0)}).returns.empty()) << "around the antenna";
   config.max_returns = 1;
-  EXPECT_EQ(list(config, {radar_car(0, 60.0, 0.0), radar_car(1, 30.0, 0.0)}).truth, std::vector<ObjectId>{ObjectId{1}});
+  EXPECT_EQ(list(config, {car_at(0, 60.0, 0.0), car_at(1, 30.0, 0.0)}).truth, std::vector<ObjectId>{ObjectId{1}});
   config.clutter_per_list = 20.0;
-  EXPECT_EQ(list(config, {radar_car(0, 60.0, 0.0), radar_car(1, 30.0, 0.0)}).returns.size(), 1U);
+  EXPECT_EQ(list(config, {car_at(0, 60.0, 0.0), car_at(1, 30.0, 0.0)}).returns.size(), 1U);
 }
 
 TEST(Radar, ClutterIsAsOftenAsStated) {
@@ -221,8 +211,8 @@ TEST(Radar, AnObjectsReturnsDoNotDependOnOthers) {
   RadarConfig config;
   config.clutter_per_list = 0.0;
   for (std::uint32_t k = 0; k < 50; ++k) {
-    const List alone = list(config, {radar_car(3, 60.0, 2.0)}, k),
-               among = list(config, {radar_car(0, 20.0, 0.0), radar_car(1, 90.0, -4.0), radar_car(3, 60.0, 2.0)}, k);
+    const List alone = list(config, {car_at(3, 60.0, 2.0)}, k),
+               among = list(config, {car_at(0, 20.0, 0.0), car_at(1, 90.0, -4.0), car_at(3, 60.0, 2.0)}, k);
     std::vector<double> theirs, ours;
     for (const RadarReturn& seen : alone.returns) ours.push_back(seen.range);
     for (std::size_t i = 0; i < among.returns.size(); ++i)
@@ -232,7 +222,7 @@ TEST(Radar, AnObjectsReturnsDoNotDependOnOthers) {
 }
 
 TEST(Radar, MeasuringAllocatesNothing) {
-  const std::vector<ObjectState> objects{radar_car(0, 20.0, 0.0), radar_car(1, 90.0, -4.0), radar_car(2, 60.0, 2.0)};
+  const std::vector<ObjectState> objects{car_at(0, 20.0, 0.0), car_at(1, 90.0, -4.0), car_at(2, 60.0, 2.0)};
   RadarConfig config;
   config.shadow = 1.0;
   RadarRoom room(objects.size());

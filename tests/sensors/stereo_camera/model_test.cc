@@ -7,21 +7,12 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/sensors/car_at.h"
+
 namespace ttf::sensors::stereo_camera {
 namespace {
 
 constexpr ObjectId kClutter{0xffff};
-
-ObjectState car_at(std::uint16_t id, double x, double y, double heading = 0.0) {
-  ObjectState state;
-  state.id = ObjectId{id};
-  state.x = x;
-  state.y = y;
-  state.heading = heading;
-  state.length = 4.4;
-  state.width = 1.8;
-  return state;
-}
 
 CameraConfig exact_camera() {
   CameraConfig config;

@@ -29,7 +29,7 @@ constexpr NodeId kFusion{5}, kFeature{6};
 constexpr std::int64_t kMs = 1'000'000;
 
 std::vector<scene::ViewedSensor> two_sensors() {
-  return {{"laser", "#d55e00", scene::Place{3.5, 0.5, std::numbers::pi / 2.0}, scene::ViewedField{1.0, 0.0, 120.0}},
+  return {{"laser", "#d55e00", scene::Pose{3.5, 0.5, std::numbers::pi / 2.0}, scene::ViewedField{1.0, 0.0, 120.0}},
           {"camera", "#0072b2", std::nullopt, std::nullopt}};
 }
 
