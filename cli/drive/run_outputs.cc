@@ -33,7 +33,7 @@ namespace {
 
 using evaluation::measures::DriveFigures;
 using evaluation::measures::Measure;
-using evaluation::measures::Place;
+using evaluation::measures::ShownIn;
 using evaluation::measures::Subject;
 
 DriveFigures figures_of(const StrategyResult& result) {
@@ -132,7 +132,7 @@ using Line = std::vector<const Measure*>;
 std::vector<Line> lines_of(Subject subject) {
   std::vector<Line> lines;
   for (const Measure& row : evaluation::measures::measures(subject)) {
-    if (row.shown.label.empty() || row.shown.place == Place::kPage) continue;
+    if (row.shown.label.empty() || row.shown.place == ShownIn::kPage) continue;
     if (row.shown.join.empty()) lines.emplace_back();
     lines.back().push_back(&row);
   }

@@ -11,20 +11,20 @@
 namespace ttf::cli::logs {
 namespace {
 
-using recording::scene::Place;
+using recording::scene::Pose;
 using recording::scene::ViewedField;
 using recording::scene::ViewedSensor;
 
 // A sensor that the world emulates, as it is. The knowledge of the fusion may differ.
 template <class Model> void place_emulated(const Model& model, ViewedSensor& sensor) {
-  sensor.mounting = Place{model.device.placement.x, model.device.placement.y, model.device.placement.heading};
+  sensor.mounting = Pose{model.device.placement.x, model.device.placement.y, model.device.placement.heading};
   if constexpr (requires { model.half_field_rad; })
     sensor.field = ViewedField{model.half_field_rad, 0.0, model.max_range_m};
 }
 
 // A recorded sensor, as the fusion knows it.
 void place_known(const fusion::sensors::KnownSensor& known, ViewedSensor& sensor) {
-  sensor.mounting = Place{known.mounting.position.x(), known.mounting.position.y(), known.mounting.yaw};
+  sensor.mounting = Pose{known.mounting.position.x(), known.mounting.position.y(), known.mounting.yaw};
   if (known.field && known.field->max_range < fusion::sensors::Field::kUnbounded)
     sensor.field = ViewedField{known.field->half_angle, known.field->min_range, known.field->max_range};
 }

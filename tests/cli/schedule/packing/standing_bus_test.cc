@@ -91,7 +91,7 @@ constexpr const char* kTwo = "signal,node,period_ms,bits\nx,n,5,10\ny,n,10,8\n";
 
 std::string bus_of_two() {
   const SignalFile file = parse_signals(kTwo, "two.csv", {});
-  const table::Place x{0, 0, 0}, y{0, 0, 10};
+  const table::BitPlace x{0, 0, 0}, y{0, 0, 10};
   return bus_text(file.instance, assigned({x, y}, slot_numbers({}, 1, 1, ChannelUse::kOne)));
 }
 
