@@ -29,7 +29,7 @@ struct Small {
   void leave_out_instants() {
     parts.sensors[0].instant = true;
     for (auto& tasks : parts.tasks)
-      for (Task& task : tasks) task.at.instant = true;
+      for (TaskParts& task : tasks) task.at.instant = true;
     parts.tasks[0][0].at.instant = false;  // the sensor's
   }
   void put() { put_earliest(cluster, parts, findings); }
