@@ -117,17 +117,18 @@ TEST(MotionPlanner, PlansBehindTheMostImportantObject) {
   EXPECT_TRUE(planning.plan->valid);
   EXPECT_NEAR(planning.plan->speed, 30.0, 0.01) << "start-up";
   planning.start_up();
-  EXPECT_EQ(planning.plan->state, 1);
+  EXPECT_EQ(planning.plan->state, PlannerState::kHold);
   planning.see({{.gap = 36.5, .speed = 29.0}, {.gap = 20.0, .y = 3.5}, {.gap = 10.0, .confirmed = false}});
-  EXPECT_EQ(planning.plan->state, 0) << "too near; the nearer ones are beside the lane, or not confirmed";
+  EXPECT_EQ(planning.plan->state, PlannerState::kDecelerate)
+      << "too near; the nearer ones are beside the lane, or not confirmed";
   EXPECT_NEAR(planning.plan->speed, 28.5, 0.01);
   EXPECT_EQ(planning.plan->track, TrackId{0});
   EXPECT_NEAR(planning.plan->gap, 36.5, 0.02);
   planning.see({{.gap = 36.0, .speed = 27.5}});
-  EXPECT_EQ(planning.plan->state, 3) << "its speed fell through 28 m/s";
+  EXPECT_EQ(planning.plan->state, PlannerState::kStop) << "its speed fell through 28 m/s";
   EXPECT_EQ(planning.plan->speed, 0.0);
   planning.see({});
-  EXPECT_EQ(planning.plan->state, 3) << "a stop is for ever";
+  EXPECT_EQ(planning.plan->state, PlannerState::kStop) << "a stop is for ever";
 }
 
 TEST(MotionPlanner, FollowsItsLaneByOdometry) {
