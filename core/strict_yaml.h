@@ -113,7 +113,7 @@ class YamlMap {
   std::string value_text(std::string_view key);
   // Refuses a misspelt `key`, if this mapping lacks the right one, and proposes it (core/nearest.h). Returns whether there is one.
   bool refuse_misspelt(std::string_view key);
-  // Adds no findings from now on: those that follow from an earlier one.
+  // Adds no findings from now on: they would follow from an earlier one. Mappings within must not outlive this one.
   void mute();
 
   // Refuses a key that earlier versions had; `now` says what stands for it. It is not among the known keys.

@@ -13,7 +13,7 @@ Finding TextOrigins::moved(Finding finding) const {
 
 Finding TextOrigins::with_heir(Finding finding) const {
   if (!heir_.file.empty() && finding.file != heir_.file)
-    finding.expected += fmt::format("; {}:{} extends this file", heir_.file, heir_.line);
+    finding.expected += fmt::format("; {}:{} leads to this file", heir_.file, heir_.line);
   return finding;
 }
 

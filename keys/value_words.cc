@@ -82,8 +82,7 @@ std::optional<std::string> default_text(const Key& key) {
 
 std::string need_words(const Key& key, bool may_be_alike, const std::string& mark) {
   if (key.question.key == kAnyName) return "";
-  if (!key.question.optional)
-    return may_be_alike ? fmt::format("required, unless {0}like{0} supplies it", mark) : "required";
+  if (!key.question.optional) return may_be_alike ? fmt::format("required without {0}like{0}", mark) : "required";
   if (!key.default_by.empty()) {
     std::vector<std::string> causes;
     for (const std::string& cause : key.default_by) causes.push_back(mark + cause + mark);

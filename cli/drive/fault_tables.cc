@@ -41,8 +41,7 @@ constexpr std::string_view kUnattributed = "unattributed";
 
 // Calls `each` for every fault's effects with its name in the tables; unattributed effects come last.
 template <class Each> void for_each(const FaultFindings& findings, Each each) {
-  for (const FaultSeen& fault : findings.faults)
-    each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
+  for (const FaultSeen& fault : findings.faults) each(fmt::format("{}", fault.fault), fault, fault.begins);
   each(std::string(kUnattributed), findings.unattributed, std::optional<TrueTime>());
 }
 
@@ -258,7 +257,7 @@ nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const s
     one["fault"] = fault.fault;
     one["kind"] = fault.kind;
     one["node"] = name_or_null(fault.node, cluster);
-    one["begins_s"] = seconds(fault.begins);
+    one["begins_s"] = seconds_or_null(fault.begins);
     one["ends_s"] = seconds_or_null(fault.ends);
     one["acts"] = fault.acts;
     one["first_act_s"] = seconds_or_null(fault.first_act);

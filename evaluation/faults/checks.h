@@ -31,7 +31,7 @@ enum class Check : std::uint8_t {
   kBoundary,
   kConflict,
   kNoFrame,
-  kUnexpected,  // in a slot: bus::controller::SlotStatus
+  kUnexpected,  // in a slot: recording::records::SlotStatus
   kMissingTerm,
   kLimit,  // in clock correction
   kPassive,

@@ -15,18 +15,17 @@ struct InjectedFault {
   std::uint32_t fault = 0;  // index in the plan
   std::string kind, text;   // the plan's name of the kind; its first act, empty if it never acted
   NodeId node = kNoNode;    // kNoNode: a fault of the medium
-  TrueTime begins{};
-  std::optional<TrueTime> ends, first_act;
+  std::optional<TrueTime> begins, ends, first_act;
   std::uint64_t acts = 0;
 
-  // Takes its records, in the order of time; the first one is its beginning.
+  // Takes its records, in the order of time. A damaged log may lack some.
   void take(const recording::records::FaultActivity& activity) {
     if (kind.empty()) {
       fault = activity.fault;
       kind = activity.kind;
       node = activity.node;
-      begins = activity.at;
     }
+    if (activity.what == recording::records::FaultAct::kBegins) begins = activity.at;
     if (activity.what == recording::records::FaultAct::kEnds) ends = activity.at;
     if (activity.what != recording::records::FaultAct::kActs || acts++ > 0) return;
     first_act = activity.at;

@@ -2,9 +2,8 @@
 // trial.
 //
 // H3 to H5 use what no record holds: the clocks' difference at sampled instants, and the frames as they were received
-// (frame_ledger.h). Records alone, as in a drive's account (fault_account.h), count otherwise. In 12,000 trials of the
-// shipped campaign they miss 151 of 1910 harms by lost frames and all 11 by forged ones. In 120 others they call a frame
-// lost that came.
+// (frame_ledger.h). Records alone, as in a drive's account (fault_account.h), miss some of these harms, forged
+// frames above all, and take some frames for lost that came.
 #pragma once
 
 #include <array>

@@ -187,9 +187,8 @@ schedules::file::ClusterText SweepDrives::edited(const std::vector<Edit>& edits,
     } catch (const InputError& error) {
       Finding finding = error.findings().front();
       if (finding.line != 0) {
-        TextPlace from = text.origins.place(name, finding.line);
-        finding.file = std::move(from.file), finding.line = from.line;
-        throw InputError(std::move(finding));
+        finding.file = name;
+        throw InputError(text.origins.moved(std::move(finding)));
       }
       // The file as it is: other edits may have left half an instant so far.
       if (is && schedules::file::leaves_out({texts_.at(name), name, origins_of(name)}, key)) {

@@ -28,7 +28,7 @@ struct LoggedFrame {
   std::int64_t cycle = 0;               // running; FlexRay only
   bool null_frame = false;              // FlexRay only
   bool flexible_data_rate = false;      // CAN only
-  std::optional<CanTrouble> can_error;  // CAN: no frame of data, but an error frame
+  std::optional<CanTrouble> can_error;  // CAN: an error frame, for an error or a controller's new state
   NodeId sender{};
   PduId pdu = kNoPdu;
   SensorId sensor = kNoSensor;  // with `sequence`, the measurement that the frame carries

@@ -206,7 +206,7 @@ constexpr std::string_view to_text(Symbol symbol) {
   return "symbol";
 }
 
-// The reason of a central guardian to block a signal. Comments name its rules (bus/guardian/guardian.h).
+// The reason of a central guardian to block a signal. G1.. and S1.. are rules of bus/guardian/guardian.h.
 enum class GuardianReason : std::uint8_t {
   kForwarded = 0,
   kOtherForwarded = 1,   // G7

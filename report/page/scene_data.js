@@ -1,4 +1,4 @@
-// A drive seen from above, unpacked from the page's data. report/scene/packed.h explains the columns, and decides what is shown.
+// A drive seen from above, unpacked from the page's data. report/scene/packed.h explains the columns; view.h has decided what is shown.
 "use strict";
 const SceneData = (() => {
   const column = (Type, text) => {

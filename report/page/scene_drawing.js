@@ -152,7 +152,7 @@ const SceneDrawing = (() => {
         });
       }
     }
-    // Points where the track is after a second, as the vehicle sees it.
+    // Points where the track is after the rules' seconds `ahead`, as the vehicle sees it.
     velocity(one) {
       const { c, rules } = this, after = this.data.moved_on(one, rules.ahead);
       const way = Math.hypot(after.x - one.x, after.y - one.y);

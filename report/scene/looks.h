@@ -1,5 +1,6 @@
 // How a scene is drawn: the one list of looks and limits for the still (still.cc) and for the canvas of a page, which
-// has it in its data (packed.h). The still has a colour of its own for each kind of part, the page one of its theme.
+// has it in its data (packed.h). Lengths are in a still's units and a page's pixels. The still has a colour of its own for
+// each kind of part, the page one of its theme.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@ namespace ttf::report::scene {
 
 struct Look {
   std::string_view part;
-  double width = 0.0;          // a line's, in a still's units and a page's pixels; 0: no line
+  double width = 0.0;          // a line's; 0: no line
   std::string_view dash = {};  // as stroke-dasharray
   double opacity = 1.0;        // the line's
   double covers = 0.0;         // the filling's opacity

@@ -174,6 +174,7 @@ Json warnings_json(const Scene& scene) {
 Json sensor_json(const Scene& scene, std::size_t index, const drawing::Names& names) {
   const ViewedSensor& sensor = scene.sensors[index];
   const drawing::MarkerShape marker = drawing::shape_of(drawing::sensor_marker(names, static_cast<SensorId>(index)));
+  // No sensor has a circle, which has no lines (recording/log/sensor_style.h).
   Json json{{"name", sensor.name}, {"colour", sensor.colour}, {"lines", Json::array()}, {"closed", marker.closed}};
   for (const std::vector<drawing::Point>& line : marker.lines) {
     Json& points = json["lines"].emplace_back(Json::array());

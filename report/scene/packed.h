@@ -22,7 +22,8 @@
 
 namespace ttf::report::scene {
 
-// Bytes of a moment with so many parts, before base64. Those of a warning include its share of "words".
+// Bytes of a moment with so many parts, before base64. Those of a warning include its share of "words". The
+// end of a moment that ends alone, 10 more, does not count.
 template <class Part> constexpr std::size_t packed_bytes(std::size_t parts) {
   constexpr std::size_t kMoment = 10;
   constexpr std::size_t kPart = std::is_same_v<Part, TrueObject>   ? 8

@@ -74,8 +74,8 @@ std::vector<LegendEntry> legend_of(const Scene& scene, const View& view, const d
   if (!view.tracks.empty()) {
     const bool named = view.tracks.size() <= kMostNamed;
     add(LegendEntry::Kind::kBox,
-        fmt::format("track, with {}ellipse of {:g} sigma and trail of {:g} s; arrow: its way in one second{}",
-                    named ? "its id, " : "", recording::scene::kEllipseSigmas, kTrail.seconds(),
+        fmt::format("track, with {}ellipse of {:g} sigma and trail of {:g} s; arrow: its way in {:g} s{}",
+                    named ? "its id, " : "", recording::scene::kEllipseSigmas, kTrail.seconds(), kAhead_s,
                     scene.own.empty() ? "" : ", as the vehicle sees it"),
         kTrack);
     const auto coasts = [](const ShownTrack& one) {

@@ -188,7 +188,8 @@ class Putting {
       if (!start)
         return refuse(item, *from,
                       item.list ? "its list finds no free static slots one behind the other"
-                                : "the other tasks of the node leave no time for it");
+                                : "the other tasks of the node leave no time for it",
+                      item.list.has_value());
       if (best == nullptr || *start < first) best = &item, first = *start;
     }
     if (best == nullptr) return false;
@@ -226,11 +227,11 @@ class Putting {
   }
 
   // The others go on, and may have findings of their own. No file has the parts of a copied sensor: the copy is refused.
-  bool refuse(Item& item, Ticks at, const std::string& reason) {
+  bool refuse(Item& item, Ticks at, const std::string& reason, bool lacks_slots = false) {
     item.at = at;
     if (const auto& copied = copied_for(item))
       findings_.add(cluster_.finding(item.line, fmt::format("sensors.{}.like", cluster_.sensor(copied->sensor).name),
-                                     cluster_.sensor(copied->from).name, needs_of_copy(item, reason)));
+                                     cluster_.sensor(copied->from).name, needs_of_copy(item, reason, lacks_slots)));
     else
       findings_.add(cluster_.finding(item.line, item.path + (item.list ? ".slot" : ".offset"), "",
                                      "must be in the file: " + reason));
@@ -243,9 +244,10 @@ class Putting {
     return parts_.tasks[index_of(item.place.task.node)][item.place.task.task].copied;
   }
 
-  std::string needs_of_copy(const Item& item, const std::string& reason) const {
+  std::string needs_of_copy(const Item& item, const std::string& reason, bool lacks_slots) const {
     if (!item.list) return fmt::format("needs an instant for {}: {}", item.path, reason);
     const PduId list = parts_.lists[*item.list].pdu;
+    if (!lacks_slots) return fmt::format("needs an instant for {}: {}", cluster_.pdu(list).name, reason);
     return fmt::format("needs {} free static slots for {} among the {} of a cycle (flexray.gNumberOfStaticSlots): {}",
                        cluster_.pdu(list).max_fragments(), cluster_.pdu(list).name,
                        cluster_.flexray.gNumberOfStaticSlots, reason);

@@ -52,7 +52,8 @@ bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
 Finding Cluster::finding(int line, std::string key, std::string value, std::string expected) const {
   if (const Inherited* other = inherited_at(key)) {
     line = other->line;
-    expected += fmt::format("; {} has the value{}{}", other->from, value.empty() ? "" : " ", value);
+    expected += value.empty() ? fmt::format("; {} has it", other->from)
+                              : fmt::format("; {} has the value {}", other->from, value);
     value.clear();
   }
   return origins.moved({file, line, std::move(key), std::move(value), std::move(expected)});

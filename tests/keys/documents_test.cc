@@ -56,8 +56,8 @@ TEST(Documents, ARequiredKeyMayBeSupplied) {
   std::map<std::string, std::string> needs;
   for (const Row& row : rows_of(cluster, outline_of(cluster)))
     needs[row.path] = need_words(row.key, row.may_be_alike, "`");
-  EXPECT_EQ(needs["sensors.NAME.kind"], "required, unless `like` supplies it");
-  EXPECT_EQ(needs["pdus.NAME.header"], "required, unless `like` supplies it");
+  EXPECT_EQ(needs["sensors.NAME.kind"], "required without `like`");
+  EXPECT_EQ(needs["pdus.NAME.header"], "required without `like`");
   EXPECT_EQ(needs["pdus.NAME.header[].name"], "required");
   EXPECT_EQ(needs["nodes.NAME.tasks"], "required");
   EXPECT_EQ(needs["sensors.NAME.like"], "optional");

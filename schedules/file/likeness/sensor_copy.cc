@@ -37,9 +37,11 @@ class Copier {
 
   std::optional<Refusal> refusal() const {
     const std::string_view kind = row_of(old_.kind).word;
-    if (!row_of(old_.kind).observes)
-      return like(fmt::format("must be a sensor of objects ({}): no task would take the lists of a second {}",
-                              originals(cluster_), kind));
+    if (!row_of(old_.kind).observes) {
+      const std::string others = originals(cluster_, copy_.name);
+      return like(fmt::format("must be a sensor of objects{}: no task would take the lists of a second {}",
+                              others.empty() ? "" : " (" + others + ")", kind));
+    }
     if (copy_.kind != old_.kind && !known_) {
       std::vector<std::string_view> words{kind};
       for (const auto& [word, known] : known_kinds())
@@ -410,10 +412,10 @@ std::string refusal_of_part(const std::string& sensor) {
   return fmt::format("is a name of {}'s copied parts, which cannot be changed; {}", sensor, kAllParts);
 }
 
-std::string originals(const model::Cluster& cluster) {
+std::string originals(const model::Cluster& cluster, std::string_view copy) {
   std::vector<std::string> names;
   for (const model::Sensor& sensor : cluster.sensors)
-    if (row_of(sensor.kind).observes) names.push_back(sensor.name);
+    if (row_of(sensor.kind).observes && sensor.name != copy) names.push_back(sensor.name);
   return joined(names, " or ");
 }
 

@@ -50,8 +50,8 @@ std::optional<Refusal> refusal(const Unfinished& schedule, const SensorCopy& cop
 std::vector<std::string> parts_of(const Unfinished& schedule, const SensorCopy& copy);
 std::string refusal_of_part(const std::string& sensor);
 
-// Returns the names of the sensors that a copy may be of, as a list of words.
-std::string originals(const model::Cluster& cluster);
+// Returns the names of the sensors that the copy may be of, as a list of words.
+std::string originals(const model::Cluster& cluster, std::string_view copy);
 
 // Gives the sensor `made` its device, its host and all that leads to the fusion. New nodes, PDUs, CANs and lists stand behind the
 // others, the device before the host, the PDUs as those of the other sensor.

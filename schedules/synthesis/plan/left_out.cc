@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -122,9 +123,13 @@ class Filler {
 
   void sensors() {
     auto sensors = root_.named_maps("sensors");
+    const auto is_other = [&](const std::string& like, const std::string& name) {  // any other value is a finding below
+      return like != name && std::ranges::any_of(sensors, [&](const auto& entry) { return entry.first == like; });
+    };
     for (auto& [name, map] : sensors)
-      if (map.has("like") && map.lacks("device") && map.lacks("host"))
-        findings_.add({map.file(), map.line("like"), map.path() + ".like", map.text("like"),
+      if (const std::string like = map.has("like") ? map.value_text("like") : "";
+          is_other(like, name) && map.lacks("device") && map.lacks("host"))
+        findings_.add({map.file(), map.line("like"), map.path() + ".like", like,
                        "needs device and host beside it: plan.sensors has the sensors whose nodes are copies"});
     (void)file::likeness::inherit_alike(sensors, "sensor");
     for (auto& [name, map] : sensors) {

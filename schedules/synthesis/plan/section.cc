@@ -40,7 +40,7 @@ void add_alike(const std::string& name, YamlMap& map, Plan& plan) {
   const auto from = cluster.find_sensor(like);
   if (!from) {
     if (map.has("like"))
-      map.fail("like", "must be an earlier sensor: " + likeness::originals(cluster), std::move(like));
+      map.fail("like", "must be an earlier sensor: " + likeness::originals(cluster, name), std::move(like));
     else
       (void)map.text("like");  // is missing
     return;

@@ -111,10 +111,21 @@ TEST(DriveSeries, AFaultIsToldByItsFirstAct) {
   sink.on(recording::records::FaultActivity{TrueTime{3'000'000}, 3, recording::records::FaultAct::kActs, NodeId{2},
                                             "omission", "the second"});
   const evaluation::faults::InjectedFault fault = sink.finish().faults.at(3);
+  EXPECT_EQ(fault.begins, TrueTime{1'000'000});
   EXPECT_EQ(fault.acts, 2u);
   EXPECT_EQ(fault.text, "the first");
   EXPECT_EQ(fault.first_act, TrueTime{2'000'000});
   EXPECT_FALSE(fault.ends.has_value());
+}
+
+TEST(DriveSeries, AFaultWithoutActsOrItsBeginSaysNeither) {
+  DriveSeriesSink sink;
+  sink.on(recording::records::FaultActivity{TrueTime{1'000'000}, 3, recording::records::FaultAct::kEnds, NodeId{2},
+                                            "omission", "it ends"});
+  const evaluation::faults::InjectedFault fault = sink.finish().faults.at(3);
+  EXPECT_EQ(fault.text, "");
+  EXPECT_FALSE(fault.begins.has_value());
+  EXPECT_EQ(fault.ends, TrueTime{1'000'000});
 }
 
 TEST(DriveSeries, AThinnedSeriesKeepsItsExtremes) {

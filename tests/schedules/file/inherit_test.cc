@@ -165,12 +165,12 @@ TEST_F(Inherit, BasesThatAreNoneAreRefused) {
   for (int i = 1; i <= 16; ++i)
     write(std::to_string(i) + ".yaml", "extends: " + std::to_string(i - 1) + ".yaml\nname: n\n");
   EXPECT_EQ(mistakes(path("16.yaml")),
-            "\n  1.yaml:1: extends = 0.yaml: must end after 16 files; 16.yaml:1 extends this file");
+            "\n  1.yaml:1: extends = 0.yaml: must end after 16 files; 16.yaml:1 leads to this file");
 }
 
 // A reader of the sentence finds the own file, whatever is wrong below it.
 TEST_F(Inherit, AFindingAboutABaseNamesTheLineThatExtendsIt) {
-  const std::string own = "; own.yaml:2 extends this file";
+  const std::string own = "; own.yaml:2 leads to this file";
   const auto said = [&](const std::string& base) {
     write("middle.yaml", "extends: " + base + "\nname: middle\n");
     return mistakes(write("own.yaml", "name: own\nextends: middle.yaml\n"));
