@@ -58,7 +58,7 @@ TEST(FaultAccount, ACrashOfOneHarmsNoOther) {
   const FaultSeen& fault = found.faults.at(0);
   EXPECT_EQ(fault.node, run.node("gateway"));
   ASSERT_TRUE(fault.ends);
-  EXPECT_EQ(*fault.ends - fault.begins, Duration::milliseconds(500));
+  EXPECT_EQ(*fault.ends - fault.begins.value(), Duration::milliseconds(500));
   EXPECT_GE(others(fault, Check::kNoFrame).cycles, 100u);
   EXPECT_FALSE(found.harmed());
   EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) {
@@ -264,7 +264,7 @@ TEST(FaultAccount, WhatGuardiansCutIsTold) {
     channels.insert(one.channel);
     EXPECT_EQ(one.branch, endless.sender);
     EXPECT_EQ(one.signal, recording::records::GuardedSignal::kFrame);
-    EXPECT_EQ(one.reason, 0);
+    EXPECT_EQ(one.reason, recording::records::GuardianReason::kForwarded);
     EXPECT_GT(one.until, one.at);
     EXPECT_LT(one.until, one.at + Duration::microseconds(100)) << "a frame of 28 words lasts 66 us";
   }
