@@ -78,7 +78,7 @@ std::string told(const evaluation::faults::FaultEffects& effects) {
 std::string told(const evaluation::faults::FaultFindings& findings) {
   std::string text;
   for (const evaluation::faults::FaultSeen& seen : findings.faults)
-    text += fmt::format("{} {} {} {} {} {} {} {}:{}\n", seen.fault, seen.kind, index_of(seen.node), seen.begins.ns,
+    text += fmt::format("{} {} {} {} {} {} {} {}:{}\n", seen.fault, seen.kind, index_of(seen.node), seen.begins->ns,
                         seen.ends.value_or(kNever).ns, seen.first_act.value_or(kNever).ns, seen.acts, seen.text,
                         told(static_cast<const evaluation::faults::FaultEffects&>(seen)));
   return text + "unattributed:" + told(findings.unattributed);
