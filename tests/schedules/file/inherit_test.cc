@@ -147,7 +147,7 @@ TEST_F(Inherit, BasesThatAreNoneAreRefused) {
   write("a.yaml", "extends: b.yaml\nname: a\n");
   write("b.yaml", "extends: base/../a.yaml\nname: b\n");
   EXPECT_EQ(mistakes(path("a.yaml")),
-            "\n  b.yaml:1: extends = base/../a.yaml: must not lead back to a file that extends it; a.yaml:1 extends "
+            "\n  b.yaml:1: extends = base/../a.yaml: must not lead back to a file that extends it; a.yaml:1 leads to "
             "this file");
   write("self.yaml", "name: self\nextends: self.yaml\n");
   EXPECT_EQ(mistakes(path("self.yaml")),
