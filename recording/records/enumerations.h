@@ -58,7 +58,7 @@ constexpr std::string_view to_text(CanError error) {
 
 // The state of error confinement of such a controller.
 enum class CanState : std::uint8_t { kActive = 0, kPassive = 1, kBusOff = 2 };
-inline constexpr std::size_t kCanStates = 3;
+inline constexpr std::size_t kCanStates = 1 + static_cast<std::size_t>(CanState::kBusOff);
 constexpr std::string_view to_text(CanState state) {
   switch (state) {
     case CanState::kActive: return "error active";

@@ -5,27 +5,10 @@
 
 #include "recording/records/enumerations.h"
 #include "report/drawing/names.h"
-#include "report/drawing/tables.h"
 #include "report/drive/injected_table.h"
 #include "report/drive/tables.h"
 
 namespace ttf::report::drive {
-namespace {
-
-std::string cell(const std::optional<TrueTime>& at) {
-  return at ? drawing::cell((*at - TrueTime{}).seconds(), 6) : "-";
-}
-
-}  // namespace
-
-std::vector<std::string> injected_columns() {
-  return {"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "its first act"};
-}
-
-std::vector<std::string> injected_row(const evaluation::faults::InjectedFault& fault, const std::string& node) {
-  return {std::to_string(fault.fault), fault.kind,       node,      cell(fault.begins), cell(fault.first_act),
-          std::to_string(fault.acts),  cell(fault.ends), fault.text};
-}
 
 std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
   const drawing::Names names = told.drive->log ? drawing::names_of(told.drive->log->manifest()) : drawing::Names{};
