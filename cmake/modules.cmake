@@ -47,16 +47,15 @@ function(ttf_common_headers name)
   target_compile_options(${name} PRIVATE ${COMMON_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${TTF_COMMON_HEADERS} ${COMMON_HEADERS})
 endfunction()
-# COLD code reads flags, and writes pages, pictures and JSON. It is optimised less, and shares the program's compiled headers:
-# those of flags and JSON take as long as the rest.
+# COLD code reads files and flags, checks, and writes pages, pictures and JSON. It is optimised less, and has compiled headers of its
+# own, with JSON's. Those of flags (CLI11) define constants, which cost 4 s of a processor in each unit that sees them.
 set(TTF_COLD_OPTIONS $<$<CONFIG:Release>:-O1>)
 if(TTF_SANITIZE)
   set(TTF_COLD_OPTIONS -O0)
 endif()
 if(TTF_BUILD_PROGRAM)
   ttf_common_headers(ttf_module_headers)
-  ttf_common_headers(ttf_cold_headers OPTIONS ${TTF_COLD_OPTIONS} HEADERS <nlohmann/json.hpp> <CLI/CLI.hpp>
-    DEPS CLI11::CLI11 nlohmann_json::nlohmann_json)
+  ttf_common_headers(ttf_cold_headers OPTIONS ${TTF_COLD_OPTIONS} HEADERS <nlohmann/json.hpp> DEPS nlohmann_json::nlohmann_json)
 endif()
 
 # ttf_module(<name> SOURCES <files...> [DEPS <targets...>] [HOT | COLD]): the static library of a folder. A drive spends most of its

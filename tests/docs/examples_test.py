@@ -20,6 +20,7 @@ LEFT_OUT = {
     r"^ttfusion node .*--virtual-time": "waits for the processes of the other nodes",
     r"--bus socketcan": "needs CANs, and the processes of the other nodes",
     r"^mpirun": "needs MPI, which refuses root",
+    r"^ttfusion keys --format markdown -o out/keys$": "tests/keys compares the pages that it writes",
     r"^ttfusion schedule synthesize schedules/plans/paper.yaml --binding --trade-off out/trade_off.svg$":
         "tests/cli/schedule_synthesize_test.sh runs it, and compares the picture",
 }

@@ -153,7 +153,7 @@ class ClearFlights : public testing::TestWithParam<std::tuple<bool, bool, bool>>
 
 TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
   int alone = 0, drawn_together = 0;
-  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Line line = made();
     RandomStream draw({seed, 0, Purpose::kTest, 0, 0});
     TrueTime now{1'000};
@@ -178,8 +178,8 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
     ASSERT_EQ(line.reached, expected) << "seed " << seed;
     for (const Reached& one : expected) ++(one.frame_id > 0 ? alone : drawn_together);
   }
-  EXPECT_GT(alone, 1000);
-  EXPECT_GT(drawn_together, 1000);
+  EXPECT_GT(alone, 300);
+  EXPECT_GT(drawn_together, 300);
 }
 
 // A noise of 100 ms with 10 us bursts and frames in it, one behind the other: more than there is room for at

@@ -32,7 +32,7 @@ TEST_P(DynamicLists, AreFusedWithinTheirBounds) {
     Drive drive("scenarios/paper_scenario1.yaml", strategy);
     drive.cluster = schedules::check::load_checked_cluster(shipped(GetParam()));
     FusedAges fused;
-    constexpr std::uint64_t kDrives = 15;
+    constexpr std::uint64_t kDrives = 8;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) drive.run(fused, seed);
     const auto paths = schedules::analysis::measurement_ages(drive.cluster);
     ASSERT_EQ(paths.size(), 2u);

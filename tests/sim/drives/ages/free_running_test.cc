@@ -129,7 +129,7 @@ TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
     Ages ages;
     const NodeId fusion = *drive.cluster.find_node("fusion");
     Responses responses(fusion);
-    constexpr std::uint64_t kDrives = 20;
+    constexpr std::uint64_t kDrives = 8;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
       Fates fates;
       recording::records::Tee tee({&ages, &fates, &responses});
