@@ -47,8 +47,9 @@ function(ttf_common_headers name)
   target_compile_options(${name} PRIVATE ${COMMON_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${TTF_COMMON_HEADERS} ${COMMON_HEADERS})
 endfunction()
-# COLD code reads files and flags, checks, and writes pages, pictures and JSON. It is optimised less, and has compiled headers of its
-# own, with JSON's. Those of flags (CLI11) define constants, which cost 4 s of a processor in each unit that sees them.
+# WARM code reads files and checks them. COLD code reads flags, and writes pages, pictures and JSON. A release optimises both less,
+# a build with sanitizers COLD code not at all, and WARM code as usual: its tests run long. Both share compiled headers, with JSON's.
+# The headers of flags (CLI11) are not among them: they define constants, which cost 4 s of a processor in each unit that sees them.
 set(TTF_COLD_OPTIONS $<$<CONFIG:Release>:-O1>)
 if(TTF_SANITIZE)
   set(TTF_COLD_OPTIONS -O0)
@@ -58,10 +59,10 @@ if(TTF_BUILD_PROGRAM)
   ttf_common_headers(ttf_cold_headers OPTIONS ${TTF_COLD_OPTIONS} HEADERS <nlohmann/json.hpp> DEPS nlohmann_json::nlohmann_json)
 endif()
 
-# ttf_module(<name> SOURCES <files...> [DEPS <targets...>] [HOT | COLD]): the static library of a folder. A drive spends most of its
+# ttf_module(<name> SOURCES <files...> [DEPS <targets...>] [HOT | WARM | COLD]): the static library of a folder. A drive spends most of its
 # time in HOT modules. They are optimised further, without compiled headers, and take 3 to 5 % fewer instructions.
 function(ttf_module name)
-  cmake_parse_arguments(MODULE "HOT;COLD" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(MODULE "HOT;WARM;COLD" "" "SOURCES;DEPS" ${ARGN})
   if(MODULE_SOURCES)
     add_library(${name} STATIC ${MODULE_SOURCES})
     # The export needs to know of no flags: $<BUILD_INTERFACE:...>.
@@ -73,7 +74,7 @@ function(ttf_module name)
     elseif(TARGET ttf_module_headers)
       # The compiled headers know fmt's definitions, so a module without fmt has them, too.
       target_compile_definitions(${name} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
-      if(MODULE_COLD)
+      if(MODULE_COLD OR (MODULE_WARM AND NOT TTF_SANITIZE))
         target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${TTF_COLD_OPTIONS}>)
         target_precompile_headers(${name} REUSE_FROM ttf_cold_headers)
       else()

@@ -22,10 +22,6 @@
 namespace ttf::cli::exports {
 namespace {
 
-const std::vector<FormatEnds> kFormatEnds = {
-    {"pcapng", {".pcapng"}}, {"candump", {".log"}}, {"csv", {".csv"}},     {"perfetto", {".pftrace"}},
-    {"foxglove", {".mcap"}}, {"osi", {".mcap"}},    {"markdown", {".md"}}, {"sqlite", {".sqlite", ".db"}}};
-
 struct ExportOptions {
   std::vector<std::string> logs;
   std::string format;
@@ -33,15 +29,37 @@ struct ExportOptions {
   bool json = false;
 };
 
-std::string converted(const std::string& format, const recording::exports::FrameCollector& collector,
-                      const std::vector<recording::exports::LoggedFrame>& frames,
-                      const recording::exports::LogNames& names) {
-  if (format == "pcapng") return recording::exports::export_pcapng(collector, frames, names);
-  if (format == "candump") return recording::exports::export_candump(collector, frames, names);
-  return recording::exports::export_csv(collector, frames, names);
+void refuse_other_end(const ExportOptions& options);  // of the file's name
+
+// A drive that is exported: its logs are no output.
+recording::merge::MergedLogs drive_of(const ExportOptions& options) {
+  for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
+  refuse_other_end(options);
+  for (const std::string& log : logs::log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
+  return logs::drive_in(options.logs);
 }
 
-int export_perfetto(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+template <auto kText> int export_frames(const ExportOptions& options) {
+  const recording::merge::MergedLogs drive = drive_of(options);
+  recording::exports::FrameCollector collector;
+  read_shown(drive, collector);
+  const std::vector<recording::exports::LoggedFrame> frames = collector.in_order();
+  write_file(options.out, kText(collector, frames, recording::exports::LogNames(drive.manifest())));
+  std::size_t flexray = 0, can = 0, symbols = 0;
+  for (const recording::exports::LoggedFrame& frame : frames)
+    ++(frame.symbol ? symbols : frame.flexray ? flexray : can);
+  constexpr bool kCanOnly = kText == recording::exports::export_candump;
+  if (options.json)
+    fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
+               options.format, kCanOnly ? 0 : flexray, kCanOnly ? 0 : symbols, can);
+  say_written(options.out, kCanOnly ? counted(can, "CAN frame")
+                                    : fmt::format("{} FlexRay and {} and {}", flexray, counted(can, "CAN frame"),
+                                                  counted(symbols, "symbol")));
+  return 0;
+}
+
+int export_perfetto(const ExportOptions& options) {
+  const recording::merge::MergedLogs drive = drive_of(options);
   OutputFile file(options.out);
   recording::exports::PerfettoExport trace(recording::exports::LogNames(drive.manifest()),
                                            [&](std::string_view bytes) { file.write(bytes); });
@@ -58,7 +76,8 @@ int export_perfetto(const ExportOptions& options, const recording::merge::Merged
   return 0;
 }
 
-int export_for_viewers(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+int export_for_viewers(const ExportOptions& options) {
+  const recording::merge::MergedLogs drive = drive_of(options);
   const FoxgloveResult result = export_foxglove(drive, options.out);
   print_warnings(result.warnings);
   const recording::exports::viewer::SceneCounts& counts = result.counts;
@@ -87,7 +106,8 @@ int export_for_viewers(const ExportOptions& options, const recording::merge::Mer
 }
 
 // One file with the log, or a folder for files of the messages alone.
-int export_for_osi(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
+int export_for_osi(const ExportOptions& options) {
+  const recording::merge::MergedLogs drive = drive_of(options);
   if (options.out.ends_with(".osi"))
     throw InputError({"command line", 0, "--out", options.out,
                       "must end in .mcap, or name a folder for two .osi files: SensorData and GroundTruth"});
@@ -105,9 +125,8 @@ int export_for_osi(const ExportOptions& options, const recording::merge::MergedL
   return 1;
 }
 
-int export_drive_tables(const ExportOptions& options, const recording::merge::MergedLogs& drive) {
-  const auto tables =
-      options.format == "sqlite" ? export_sqlite(drive, options.out) : export_tables(drive, options.out);
+template <auto kExport> int export_drive_tables(const ExportOptions& options) {
+  const auto tables = kExport(drive_of(options), options.out);
   std::vector<std::string> rows;
   for (const auto& [file, count] : tables) rows.push_back(fmt::format("{} of {}", counted(count, "row"), file));
   if (options.json) {
@@ -136,7 +155,7 @@ int export_for_papers(const ExportOptions& options) {
 int export_experiment_tables(const ExportOptions& options) {
   if (options.logs.size() > 1)
     throw InputError({"command line", 0, "logs", options.logs[1], "must be one experiment's folder"});
-  refuse_other_format(options.out, options.format, kFormatEnds);
+  refuse_other_end(options);
   const report::experiment::ExperimentFolder folder = report::experiment::read_experiment_folder(options.logs[0]);
   write_file(options.out, report::experiment::markdown_tables(folder));
   if (options.json)
@@ -147,33 +166,45 @@ int export_experiment_tables(const ExportOptions& options) {
   return 0;
 }
 
+// A format is a row.
+struct Format {
+  std::string_view name;
+  std::string_view about;
+  std::vector<std::string_view> ends;  // of its file's name; none: a folder
+  int (*write)(const ExportOptions&);
+};
+
+const std::vector<Format> kFormats = {
+    {"pcapng", "FlexRay and CAN, for Wireshark", {".pcapng"}, export_frames<recording::exports::export_pcapng>},
+    {"candump", "CAN only, for canplayer", {".log"}, export_frames<recording::exports::export_candump>},
+    {"csv", "all frames and symbols", {".csv"}, export_frames<recording::exports::export_csv>},
+    {"perfetto", "tasks, frames and ways, for ui.perfetto.dev", {".pftrace"}, export_perfetto},
+    {"foxglove", "scene and plots, for Foxglove and Lichtblick", {".mcap"}, export_for_viewers},
+    {"osi",
+     "ASAM OSI: images as SensorData and truth as GroundTruth, beside the log in one .mcap file, or as two .osi files "
+     "in "
+     "a folder",
+     {".mcap"},
+     export_for_osi},
+    {"tables",
+     "truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder",
+     {},
+     export_drive_tables<export_tables>},
+    {"sqlite", "the same tables in one file", {".sqlite", ".db"}, export_drive_tables<export_sqlite>},
+    {"gnuplot", "tables and scripts for papers, into a folder", {}, export_for_papers},
+    {"markdown", "an experiment's tables, with every point", {".md"}, export_experiment_tables}};
+
+void refuse_other_end(const ExportOptions& options) {
+  std::vector<FormatEnds> known;
+  for (const Format& format : kFormats)
+    if (!format.ends.empty()) known.push_back({format.name, format.ends});
+  refuse_other_format(options.out, options.format, known);
+}
+
 int run_export(const ExportOptions& options) {
-  if (options.format == "gnuplot") return export_for_papers(options);
-  if (options.format == "markdown") return export_experiment_tables(options);
-  for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
-  refuse_other_format(options.out, options.format, kFormatEnds);
-  for (const std::string& log : logs::log_files(options.logs)) refuse_overwriting(log, options.out, "--out");
-  const recording::merge::MergedLogs drive = logs::drive_in(options.logs);
-  if (options.format == "perfetto") return export_perfetto(options, drive);
-  if (options.format == "foxglove") return export_for_viewers(options, drive);
-  if (options.format == "osi") return export_for_osi(options, drive);
-  if (options.format == "tables" || options.format == "sqlite") return export_drive_tables(options, drive);
-  recording::exports::FrameCollector collector;
-  read_shown(drive, collector);
-  const recording::exports::LogNames names(drive.manifest());
-  const std::vector<recording::exports::LoggedFrame> frames = collector.in_order();
-  write_file(options.out, converted(options.format, collector, frames, names));
-  std::size_t flexray = 0, can = 0, symbols = 0;
-  for (const recording::exports::LoggedFrame& frame : frames)
-    ++(frame.symbol ? symbols : frame.flexray ? flexray : can);
-  const bool can_only = options.format == "candump";
-  if (options.json)
-    fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
-               options.format, can_only ? 0 : flexray, can_only ? 0 : symbols, can);
-  say_written(options.out, can_only ? counted(can, "CAN frame")
-                                    : fmt::format("{} FlexRay and {} and {}", flexray, counted(can, "CAN frame"),
-                                                  counted(symbols, "symbol")));
-  return 0;
+  const auto format =
+      std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& one) { return one.name == options.format; });
+  return format->write(options);
 }
 
 }  // namespace
@@ -199,21 +230,14 @@ void add_export(CLI::App& app, Action& action) {
                    "Log of a run, or one of each of its processes, or its folder; for gnuplot also of several runs, or "
                    "an experiment's folder; for markdown an experiment's folder")
       ->required();
-  command
-      ->add_option(
-          "--format", options->format,
-          "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
-          "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
-          "foxglove (scene and plots, for Foxglove and Lichtblick), "
-          "osi (ASAM OSI: images as SensorData and truth as GroundTruth, beside the log in one .mcap file, or as two "
-          ".osi files in a folder), "
-          "tables (truth, tracks, images, ages, errors, tasks and frames for Python and R, into a folder), "
-          "sqlite (the same tables in one file), "
-          "gnuplot (tables and scripts for papers, into a folder), "
-          "markdown (an experiment's tables, with every point)")
+  std::vector<std::string> names, abouts;
+  for (const Format& format : kFormats) {
+    names.emplace_back(format.name);
+    abouts.push_back(fmt::format("{} ({})", format.name, format.about));
+  }
+  command->add_option("--format", options->format, fmt::format("{}", fmt::join(abouts, ", ")))
       ->required()
-      ->check(one_of(
-          {"pcapng", "candump", "csv", "perfetto", "foxglove", "osi", "tables", "sqlite", "gnuplot", "markdown"}));
+      ->check(one_of(names));
   command->add_option("-o,--out", options->out, "File to write; for tables and gnuplot the folder, for osi either")
       ->required()
       ->check(named());
