@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Compares every source with the modules' table, tools/modules.toml: which module may include which, and by which public headers. A test.
+"""Compares every source with the modules' table, tools/modules.toml: which module may include which, and which headers are private. A test.
 
     check_layers.py [REPOSITORY]                exit 1 and one line for every problem
     check_layers.py --changed [REPOSITORY]      of the files that differ from the last commit alone: a second, before a commit
 
-Between modules, the rule covers every header that a file sees, directly or through others. Between parts and at public headers, it
+Between modules, the rule covers every header that a file sees, directly or through others. Between parts and at private headers, it
 covers the file's own includes. Every source lies in a module. The project's own headers are included with quotes, by their path
 from the top. A source's namespace is its path (core/ is ttf itself); a test has the namespace of the folder that it mirrors.
 No source calls a C function whose state threads share.
 tests/tools/check_layers_test.py tries the ways around.
 """
 
+import fnmatch
 import functools
 import pathlib
 import re
@@ -51,13 +52,14 @@ class Modules:
         self.allowed["cli"] = everything
         self.allowed["tests"] = everything + ["cli"]
         self.parts = table.get("parts", {})
-        self.public_headers = table.get("public_headers", {})
+        self.private_headers = table.get("private_headers", {})
         self.threads = table.get("threads", {}).get("allowed", [])
         self.many_sources = table.get("more_than_25_sources", {})
 
     @functools.cache   # each header is seen by many files
     def module_of(self, path: str) -> str | None:
-        matches = [module for module in self.allowed if path.startswith(module + "/")]
+        """The module is a folder, or a header and its source."""
+        matches = [module for module in self.allowed if path.startswith(module + "/") or path in (module + ".h", module + ".cc")]
         return max(matches, key=len) if matches else None
 
     def part_of(self, path: str) -> str | None:
@@ -68,12 +70,17 @@ class Modules:
         rest = path[len(module) + 1:].split("/")
         return module if len(rest) == 1 else f"{module}/{rest[0]}"
 
+    @functools.cache
+    def is_private(self, header: str) -> bool:
+        module = self.module_of(header)
+        return any(fnmatch.fnmatchcase(header, f"{module}/{name}") for name in self.private_headers.get(module, []))
+
     def may_use_threads(self, name: str) -> bool:
         return any(name == place or name.startswith(place + "/") for place in self.threads)
 
     def place(self, part: str, module: str) -> int | None:
-        """How high a part lies in its module."""
-        name = "." if part == module else part[len(module) + 1:]
+        """How high a part lies in its module, or a module in the one around it."""
+        name = "." if part == module else part.removeprefix(module + "/")
         order = self.parts.get(module, ["."])
         return order.index(name) if name in order else None
 
@@ -146,18 +153,18 @@ def circles(allowed: dict[str, list[str]]) -> list[str]:
 
 
 def inside_problems(table: Modules, name: str, include: str) -> list[str]:
-    """Between parts: never upwards within a module, and through public headers alone."""
-    module, target_module = table.module_of(name), table.module_of(include)
+    """Between parts: never upwards within a module, and without private headers."""
+    module = table.module_of(name)
     own, target = table.part_of(name), table.part_of(include)
     if module == "tests" or own == target:
         return []
     found = []
-    if module == target_module:
+    if f"{target}/".startswith(f"{module}/"):
         here, there = table.place(own, module), table.place(target, module)
         if here is not None and there is not None and there > here:
             found.append(f'{name}: {own} may not include {target} ("{include}"), which lies above it')
-    if target in table.public_headers and include[len(target) + 1:] not in table.public_headers[target]:
-        found.append(f'{name}: "{include}" is no public header of {target}')
+    if table.is_private(include):
+        found.append(f'{name}: "{include}" is a private header of {target}')
     return found
 
 
@@ -177,8 +184,8 @@ def folder_problems(table: Modules, files: list[str]) -> list[str]:
             found.append(f"{folder}: {part} is no part in tools/modules.toml")
         parts = folder.split("/")[1:]
         if module == "tests" and parts and parts[0] not in SHARED_TESTS:
-            modules = table.allowed.keys() | table.public_headers.keys()
-            if not any("/".join(parts[:length]) in modules for length in (len(parts), len(parts) - 1)):
+            places = table.allowed.keys() | {f"{outer}/{part}" for outer, inner in table.parts.items() for part in inner}
+            if not any("/".join(parts[:length]) in places for length in (len(parts), len(parts) - 1)):
                 found.append(f"{folder}: mirrors no module")
     for folder in table.many_sources:
         if len(folders.get(folder, [])) <= MOST_SOURCES:

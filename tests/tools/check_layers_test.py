@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The layer check, tried on small trees: those that obey the table pass, every violation is named."""
 
+import fnmatch
 import pathlib
 import sys
 import tempfile
@@ -9,7 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
 import check_layers  # noqa: E402
 
-# A tree with the modules of ours; parts and public headers as a test needs them.
+# A tree with the modules of ours; parts and private headers as a test needs them.
 MODULES = {
     "may_include": {
         "core": [], "timebase": ["core"], "schedules": ["core"], "fusion": ["core"], "recording/records": ["core"],
@@ -140,7 +141,7 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(len(check_layers.circles({"a": ["a"]})), 1)
 
     def test_parts_are_included_downwards(self):
-        table = {**MODULES, "parts": {"schedules": ["model", "check"]}, "public_headers": {}}
+        table = {**MODULES, "parts": {"schedules": ["model", "check"]}}
         self.expect({"schedules/model/a.h": "", "schedules/check/b.cc": '#include "schedules/model/a.h"\n'}, table=table)
         self.expect({"schedules/check/a.h": "", "schedules/model/b.cc": '#include "schedules/check/a.h"\n'},
                     "schedules/model may not include schedules/check", table=table)
@@ -148,14 +149,40 @@ class CheckLayers(unittest.TestCase):
                      "schedules/check/deep/c.cc": '#include "schedules/check/b.h"\n'}, table=table)
         self.expect({"schedules/new/a.cc": ""}, "schedules/new is no part", table=table)
 
-    def test_public_headers(self):
-        table = {**MODULES, "parts": {"fusion": ["filters", "tracks"]}, "public_headers": {"fusion/filters": ["kalman.h"]}}
-        tree = {"fusion/filters/kalman.h": '#include "fusion/filters/inner.h"\n', "fusion/filters/inner.h": ""}
+    def test_private_headers(self):
+        table = {**MODULES, "parts": {"fusion": ["filters", "tracks"]},
+                 "private_headers": {"fusion": ["filters/inner.h", "filters/deep/*", "*.pb.h"]}}
+        tree = {"fusion/filters/kalman.h": '#include "fusion/filters/inner.h"\n', "fusion/filters/inner.h": "",
+                "fusion/filters/deep/a/b.h": "", "fusion/filters/said.proto": ""}
         self.expect({**tree, "fusion/tracks/a.cc": '#include "fusion/filters/kalman.h"\n',
-                     "tests/fusion/filters/b.cc": '#include "fusion/filters/inner.h"\n'}, table=table)
-        for name in ("fusion/tracks/a.cc", "nodes/a.cc"):
-            self.expect({**tree, name: '#include "fusion/filters/inner.h"\n'},
-                        '"fusion/filters/inner.h" is no public header of fusion/filters', table=table)
+                     "tests/fusion/filters/b.cc": '#include "fusion/filters/inner.h"\n',
+                     "fusion/filters/deep/c.cc": '#include "fusion/filters/inner.h"\n',
+                     "fusion/filters/d.cc": '#include "fusion/filters/deep/a/b.h"\n#include "fusion/filters/said.pb.h"\n'},
+                    table=table)
+        for private in ("inner.h", "deep/a/b.h", "said.pb.h"):
+            for name in ("fusion/tracks/a.cc", "nodes/a.cc", "cli/a.cc"):
+                self.expect({**tree, name: f'#include "fusion/filters/{private}"\n'},
+                            f'"fusion/filters/{private}" is a private header of fusion/filters', table=table)
+
+    def test_a_module_is_a_header_with_its_source(self):
+        table = {**MODULES, "may_include": {**MODULES["may_include"], "core/output": [], "timebase": ["core/output"]}}
+        self.expect({"core/output.h": "", "core/output.cc": '#include "core/output.h"\n', "core/outputs.h": "",
+                     "timebase/a.cc": '#include "core/output.h"\n'}, table=table)
+        self.expect({"core/output.cc": '#include "core/outputs.h"\n', "core/outputs.h": ""},
+                    "core/output may not include core", table=table)
+        self.expect({"core/outputs.h": "", "timebase/a.cc": '#include "core/outputs.h"\n'},
+                    "timebase may not include core", table=table)
+
+    def test_a_module_among_the_parts_around_it(self):
+        table = {**MODULES, "may_include": {**MODULES["may_include"], "cli/supervision": ["core"]},
+                 "parts": {"cli": [".", "drive", "supervision", "launch"]}}
+        tree = {"core/a.h": "", "fusion/a.h": "", "cli/a.h": "", "cli/launch/a.h": "", "cli/supervision/a.h": '#include "core/a.h"\n'}
+        self.expect({**tree, "cli/launch/b.cc": '#include "cli/supervision/a.h"\n'}, table=table)
+        for name in ("cli/main.cc", "cli/drive/b.cc"):
+            self.expect({**tree, name: '#include "cli/supervision/a.h"\n'}, "may not include cli/supervision", table=table)
+        for include in ("fusion/a.h", "cli/a.h", "cli/launch/a.h"):
+            self.expect({**tree, "cli/supervision/b.cc": f'#include "{include}"\n'},
+                        f'cli/supervision may not include {include.split("/")[0]} ("{include}")', table=table)
 
     def test_a_folder_with_many_sources(self):
         files = {f"sim/a{number}.cc": "" for number in range(26)}
@@ -190,9 +217,13 @@ class CheckLayers(unittest.TestCase):
     def test_this_tree_stands(self):
         top = pathlib.Path(__file__).resolve().parents[2]
         table = check_layers.read_modules()
-        for part, headers in table.public_headers.items():
-            for header in headers:
-                self.assertTrue((top / part / header).is_file(), f"{part}/{header}")
+        headers = [file.relative_to(top).as_posix() for file in check_layers.source_files(top) if file.suffix == ".h"]
+        for module, private in table.private_headers.items():
+            made = [file.relative_to(top).with_suffix(suffix).as_posix() for kind, suffix in (("proto", ".pb.h"), ("idl", ".h"))
+                    for file in (top / module).rglob(f"*.{kind}")]
+            own = [header for header in headers + made if table.module_of(header) == module]
+            for name in private:
+                self.assertTrue(fnmatch.filter(own, f"{module}/{name}"), f"{module}/{name}")
 
 
 if __name__ == "__main__":
