@@ -106,7 +106,8 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
   std::vector<std::function<void(model::Cluster&, bool)>> setters;  // to the upper end or the lower one
   const auto add = [&](const auto& parameters, auto&& of) {
     for (const auto& p : parameters)
-      setters.emplace_back([&p, of](model::Cluster& cluster, bool upper) { of(cluster).*p.member = upper ? p.high : p.low; });
+      setters.emplace_back(
+          [&p, of](model::Cluster& cluster, bool upper) { of(cluster).*p.member = upper ? p.high : p.low; });
   };
   const auto global = [](model::Cluster& cluster) -> model::GlobalParameters& { return cluster.flexray; };
   const auto local = [](model::Cluster& cluster) -> model::NodeParameters& { return *cluster.nodes.back().flexray; };
