@@ -42,7 +42,7 @@ TEST(Decimal, WritesWithoutTrailingZeros) {
   EXPECT_EQ(scaled_text(7, 1), "7");
 }
 
-TEST(Decimal, WhatIsWrittenIsReadAgain) {
+TEST(Decimal, AWrittenNumberIsReadAgain) {
   RandomStream random({.seed = 1, .purpose = Purpose::kTest, .entity = 0, .index = 0});
   for (int i = 0; i < 10'000; ++i) {
     const auto value = static_cast<std::int64_t>(random.bits()) >> (8 + i % 50);

@@ -260,7 +260,7 @@ TEST(StrictYaml, EachGetterNamesWhatItWants) {
   }
 }
 
-TEST(StrictYaml, WhatIsMissingIsSaidWithItsRange) {
+TEST(StrictYaml, MissingKeysAreNamedWithTheirRanges) {
   EXPECT_THAT(read("other:\n  a: 1\n",
                    [](YamlMap& map) {
                      YamlMap other = map.map("other");

@@ -286,7 +286,7 @@ TEST(FaultPlan, NamesAreLookedUpInTheCluster) {
   EXPECT_EQ(resolve(plan, cluster).faults, plan.faults);
 }
 
-TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
+TEST(FaultPlan, NodesSlotsAndBitsThatTheClusterHasNotAreRefused) {
   schedules::model::Cluster cluster = paper();
   for (auto node = cluster.nodes.rbegin(); node != cluster.nodes.rend(); ++node)
     if (node->flexray) {

@@ -86,7 +86,7 @@ TEST(CanController, AShortListAfterALongOneIsPaddedWithZerosAgain) {
   EXPECT_EQ(wire.frames[0].data[11], std::byte{0});
 }
 
-TEST(CanController, WhatTheScheduleDoesNotLayDownIsCountedAndIgnored) {
+TEST(CanController, FramesNotInTheScheduleAreCountedAndIgnored) {
   const schedules::model::Cluster c = cluster(true);
   Wire wire;
   CanController host(c, kHost, 0, wire);

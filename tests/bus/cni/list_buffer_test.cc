@@ -322,7 +322,7 @@ TEST(IncomingList, L4_AFragmentInAnotherOnesSlotIsRefused) {
 
 // Fragments of a running sender, lost and repeated at random on two channels. Every list handed out was sent
 // as such.
-TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
+TEST(IncomingList, AListIsWholeOrAbsentUnderLossAndRepetition) {
   RandomStream stream({7, 0, Purpose::kTest, 1, 0});
   const auto layout = list_layout(8);
   IncomingList incoming(layout);

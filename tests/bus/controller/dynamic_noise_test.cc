@@ -60,7 +60,7 @@ struct Noisy {
 // A frame takes five minislots and an idle one: dynamic_sending_test.cc.
 constexpr int kFrame = 6;
 
-TEST(DynamicNoise, WhatGoesOnWhenTheSegmentBeginsTakesItsFirstSlot) {
+TEST(DynamicNoise, NoiseThatGoesOnWhenTheSegmentBeginsTakesItsFirstSlot) {
   // In the last static slot, between it and the first minislot, and in the cycle before.
   for (const TrueTime from : {at(kCycle, 800), at(kCycle, 842), at(kCycle - 1, 985)})
     for (int last = 1; last <= 7; ++last) {
@@ -72,19 +72,19 @@ TEST(DynamicNoise, WhatGoesOnWhenTheSegmentBeginsTakesItsFirstSlot) {
     }
 }
 
-TEST(DynamicNoise, WhatEndsBeforeTheFirstMinislotTakesNone) {
+TEST(DynamicNoise, NoiseThatEndsBeforeTheFirstMinislotTakesNoSlot) {
   Noisy noisy(at(kCycle, 800), at(kCycle, 843));
   EXPECT_EQ(noisy.turns(), (std::vector<int>{1, 1 + kFrame, 1 + 2 * kFrame}));
   noisy.expect_all_there();
 }
 
 // Begun in the segment: the slot of that minislot, as ever.
-TEST(DynamicNoise, WhatBeginsInTheSegmentTakesTheSlotOfItsMinislot) {
+TEST(DynamicNoise, NoiseThatBeginsInTheSegmentTakesTheSlotOfItsMinislot) {
   Noisy noisy(in_minislot(1) - Duration{1000}, in_minislot(4));
   EXPECT_EQ(noisy.turns(), (std::vector<int>{0, 6, 6 + kFrame}));
 }
 
-TEST(DynamicNoise, WhatLastsTheWholeSegmentLeavesTheNextOneAlone) {
+TEST(DynamicNoise, NoiseOverTheWholeSegmentLeavesTheNextOneAlone) {
   Noisy noisy(at(kCycle, 800), at(kCycle, 990));
   EXPECT_EQ(noisy.turns(), (std::vector<int>{0, 0, 0}));
   noisy.expect_all_there();  // in the next cycle, on B in this one

@@ -96,7 +96,7 @@ TEST(DynamicSlotCounter, AgreesWithCountingMinislotByMinislot) {
   }
 }
 
-TEST(DynamicSlotCounter, WhatOverlapsATransmissionExtendsItsSlot) {
+TEST(DynamicSlotCounter, NoiseIntoATransmissionExtendsItsSlot) {
   DynamicSlotCounter counter(parameters());
   counter.occupied(2, 5);
   counter.occupied(4, 9);  // noise into it

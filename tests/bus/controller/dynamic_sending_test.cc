@@ -54,7 +54,7 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
     EXPECT_EQ(schedules::analysis::latest_turn(rig.cluster(), frames[frames.size() - 3 + node]), minislots[node]);
 }
 
-TEST(DynamicSegment, WhatDoesNotFitWaitsForTheNextCycle) {
+TEST(DynamicSegment, AFrameThatDoesNotFitWaitsForTheNextCycle) {
   schedules::model::Cluster cluster = dynamic_cluster(3);
   for (auto& node : cluster.nodes) node.flexray->pLatestTx = 9;
   Rig rig(cluster, {0, 0, 0});

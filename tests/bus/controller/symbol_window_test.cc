@@ -115,7 +115,7 @@ TEST(MediaTestSymbol, IsRefusedWithoutWindowAndInKeySlotOnlyMode) {
 }
 
 // A node without received sync frames and without its own is passive from cycle 2 on.
-TEST(MediaTestSymbol, WhatWasAskedForInTimeIsDroppedInNormalPassive) {
+TEST(MediaTestSymbol, ASymbolAskedForInTimeIsDroppedInNormalPassive) {
   schedules::model::Cluster cluster = windowed(small_cluster(4));
   cluster.nodes[0].flexray->pKeySlotUsedForSync = cluster.nodes[0].flexray->pKeySlotUsedForStartup = false;
   cluster.flexray.gMaxWithoutClockCorrectionPassive = 1;

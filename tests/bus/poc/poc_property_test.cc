@@ -227,7 +227,7 @@ TEST(PocProperties, CountersStayWithinBounds) {
   EXPECT_GT(largest_failed, 3);
 }
 
-TEST(PocProperties, WhoFollowsKnowsWhom) {
+TEST(PocProperties, OnlyFollowersHaveAReferenceInStartup) {
   walk([](const PocParameters&, const PocState&, const PocEvent&, const PocStep& step) {
     switch (step.next.kind) {
       case Kind::kInitialiseSchedule:

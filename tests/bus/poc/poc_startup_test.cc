@@ -160,7 +160,7 @@ TEST(PocStartup, EachDoubleCycleNeedsItsOwnVerdictOnTheClock) {
   EXPECT_EQ(node.last.reason, PocReason::kStartupClockTermMissing);
 }
 
-TEST(PocStartup, WhatMakesAFollowerGiveUp) {
+TEST(PocStartup, AFollowerGivesUpWithoutStartupFramesOrAClockInOrder) {
   const StartupFramesSeen two_others{2, 2, false, false};
   const StartupFramesSeen one_other{1, 1, false, false};
   // Integration coldstart check: the node followed, or two others.
@@ -192,7 +192,7 @@ TEST(PocStartup, WhatMakesAFollowerGiveUp) {
   EXPECT_EQ(node.cycles(3, one_other).state.kind, Kind::kNormalActive);
 }
 
-TEST(PocStartup, WhatMakesAnIntegratingNodeGiveUp) {
+TEST(PocStartup, AnIntegratingNodeGivesUpWithoutStartupFramesOrClockTerms) {
   PocScript check(other_node());
   check.to_check().cycle();
   PocScript node = check;

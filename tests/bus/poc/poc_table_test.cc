@@ -270,7 +270,7 @@ TEST(PocTable, OnlyTheListenTimersFollowTheChannel) {
   }
 }
 
-TEST(PocTable, WhoMaySend) {
+TEST(PocTable, NodesSendOnlyInThreeStartupStatesAndNormalActive) {
   for (const Row& row : rows()) {
     PocScript script(row.parameters);
     row.lead(script);
@@ -282,7 +282,7 @@ TEST(PocTable, WhoMaySend) {
   }
 }
 
-TEST(PocTable, WhoHasAScheduleAndWhoCorrectsItsClock) {
+TEST(PocTable, ScheduleAndClockCorrectionFollowFromTheState) {
   const std::set<std::string> corrects{"cc", "ic", "cj", "in", "na", "np"};
   const std::set<std::string> only_schedule{"cr", "ga", "is"};
   const std::set<std::string> startup{"cl", "cr", "cc", "ga", "cj", "il", "is", "ic", "in"};

@@ -63,7 +63,7 @@ TEST(FlexRayOnCan, EveryLengthArrivesUnchanged) {
 }
 
 // A frame of 28 words is, byte for byte, a CAN FD frame, without a prefix.
-TEST(FlexRayOnCan, WhatFitsIsTheFrameItself) {
+TEST(FlexRayOnCan, AFrameThatFitsHasNoPrefix) {
   const Bytes frame = drawn_frame(Channel::kA, 3, 7, 28);
   const CanFrames can = frame_to_can(3, frame);
   ASSERT_EQ(can.count, 1u);

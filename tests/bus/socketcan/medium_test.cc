@@ -241,7 +241,7 @@ TEST_F(LiveOnVcan, EveryDataFrameOfAPrivateCanIsHandedOver) {
   EXPECT_EQ(medium.counts().received, 2u);
 }
 
-TEST_F(LiveOnVcan, WhatHasNoRoomIsCountedAsLost) {
+TEST_F(LiveOnVcan, FramesWithoutRoomAreCountedAsLost) {
   SocketCanMedium sender(options()), receiver(options(16));
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 28);
   constexpr std::uint64_t kSent = 300;

@@ -114,7 +114,7 @@ TEST_F(SocketOnVcan, FiltersLetThroughWhatMatches) {
 }
 
 // Without a reader, frames without room are counted, at the gap and at the end.
-TEST_F(SocketOnVcan, WhatHasNoRoomIsCounted) {
+TEST_F(SocketOnVcan, FramesWithoutRoomAreCounted) {
   constexpr std::uint32_t kSent = 200, kAgain = 10;
   Socket sender({.interface = kName, .filters = {}});
   Socket receiver({.interface = kName, .receive_buffer_frames = 16, .filters = {}});

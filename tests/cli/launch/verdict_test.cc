@@ -37,7 +37,7 @@ TEST_F(Verdicts, WhereNothingWasCountedNothingMatters) {
             "nothing was late or lost, and each of 37 used images was as fresh as the schedule promises");
 }
 
-TEST_F(Verdicts, WhatWasCountedMayNotMatter) {
+TEST_F(Verdicts, ProblemsThatDoNotReachTheServiceDoNotMatter) {
   facts.service.uses = 37;
   facts.restarts = 1;
   real_time.timing[NodeId{0}].late_wake_ups = 30;
@@ -61,7 +61,7 @@ TEST_F(Verdicts, RealNodesAreCountedAsOthersAre) {
       "schedule promises");
 }
 
-TEST_F(Verdicts, WhatReachesTheServiceMatters) {
+TEST_F(Verdicts, ProblemsThatReachTheServiceMatter) {
   facts.service = {1462,
                    3,
                    {{SensorId{0}, {12, Duration::milliseconds(140), Duration::milliseconds(101)}}},

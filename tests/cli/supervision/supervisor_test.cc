@@ -318,7 +318,7 @@ TEST_F(Supervising, SaysWhatItDoesNotUnderstand) {
                                  "too long\n" + left_out + "health.drops: must be a whole number from 0\n"));
 }
 
-TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
+TEST_F(Supervising, AThrowingHookEndsTheLaunch) {
   Hooks hooks;
   hooks.on_all_ready = []() -> json { throw std::runtime_error("the medium is lost"); };
   const auto outcome = run(config({{"a", Policy::kRequired, child({"ready", "start"})}}), hooks);

@@ -135,7 +135,7 @@ TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
 }
 
 // The same deafness belongs to no fault of the plan if the plan's fault is another node's.
-TEST(FaultAccount, WhatFitsNoFaultIsUnattributed) {
+TEST(FaultAccount, AnEffectThatFitsNoFaultIsUnattributed) {
   Reported run(FaultKind::kCrash, "laser_pre");
   Deaf deaf;
   deaf.sender = run.node("gateway");
@@ -176,7 +176,7 @@ TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
 }
 
 // A fault of the node's own reception harms no other node.
-TEST(FaultAccount, WhatTheFaultyNodeMissesHarmsNobody) {
+TEST(FaultAccount, FramesThatTheFaultyNodeMissesAreNoHarm) {
   Reported run(FaultKind::kOmission, "feature");
   Deaf deaf;
   deaf.sender = run.node("gateway");

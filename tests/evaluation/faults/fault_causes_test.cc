@@ -105,7 +105,7 @@ TEST(FaultCauses, ANodeIsItsFaultsUntilItIsBack) {
   EXPECT_EQ(plan.heard(kAda, kDan, 150'100), std::nullopt);
 }
 
-TEST(FaultCauses, WhomATransientDroveOutItIsToBlameFor) {
+TEST(FaultCauses, ATransientIsToBlameForNodesThatItDroveOut) {
   Plan plan({fault(FaultKind::kTransient), fault(FaultKind::kOmission, kBen)});
   plan.causes->ends(0, us(60'000));
   EXPECT_EQ(plan.heard(kDan, kAda, 200'000, true), std::nullopt);
@@ -115,7 +115,7 @@ TEST(FaultCauses, WhomATransientDroveOutItIsToBlameFor) {
   EXPECT_EQ(plan.heard(kDan, kAda, 200'000, true), std::nullopt);
 }
 
-TEST(FaultCauses, WhatFitsNothingElseIsOfWhoPullsTheClocks) {
+TEST(FaultCauses, EffectsThatFitNothingElseBelongToTheByzantineClock) {
   Plan plan({fault(FaultKind::kByzantineClock, kAda), fault(FaultKind::kOmission, kBen)});
   plan.causes->acts(1, us(5'000));
   EXPECT_EQ(plan.heard(kCleo, kDan, 5'000), 0u);

@@ -207,7 +207,7 @@ TEST_F(Story, ReintegrationCountsFromTheFaultsEndOrFromLeavingIfThatWasLater) {
   EXPECT_EQ(judge_.finish(in_cycle(14)).reintegration, kBusCycle * 4);
 }
 
-TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {
+TEST(FaultJudge, ChecksThatFailInAFaultlessStartUpCountOnceItIsOver) {
   const schedules::model::Cluster cluster = sim::engine::bus_cluster(3, 3, 3);
   JudgeSettings settings;
   settings.faulty = {true, false, false};

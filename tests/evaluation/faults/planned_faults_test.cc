@@ -40,7 +40,7 @@ TEST(FaultAccount, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
 
 // The clocks run free for twenty cycles, too long to converge again. Effects belong to the transient as long
 // as a controller tolerates missing sync frames; later they cannot be attributed.
-TEST(FaultAccount, WhatALongTransientLeavesBehindIsItsOwnForAWhile) {
+TEST(FaultAccount, EffectsOfALongTransientAreItsOwnForAWhile) {
   Planned run;
   run.add(FaultKind::kTransient, "", 1'000, 100);
   const FaultFindings& found = run.run();
@@ -96,7 +96,7 @@ TEST(FaultAccount, StepsBackInAStartUpAreOfTheFault) {
 }
 
 // It is also a fault of the node whose slots are silent, but it has done nothing.
-TEST(FaultAccount, WhatNeverActsHasNoEffects) {
+TEST(FaultAccount, AFaultThatNeverActsHasNoEffects) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
   run.add(FaultKind::kBabblingIdiot, "camera_pre", 1'200, 100);
@@ -109,7 +109,7 @@ TEST(FaultAccount, WhatNeverActsHasNoEffects) {
 
 // A burst is recorded no longer than its fault lasts. A frame is sent to its end, and its effects belong to
 // the fault.
-TEST(FaultAccount, WhatABurstDoesIsItsFaults) {
+TEST(FaultAccount, EffectsOfABurstBelongToItsFault) {
   for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
     Planned run;
     ttf::faults::Fault& fault = run.add(kind, kind == FaultKind::kNoise ? "" : "gateway", 1'000, 1);
@@ -130,7 +130,7 @@ TEST(FaultAccount, WhatABurstDoesIsItsFaults) {
 }
 
 // H2: endless noise keeps all nodes from starting.
-TEST(FaultAccount, WhoNeverStartsIsHarmed) {
+TEST(FaultAccount, ANodeThatNeverStartsIsHarmed) {
   Planned run("scenarios/cold_start.yaml");
   ttf::faults::Fault& noise = run.add(FaultKind::kNoise, "", 0, 0);
   noise.length = Duration::milliseconds(1);
@@ -187,7 +187,7 @@ struct Interventions final : recording::records::Sink {
   }
 };
 
-TEST(FaultAccount, WhatGuardiansBlockIsTold) {
+TEST(FaultAccount, SignalsThatGuardiansBlockAreTold) {
   Planned run;
   run.drive.cluster.topology = schedules::model::Topology::kStar;
   run.drive.cluster.guardian = true;
@@ -238,7 +238,7 @@ struct Endless final : sim::medium::Disturbance {
   }
 };
 
-TEST(FaultAccount, WhatGuardiansCutIsTold) {
+TEST(FaultAccount, SignalsThatGuardiansCutAreTold) {
   sim::drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   drive.cluster.topology = schedules::model::Topology::kStar;
   drive.cluster.guardian = true;

@@ -106,7 +106,7 @@ TEST_F(Ledger, ARoundMayBeShorter) {
 }
 
 // A node without a report has neither received nor missed the frame, and an absent frame is not forged.
-TEST_F(Ledger, WhatHasNotBeenReportedByTheEndIsOpen) {
+TEST_F(Ledger, AFrameUnreportedByTheEndStaysOpen) {
   cycle(0, false);
   sends(1, 0);
   ledger_.finish(static_end(1));

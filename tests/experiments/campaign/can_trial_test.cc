@@ -152,7 +152,7 @@ TEST_F(CanTrial, AStuckLineHarmsAllAndWhoRecoversComesBack) {
   EXPECT_TRUE(does(run(kAutomatic, stuck).harms, CanHarm::kFrameLost));
 }
 
-TEST_F(CanTrial, WhoDoesNotAcknowledgeHarmsNobody) {
+TEST_F(CanTrial, ANodeThatDoesNotAcknowledgeDoesNoHarm) {
   for (const char* name : {"laser_pre", "camera_pre", "fusion"}) {
     const FaultOutcome outcome = run(kNever, fault(FaultKind::kCanNoAcknowledgement, name));
     EXPECT_TRUE(outcome.activated);

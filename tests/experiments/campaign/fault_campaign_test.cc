@@ -78,7 +78,7 @@ TEST(FaultCampaign, EveryClassIsDrawnAndEveryFaultCanBeInjected) {
 }
 
 // A printed fault is an entry of a fault plan, and reads back as the same fault.
-TEST(FaultCampaign, WhatIsPrintedOfAFaultIsReadAgain) {
+TEST(FaultCampaign, APrintedFaultReadsBackAsTheSame) {
   const CampaignFile campaign = small_campaign(1);
   const auto bus = bus_of(campaign);
   const auto read_again = [&](const faults::Fault& fault) {

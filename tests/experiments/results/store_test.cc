@@ -73,7 +73,7 @@ void expect_same(const results::Row& row, const Row& other) {
     EXPECT_TRUE(row.values[v] == other.values[v] || (std::isnan(row.values[v]) && std::isnan(other.values[v])));
 }
 
-TEST_F(StoreTest, WhatWasAddedComesBackInOrder) {
+TEST_F(StoreTest, AddedRowsComeBackInOrder) {
   {
     Store store = Store::create(path(), head_);
     store.add({third_, second_});
@@ -129,7 +129,7 @@ TEST_F(StoreTest, IsNotWrittenOver) {
   EXPECT_THROW((void)Store::create(path(), head_), std::runtime_error);
 }
 
-TEST_F(StoreTest, WhatIsNoneIsRefused) {
+TEST_F(StoreTest, AFileThatIsNoStoreIsRefused) {
   EXPECT_THROW((void)Store::open(path()), InputError);
   std::ofstream(path()) << "this is no database, however long it may be, and nobody should take it for one";
   EXPECT_THROW((void)Store::open(path()), InputError);
@@ -251,7 +251,7 @@ TEST_F(StoreTest, AKilledWritersRowsAreThere) {
   EXPECT_THAT(files(), testing::ElementsAre("results.sqlite"));
 }
 
-TEST_F(StoreTest, WhatAKilledWriterLeftBesideADeletedStoreIsNotTakenIn) {
+TEST_F(StoreTest, FilesOfAKilledWriterBesideADeletedStoreAreNotTakenIn) {
   write_and_die(path(), head_, {first_, second_});
   std::filesystem::remove(path());
   { Store::create(path(), head_).add({third_}); }

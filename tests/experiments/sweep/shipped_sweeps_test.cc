@@ -218,7 +218,7 @@ TEST(ShippedSweeps, TheErrorsOfFaceAndCentreOfDrawnCarsAreTheExpectedOnes) {
 // A returning fusion node has forgotten everything, and may count its time anew: so has the expectation. The node is away
 // until 1 s. Then the filter settles within 0.8 s (scenarios/twin_cameras.yaml), from the error of one look: the mean is
 // at most halfway between that error and the settled one.
-TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
+TEST(ShippedSweeps, TheExpectedErrorSurvivesACrashOfTheFusionNode) {
   SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
   const SweepDrives drives(sweep);
   const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");

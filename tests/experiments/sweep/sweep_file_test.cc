@@ -53,7 +53,7 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
   EXPECT_GT(sweep.measures.size(), 10u) << "all of them where none is named";
 }
 
-TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
+TEST(SweepFile, MistakesAreRefusedWithTheirPlace) {
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
   EXPECT_THAT(axis("{keys: [tracker.process_noise], values: [1, 1]}"), HasSubstr("must not have the value 1 twice"));
   EXPECT_THAT(axis("{keys: [tracker.process_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));

@@ -10,7 +10,7 @@ namespace {
 // sensor 1 (worst 30)          x20 ---> 45
 //   1/0 (20 ms) waits for sensor 0 until 20 + 60 = 80, regardless of 0/0's stamp.
 class FutureStamp : public testing::TestWithParam<StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(WhoWait, FutureStamp, testing::Values(StrategyKind::kBuff, StrategyKind::kTt),
+INSTANTIATE_TEST_SUITE_P(Waiting, FutureStamp, testing::Values(StrategyKind::kBuff, StrategyKind::kTt),
                          name_of_strategy);
 
 TEST_P(FutureStamp, EndsNobodysWaiting) {

@@ -120,7 +120,7 @@ TEST(ExecutiveLists, WithoutGlobalTimeThereIsNoTimeOfMeasuring) {
   EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 0);
 }
 
-TEST(ExecutiveLists, WhatANewerListReplacesUnreadIsCounted) {
+TEST(ExecutiveLists, AnUnreadListReplacedByANewerOneIsCounted) {
   CameraHost host;
   for (std::uint32_t k = 0; k < 3; ++k) {
     host.executive->strobe(host.camera, k, host.now);

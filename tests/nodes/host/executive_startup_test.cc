@@ -111,7 +111,7 @@ TEST(ExecutiveStartup, SymbolsAreReportedOnEachChannelTheyLeaveOn) {
 }
 
 // It has no global time then and reports its local time instead.
-TEST(ExecutiveStartup, WhatHappensBeforeNormalOperationHasLocalTimeForGlobalTime) {
+TEST(ExecutiveStartup, EventsBeforeNormalOperationHaveLocalTimeForGlobalTime) {
   ColdNode node;
   node.run_to(60'000);
   EXPECT_EQ(node.told.of_the_cluster, 0);
@@ -123,7 +123,7 @@ bus::ports::Reception heard_until(std::int64_t us, bus::ports::Signal signal) {
 
 // Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us. Then start-up, which
 // listens anew.
-TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards) {
+TEST(ExecutiveStartup, AWakingNodeSendsThePatternOnOneChannelAndStartsUpAfterwards) {
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(4'500);
   ASSERT_EQ(node.told.symbols.size(), 3u);
@@ -137,7 +137,7 @@ TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards)
 }
 
 // Somebody else's pattern ends a wake-up as well as its own.
-TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
+TEST(ExecutiveStartup, AWakingNodeStartsUpAtOnceWhenAnotherWasFaster) {
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(1'000);
   node.executive->receive(heard_until(1'000, bus::ports::Signal::kWakeup));
@@ -147,7 +147,7 @@ TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
   EXPECT_EQ(node.told.changes[4].at, 1'000);
 }
 
-TEST(ExecutiveStartup, WhoSleepsHearsNothingButAWakeupPattern) {
+TEST(ExecutiveStartup, ASleepingNodeHearsNothingButAWakeupPattern) {
   ColdNode node(std::nullopt, ColdStart::kSleeps, Duration::milliseconds(3));
   node.executive->receive(heard_until(100, bus::ports::Signal::kCas));
   node.executive->receive(heard_until(300, bus::ports::Signal::kUndecodable));

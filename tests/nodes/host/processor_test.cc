@@ -37,7 +37,7 @@ TEST(Processor, RunsOneTaskFromItsStartToItsEnd) {
   EXPECT_EQ(alone.processor.next_event(), kNever<Microticks>);
 }
 
-TEST(Processor, WhoIsActivatedWhileItRunsWaits) {
+TEST(Processor, ATaskActivatedWhileItRunsWaits) {
   Alone alone({task("a", 10), task("b", 10)});
   alone.processor.activate(0, after_us(0));
   ASSERT_NE(alone.processor.start_next(after_us(0)), nullptr);

@@ -95,7 +95,7 @@ TEST(Wiring, AListActivatesWhomItIsToAndIsToldOnce) {
   EXPECT_TRUE(wired.comes(kSecond, kOther, 5).empty()) << "it is read, and activates nobody";
 }
 
-TEST(Wiring, WhatNobodyHasReadIsOverwrittenForEachOfItsReaders) {
+TEST(Wiring, AnUnreadListIsOverwrittenForEachOfItsReaders) {
   Wired wired;
   wired.comes(kFirst, bus::kList, 1);
   EXPECT_TRUE(wired.wiring->read(0, {})[0].fresh);

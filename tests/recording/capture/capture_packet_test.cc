@@ -75,7 +75,7 @@ TEST(CapturePacket, OfAFrameThatBreaksOffOnlyWhatIsThereIsChecked) {
   }
 }
 
-TEST(CapturePacket, WhatIsPutIsParsed) {
+TEST(CapturePacket, AFramePutIntoAPacketIsParsedFromIt) {
   for (const Channel channel : {Channel::kA, Channel::kB})
     for (const int words : {0, 1, 28, 127}) {
       BusFrame frame;

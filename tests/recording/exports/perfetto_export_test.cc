@@ -165,7 +165,7 @@ TEST(PerfettoExport, AgesAndCorrectionsAreCounters) {
   EXPECT_EQ(trace.count("clock synchronisation"), 1u);
 }
 
-TEST(PerfettoExport, WhatIsLostEndsWhereItWasLostAndMissesAreMarked) {
+TEST(PerfettoExport, AListsWayEndsWhereItIsLostAndMissesAreMarked) {
   Drive drive;
   drive.measured(3, 1 * kMs);
   drive.can(3, 0, 2 * kMs, 3 * kMs);
@@ -231,7 +231,7 @@ TEST(PerfettoExport, FaultsLastFromTheirBeginToTheirEndOrThatOfTheRun) {
   EXPECT_GT(trace.slices[1].end, 20'000u * kMs);
 }
 
-TEST(PerfettoExport, WhatOverlapsGoesBeside) {
+TEST(PerfettoExport, AnOverlappingRunGoesBesideTheOthers) {
   Drive drive;
   drive.run(kFusion, 0, 10 * kMs, 20 * kMs);
   drive.run(kFusion, 0, 15 * kMs, 25 * kMs);

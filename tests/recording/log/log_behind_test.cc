@@ -81,7 +81,7 @@ TEST(LogBehind, IsWrittenBehindAndNotOnlyAtTheEnd) {
 
 // The writer stands still. Messages are kept, without allocation while there is room. If adding waited for
 // the writer, this test would hang.
-TEST(LogBehind, WhoAddsNeverWaits) {
+TEST(LogBehind, AddingNeverWaits) {
   std::promise<void> stands, go_on;
   std::uint64_t written = 0;
   LogBehind log([&](const LogMessage& message) {

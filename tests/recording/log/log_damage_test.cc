@@ -52,7 +52,7 @@ std::size_t least_log() {
   return size;
 }
 
-TEST(LogDamage, WhatEndsBeforeItsManifestIsNoLog) {
+TEST(LogDamage, AFileThatEndsBeforeItsManifestIsNoLog) {
   const std::size_t least = least_log();
   EXPECT_GT(least, 100u);
   EXPECT_LT(least, small_log().size() / 4) << "before the first chunk";

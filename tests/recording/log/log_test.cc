@@ -164,7 +164,7 @@ TEST(Log, HashIsPrintedAsSixteenHexDigits) {
   EXPECT_EQ(std::stoull(text, nullptr, 16), writer.content_hash());
 }
 
-TEST(Log, WhatIsNoLogIsInvalidInput) {
+TEST(Log, AFileThatIsNoLogIsInvalidInput) {
   TextSink read;
   const auto message = [&read](const std::string& bytes) {
     try {
@@ -291,7 +291,7 @@ TEST(Log, AReferenceWithoutVelocityHasNone) {
     EXPECT_TRUE(std::isnan(value)) << value;
 }
 
-TEST(Log, WhatCannotBeWrittenIsSaid) {
+TEST(Log, AWriterThatCannotWriteThrows) {
   EXPECT_THROW(LogWriter("no/such/folder/log.mcap", {}), std::runtime_error);
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here to fail writing to";
   LogWriter writer("/dev/full", {});

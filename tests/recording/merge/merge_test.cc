@@ -164,7 +164,7 @@ TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
 }
 
 // A record reported 30 s after its time, behind a hundred chunks: no window is too small for it.
-TEST(Merge, WhatWasReportedMuchLaterStandsAtItsTime) {
+TEST(Merge, ARecordReportedMuchLaterStandsAtItsTime) {
   const auto emission = [](std::vector<records::Sink*>& sinks) {
     for (std::int64_t i = 0; i < 300; ++i)
       sinks.front()->on(records::PowerChanged{at(i * 100'000'000, kA), i % 2 == 0});

@@ -72,7 +72,7 @@ TEST(RecordedLists, NoiseIsTheRowsOwnOrTheSensors) {
   EXPECT_NEAR(o[2].z.head<2>().norm(), 5.0, 0.01);
 }
 
-TEST(RecordedLists, WhatNoFilterCanTakeIsAFinding) {
+TEST(RecordedLists, ARowThatNoFilterCanTakeIsAFinding) {
   ReplayConfig config;
   config.file = "c.yaml";
   config.sensors = {{"a", {}}, {"b", {}}};

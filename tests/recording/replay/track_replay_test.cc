@@ -142,7 +142,7 @@ TEST(TrackReplay, ConsideredBiasesAreInTheTracks) {
   }
 }
 
-TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
+TEST(TrackReplay, EveryListHasItsFateInEachWayThatBuffWaits) {
   for (const fusion::config::BuffWaiting waits :
        {fusion::config::BuffWaiting::kSchedule, fusion::config::BuffWaiting::kMeasured,
         fusion::config::BuffWaiting::kFixedLag}) {
@@ -246,7 +246,7 @@ TEST(TrackReplay, AllStrategiesEndTheSameAndLoseNothing) {
 // A list of the camera at 0 ms waits for the radar, whose worst delay is 80 ms; no other list ever comes.
 //   camera  0 ------------------------ arrives 10
 //   BUFF                                            let go at 80
-TEST(TrackReplay, WhatIsHeldIsLetGoWhenTheWorstDelayIsOver) {
+TEST(TrackReplay, AHeldListIsLetGoWhenTheWorstDelayIsOver) {
   ReplayConfig config;
   config.tracker.confirm_hits = config.tracker.confirm_window = 1;
   config.sensors = {{"camera", {}}, {"radar", {}}};

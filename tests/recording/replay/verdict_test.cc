@@ -87,7 +87,7 @@ TEST(ReplayVerdict, ElseTheHitsAreNamed) {
                           "confirm_window)"));
 }
 
-TEST(ReplayVerdict, WhatDroppedMostOfTheInputIsNamed) {
+TEST(ReplayVerdict, TheCauseThatDropsMostOfTheInputIsNamed) {
   ReplayConfig config;
   config.tracker.history_scans = 8;
   std::vector<ObservationRow> rows = standing(30, 100);

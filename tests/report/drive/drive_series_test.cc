@@ -61,7 +61,7 @@ TEST(DriveSeries, AnErrorIsTheRootMeanSquareOverPairsClosestFirst) {
   EXPECT_EQ(series.missed, 0u);
 }
 
-TEST(DriveSeries, WhatIsTooFarOrStaleIsNotCompared) {
+TEST(DriveSeries, ObjectsTooFarOffOrStaleAreNotCompared) {
   DriveSeriesSink sink(4.0);
   use(sink, 1000, {{10.0, 4.5}});
   sink.on(truth(1000, 0, 10.0, 0.0));

@@ -140,7 +140,7 @@ TEST_F(ExperimentReport, ItsTablesAreMarkdown) {
       "| dry | 40 m | 3 | 2.0 ± 1.0 | +0.500 |\n");
 }
 
-TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
+TEST_F(ExperimentReport, ASingleParadigmHasNoComparison) {
   const std::string alone = R"({"point": %, "axes": {"noise": "1 m"}, "paradigms": {
     "tt": {"error": {"count": 3, "mean": 1.0, "half_width": 0.5}}}})";
   const auto at = [&](int number) { return std::string(alone).replace(alone.find('%'), 1, std::to_string(number)); };
@@ -249,7 +249,7 @@ TEST_F(ExperimentReport, AnAxisMayBeCompared) {
       << markdown_tables(folder);
 }
 
-TEST_F(ExperimentReport, WhatIsWrongIsNamed) {
+TEST_F(ExperimentReport, ErrorsOfTheAnswerAreNamed) {
   write(answer_of(""));
   EXPECT_EQ(refusal(), "answer.json: points: must have at least one");
   write(answer_of(point(0, "1", "\"much\"")));

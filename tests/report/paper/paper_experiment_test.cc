@@ -63,14 +63,14 @@ TEST(PaperExperiment, OtherAxesAreCasesOfTheirOwnAndLabelsAreNumbered) {
 }
 
 // gnuplot has no range for values on one line, and prints a warning.
-TEST(PaperExperiment, WhatNeverChangesHasARangeAllTheSame) {
+TEST(PaperExperiment, AMeasureThatNeverChangesHasARange) {
   const auto files = paper(std::string("point,noise,") + kHead + "0,1,a,error,9,0,0,,\n1,2,a,error,9,0,0,,\n" +
                            "0,1,a,age,9,5,0,,\n1,2,a,age,9,5,,,\n");
   EXPECT_THAT(files.at("error.gp"), HasSubstr("set yrange [-1:1]"));
   EXPECT_THAT(files.at("age.gp"), HasSubstr("set yrange [4.5:5.5]"));
 }
 
-TEST(PaperExperiment, WhatIsNoSummaryIsRefused) {
+TEST(PaperExperiment, AFileThatIsNoSummaryIsRefused) {
   EXPECT_THAT(refusal(""), HasSubstr("summary.csv"));
   EXPECT_THAT(refusal("a,b\n"), HasSubstr("must be the summary.csv of an experiment"));
   EXPECT_THAT(refusal(std::string("point,") + kHead), HasSubstr("has no result yet"));
@@ -94,7 +94,7 @@ TEST(PaperExperiment, AnAxisOfSeveralUnitsIsLabelled) {
   EXPECT_THAT(one.at("error.gp"), HasSubstr("set xtics (\"1 ms\" 0, \"1.0 ms\" 1)"));
 }
 
-TEST(PaperExperiment, WhoHasNoValueIsNotTheBaseline) {
+TEST(PaperExperiment, AParadigmWithoutAValueIsNotTheBaseline) {
   const auto files = paper(std::string("point,noise,") + kHead +
                            "0,1,a,error,0,,,,\n0,1,b,error,9,1,,,\n0,1,c,error,9,2,,1,0.5\n"
                            "1,2,a,error,0,,,,\n1,2,b,error,9,1,,,\n1,2,c,error,9,2,,1,0.5\n");

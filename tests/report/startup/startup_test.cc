@@ -284,7 +284,7 @@ TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
   EXPECT_EQ(spans[2].end.ns, 100);
 }
 
-TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheStart) {
+TEST(StartupStates, ANodeThatLosesAnUngivenSupplyOrOnlySendsIsActiveFromTheStart) {
   StartupData data;
   data.power = {
       {stamp(10, 0), false}, {stamp(10, 1), true}, {stamp(20, 1), false}, {stamp(30, 2), false}, {stamp(50, 0), true}};

@@ -8,7 +8,7 @@
 namespace ttf::report::timing {
 namespace {
 
-TEST(TimingDiagram, WhatWasNotInItsTimeIsMarked) {
+TEST(TimingDiagram, TimingProblemsInTheWindowAreMarked) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
   SyntheticDrive{}.drive(d, 500'000);
   const auto problem = [&](std::int64_t ms, int node, recording::records::TimingFault what, std::int64_t late_us,

@@ -235,7 +235,7 @@ TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
   expect_renders(svg);
 }
 
-TEST(TimingDiagram, WhatIsFusedAloneMakesNoLane) {
+TEST(TimingDiagram, AFusedListAloneMakesNoLane) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(0), at_us(100'000));
   d.on(recording::records::ListFused{
       SyntheticDrive{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
@@ -430,7 +430,7 @@ TEST_F(Ways, AnotherNumberIsAnotherList) {
 }
 
 // A task ends as the next begins: lists written then are the first one's.
-TEST_F(Ways, WhatIsWrittenIsOfTheRunThatEndsThen) {
+TEST_F(Ways, AWrittenListBelongsToTheRunThatEndsThen) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.executions = {{stamp(4000, 2), 0, stamp(4000, 2), stamp(9000, 2), true},
                       {stamp(9000, 2), 1, stamp(9000, 2), stamp(9500, 2), true}};

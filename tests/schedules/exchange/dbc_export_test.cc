@@ -179,7 +179,7 @@ TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
 }
 
 // In virtual time they are free, and messages may have them.
-TEST(Dbc, WhatAMessageHasIsNoLinesIdentifier) {
+TEST(Dbc, LinesTakeIdentifiersThatNoMessageHas) {
   model::Cluster cluster = file::load_cluster(shipped_path("paper_synchronised"));
   cluster.can_buses[2].messages[0].identifier = 1;
   cluster.can_buses[0].messages[0].identifier = 2;

@@ -117,7 +117,7 @@ TEST(Derive, EquationsByHand) {
   }
 }
 
-TEST(Derive, WhatNoOtherKeyDeterminesIsMissing) {
+TEST(Derive, AKeyThatNoOtherDeterminesIsMissing) {
   const auto missing = [](const std::vector<std::string>& names) {
     std::string keys;
     for (const Finding& one : findings_of(paper_without(names)))

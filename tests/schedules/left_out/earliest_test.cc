@@ -65,7 +65,7 @@ TEST(EarliestInstants, FollowTheDataFromTheMeasurementToTheUse) {
   EXPECT_EQ(one.cluster.frames.size(), 2U);
 }
 
-TEST(EarliestInstants, WhatTheFileSaysStands) {
+TEST(EarliestInstants, InstantsOfTheFileStand) {
   Small one;  // the tasks' instants stay
   one.put();
   ASSERT_EQ(sentences(one.findings.list()), "");

@@ -97,7 +97,7 @@ TEST(LateMethod, BuffAlwaysRewinds) {
   EXPECT_EQ(summary_of(drive).position_rmse_truth, rewinding.position_rmse_truth);
 }
 
-TEST(LateMethod, WhatCannotBeIsRefusedBeforeTheDrive) {
+TEST(LateMethod, AMethodThatTheStrategyHasNotIsRefusedBeforeTheDrive) {
   Drive drive = straight_drive(kScenario, StrategyKind::kTt);
   drive.scenario.tracker.late = Kind::kAl1;
   try {

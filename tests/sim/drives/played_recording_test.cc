@@ -113,7 +113,7 @@ TEST(PlayedRecording, OfTheScheduleNothingIsLeftOver) {
   }
 }
 
-TEST(PlayedRecording, WhatIsLeftOverIsTold) {
+TEST(PlayedRecording, RowsBeyondTheDrivesEndAreTold) {
   const Drive drive = recorded_drive(StrategyKind::kTt, RowsArePlayed::kAsScheduled);
   const RecordingUse longer = recording_use(drive.scenario, drive.cluster, *car(50'000, 7'000'000));
   EXPECT_FALSE(longer.ends_early());

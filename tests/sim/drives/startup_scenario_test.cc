@@ -109,7 +109,7 @@ TEST(StartupScenario, DrawsWithinTheSpreadWhatItDoesNotSay) {
 }
 
 // node1 wakes on channel A. node3 is on B alone, the device on no FlexRay: they cannot be woken.
-TEST(StartupScenario, WhoIsOnTheWakeupChannelSleeps) {
+TEST(StartupScenario, OtherNodesOnTheWakeupChannelSleep) {
   schedules::model::Cluster cluster = five();
   cluster.nodes[1].flexray->pWakeupChannel = schedules::model::Channel::kA;
   cluster.nodes[3].flexray->pChannels = schedules::model::Channels::kB;

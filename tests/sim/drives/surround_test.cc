@@ -17,7 +17,7 @@ class SurroundSeeds : public testing::TestWithParam<StrategyKind> {};
 
 // A car comes round the square against the vehicle, and round the vehicle within 10 s: ahead the laser, the camera with one lens
 // and the long-range radar see it, aside a corner radar alone, behind the stereo camera, too.
-TEST_P(Surround, WhoeverGoesRoundKeepsItsName) {
+TEST_P(Surround, ACarThatGoesRoundKeepsItsName) {
   const Drive drive("scenarios/surround.yaml", GetParam());
   Coverage coverage(sim::engine::kFirstCycle + Duration::milliseconds(1500));
   const DriveOutcome outcome = drive.run(coverage, 1, false);

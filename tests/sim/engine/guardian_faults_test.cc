@@ -120,7 +120,7 @@ TEST(GuardianFaults, NobodySendsInAnothersNameOrSlot) {
 
 // Frames that are a little early or late: some receivers find them in the slot, some do not. A coupler
 // decides for all.
-TEST(GuardianFaults, WhatIsSlightlyOffIsOffForAll) {
+TEST(GuardianFaults, AFrameSlightlyOffIsTheSameForAll) {
   int disagreements = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed)
     for (std::int64_t shift = -9'000; shift <= 16'000; shift += 250)

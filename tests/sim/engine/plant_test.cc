@@ -75,7 +75,7 @@ TEST(Plant, NodesMayBeginIntegrated) {
 
 // In the middle of its frame the sender loses its supply. The others hear an undecodable signal, and then
 // silence.
-TEST(Plant, WhatANodeWithoutSupplyWasSendingIsCutOff) {
+TEST(Plant, AFrameWhoseSenderLosesItsSupplyIsCutOff) {
   Plant4 plant(1);
   const std::int64_t cycle = 10;
   plant.simulation->run_until(kSlotOne + Duration{cycle * kCycle_ns + 10'000});
@@ -110,7 +110,7 @@ TEST(Plant, TheCutEndsTheSignalAtOnce) {
 
 // It was off for the first half of the frame. The rest counts as no frame, so the next one's schedule is
 // taken.
-TEST(Plant, WhoIsPoweredOnInTheMiddleOfAFrameHearsNone) {
+TEST(Plant, ANodePoweredOnInTheMiddleOfAFrameDoesNotHearIt) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Plant4 plant(seed);
     plant.run_to(Duration{20 * kCycle_ns});

@@ -204,7 +204,7 @@ TEST(CanFaults, AStuckLineCostsNoTime) {
   EXPECT_TRUE(forever.can.queue.empty());
 }
 
-TEST(CanFaults, WhoDoesNotAcknowledgeMattersWhereNoOtherDoes) {
+TEST(CanFaults, ANodeThatDoesNotAcknowledgeMattersWhereNoOtherDoes) {
   FaultyCan three(fault_at(FaultKind::kCanNoAcknowledgement, 1, 2, 4));
   three.run(10);
   EXPECT_TRUE(three.can.errors.empty());

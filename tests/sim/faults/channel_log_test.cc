@@ -108,7 +108,7 @@ TEST(ChannelLog, AnInvertedBitFailsTheChecksThatCoverIt) {
     }
 }
 
-TEST(ChannelLog, WhatSomeReceiversAloneMistakeWasOnTheChannelAsItWasSent) {
+TEST(ChannelLog, AFrameThatOnlySomeReceiversMistakeIsOnTheChannelAsSent) {
   ttf::faults::Fault fault = fault_of(FaultKind::kBitFlipPayload, 2, 10, 4);
   fault.receivers = {NodeId{0}, NodeId{3}};
   EXPECT_TRUE(LoggedBus(fault, 20).frames().empty());
@@ -173,7 +173,7 @@ TEST(ChannelLog, OfWhatCollidesNothingIsLeft) {
   for (const int n : {0, 3}) EXPECT_EQ(logged.bus.said(n).count(2, bus::controller::kSyntaxError), 8);
 }
 
-TEST(ChannelLog, WhatNoControllerSentIsThereToo) {
+TEST(ChannelLog, SignalsThatNoControllerSentAreThereToo) {
   ttf::faults::Fault fault = fault_of(FaultKind::kMasquerading, 2, 10, 5);
   fault.slot = 40;
   const LoggedBus logged(fault, 20);
@@ -240,7 +240,7 @@ TEST(ChannelLog, ATransientLeavesNothingThatAnybodyMakesOut) {
   EXPECT_EQ(logged.heard.count(recording::records::ChannelState::kCoding), 3U * 2 * 4);
 }
 
-TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
+TEST(ChannelLog, SignalsThatAGuardianBlocksReachNoNodeAndThoseItMakesOutAreSound) {
   ttf::faults::Fault own = fault_of(FaultKind::kMasquerading, 1, 10, 5);
   own.slot = 40;
   own.masquerade = ttf::faults::MasqueradeMode::kOwnSlot;
@@ -274,7 +274,7 @@ TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
 }
 
 // 100 ms of noise with a burst of 10 us in every 100 us, beside the frames of four nodes.
-TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
+TEST(ChannelLog, SignalsDrawnIntoALongNoiseAreToldAsTheyEnd) {
   ttf::faults::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 20);
   noise.length = noise.interval = Duration::milliseconds(100);
   ttf::faults::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
@@ -292,7 +292,7 @@ TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
     EXPECT_EQ(logged.bus.state(n), bus::poc::PocKind::kNormalActive) << "on the other channel";
 }
 
-TEST(ChannelLog, WhatIsDrawnIntoALongNoiseMayBreakOff) {
+TEST(ChannelLog, AFrameDrawnIntoALongNoiseBreaksOffWithItsSender) {
   ttf::faults::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 10);
   noise.length = noise.interval = Duration::milliseconds(50);
   noise.channels = schedules::model::Channels::kA;

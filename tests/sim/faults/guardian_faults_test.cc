@@ -49,7 +49,7 @@ TEST(GuardianFaults, MasqueradingIsKeptFromTheOthers) {
   for (int n = 0; n < 4; ++n) EXPECT_EQ(bus.said(n).count(40, kAnything), 0) << n;
 }
 
-TEST(GuardianFaults, WhatIsMisshapenIsSoForAllOrForNobody) {
+TEST(GuardianFaults, AMisshapenFrameIsSoForAllOrForNone) {
   FaultBus bus(star(fault_of(FaultKind::kSosValue, 0, 10, 100)));
   bus.run(5 * 120);
   EXPECT_EQ(bus.acts(), 200U);
@@ -58,7 +58,7 @@ TEST(GuardianFaults, WhatIsMisshapenIsSoForAllOrForNobody) {
   EXPECT_NEAR(bus.said(1).count(1, bus::controller::kSyntaxError | bus::controller::kNoFrame), 100, 28);
 }
 
-TEST(GuardianFaults, WhatNamedReceiversWouldMistakeTheCouplerMakesOutForThem) {
+TEST(GuardianFaults, TheCouplerMakesOutFramesThatNamedReceiversWouldMistake) {
   ttf::faults::Fault fault = fault_of(FaultKind::kSosValue, 0, 10, 20);
   fault.receivers = {NodeId{2}};
   FaultBus bus(star(fault));

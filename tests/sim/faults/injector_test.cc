@@ -226,7 +226,7 @@ TEST_F(Bytes, DrawnBitsAreAsManyAndDifferentEveryTimeAndWithinTheirPart) {
     }
 }
 
-TEST_F(Bytes, WhatTheDecoderSaysOfThem) {
+TEST_F(Bytes, InvertedBitsFailTheCrcThatCoversThem) {
   const auto says = [&](FaultKind kind, std::vector<int> bits) {
     ttf::faults::Fault fault = fault_of(kind, 2, 0);
     fault.bits = std::move(bits);
@@ -254,7 +254,7 @@ TEST_F(Bytes, AnothersFrameIdHasARightCrc) {
 
 // The frame is on its way to the coupler when the same node babbles: behind the coupler it is still the
 // faulty frame.
-TEST_F(Bytes, WhatAFaultSendsIsNotTakenForTheNodesFrame) {
+TEST_F(Bytes, AFaultsSignalIsNotTakenForTheNodesFrame) {
   ttf::faults::Fault fault = fault_of(FaultKind::kBitFlipTrailer, 2, 0);
   fault.bits = {5};
   fault.receivers = {NodeId{1}};
@@ -372,7 +372,7 @@ TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
   for (const Injector::Activation& activation : injector.activations()) EXPECT_GT(activation.times, 0U);
 }
 
-TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
+TEST(BelievedSchedules, AnImpossibleFaultIsRefusedWhenThePlanIsResolved) {
   const schedules::model::Cluster cluster = engine::bus_cluster(4, 1, 4);
   const auto refused = [&](std::vector<ttf::faults::Fault> faults) -> std::string {
     try {

@@ -137,7 +137,7 @@ int started(FaultBusConfig config, int latest) {
   return -1;
 }
 
-TEST(MachineryFaults, WhoeverKeepsSendingCasKeepsTheOthersFromStarting) {
+TEST(MachineryFaults, ANodeThatKeepsSendingCasKeepsTheOthersFromStarting) {
   // Its controller's frames do not leave it. It would lead, since it does not hear itself.
   ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 3, 0, 60);
   fault.interval = Duration::milliseconds(3);

@@ -151,7 +151,7 @@ class ClearFlights : public testing::TestWithParam<std::tuple<bool, bool, bool>>
   Line made() const { return std::make_from_tuple<Line>(GetParam()); }
 };
 
-TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
+TEST_P(ClearFlights, ArrivalsFollowFromDelaysAndOverlaps) {
   int alone = 0, drawn_together = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Line line = made();
@@ -184,7 +184,7 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
 
 // A noise of 100 ms with 10 us bursts and frames in it, one behind the other: more than there is room for at
 // once.
-TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
+TEST_P(ClearFlights, SignalsDrawnIntoALongNoiseAreOverWhenItEnds) {
   Line line = made();
   const TrueTime begins{1'000}, ends = begins + Duration::milliseconds(100);
   line.send({NodeId{0}, Channel::kA, Signal::kUndecodable, begins, ends, 0});

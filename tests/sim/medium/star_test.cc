@@ -127,7 +127,7 @@ TEST(Star, TheCouplerHearsASignalAfterItsBranchAndTheOthersAfterTheirs) {
   }
 }
 
-TEST(Star, WhatTheCouplerBlocksReachesNobodyAndWhatItCutsEndsThere) {
+TEST(Star, SignalsThatTheCouplerBlocksReachNoNodeAndThoseItCutsEndThere) {
   Bench bench;
   bench.coupler.open = false;
   bench.send(0, Signal::kCas, TrueTime{10'000}, TrueTime{14'000});
@@ -143,7 +143,7 @@ TEST(Star, WhatTheCouplerBlocksReachesNobodyAndWhatItCutsEndsThere) {
   }
 }
 
-TEST(Star, WhatIsLeftOfANodeThatFellSilentEndsForAllWhereTheCouplerEndsIt) {
+TEST(Star, ASignalWhoseSenderFallsSilentEndsForAllWhereTheCouplerEndsIt) {
   for (const bool held : {false, true}) {
     Bench bench;
     const NodeId sender{1};
@@ -162,7 +162,7 @@ TEST(Star, WhatIsLeftOfANodeThatFellSilentEndsForAllWhereTheCouplerEndsIt) {
   }
 }
 
-TEST(Star, WhatANodeEmitsGoesThroughTheCouplerAndWhatComesOutOfNothingPastIt) {
+TEST(Star, NoiseOfANodeGoesThroughTheCouplerAndNoiseOutOfNothingPastIt) {
   Bench bench;
   bench.coupler.open = false;
   const Leaving noise{NodeId{0}, Channel::kA, Signal::kUndecodable, TrueTime{5'000}, TrueTime{6'000}, {}};

@@ -54,7 +54,7 @@ TEST(DdsSession, IsCheckedBeforeAnythingStarts) {
   EXPECT_EQ(complaint(session), "DDS: lease = 99: must be 100..3600000 ms");
 }
 
-TEST(DdsSession, WhoIsMissingIsNamedAfterThePatience) {
+TEST(DdsSession, AMissingNodeIsNamedAfterThePatience) {
   const Session session = common::session(3);
   exchange::ExchangeSupervisor supervisor(session);
   exchange::Exchange zero(session, NodeId{0}), two(session, NodeId{2});
@@ -74,7 +74,7 @@ TEST(DdsSession, WhoIsMissingIsNamedAfterThePatience) {
   }
 }
 
-TEST(DdsSession, WhoDoesNotHearTheOthersYetIsNamed) {
+TEST(DdsSession, ANodeThatDoesNotHearTheOthersYetIsNamed) {
   const Session session = common::session(2);
   exchange::ExchangeSupervisor supervisor(session);
   exchange::Exchange zero(session, NodeId{0}), one(session, NodeId{1});  // one is there, but takes no notice
@@ -100,7 +100,7 @@ TEST(DdsSession, AMissingSupervisorIsNamed) {
   }
 }
 
-TEST(DdsSession, WhoDiesBeforeItWasThereIsNotWaitedFor) {
+TEST(DdsSession, ANodeThatDiesBeforeItComesIsNotWaitedFor) {
   const Session session = common::session(3);
   exchange::ExchangeSupervisor supervisor(session);
   exchange::Exchange zero(session, NodeId{0}), one(session, NodeId{1});
@@ -151,7 +151,7 @@ class DdsPair : public testing::Test {
   std::optional<exchange::Exchange> zero_{std::in_place, session_, NodeId{0}}, one_{std::in_place, session_, NodeId{1}};
 };
 
-TEST_F(DdsPair, WhoIsAnnouncedGoneAndLivesIsToldSo) {
+TEST_F(DdsPair, ALivingNodeAnnouncedGoneIsToldSo) {
   supervisor_->announce_gone(NodeId{1});
   EXPECT_TRUE(zero_->receive().gone);
   EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been removed by the supervisor");

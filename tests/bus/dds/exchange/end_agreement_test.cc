@@ -205,7 +205,7 @@ class DrawnAgreement {
   std::unique_ptr<EndAgreement> agreement_;
 };
 
-TEST(EndAgreement, WhoeverDiesAtWhateverInstantTheSurvivorsHaveHeardTheSame) {
+TEST(EndAgreement, SurvivorsHaveHeardTheSameWheneverMembersDie) {
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     SCOPED_TRACE(seed);
     DrawnAgreement drawn(seed);

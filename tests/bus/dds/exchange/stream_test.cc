@@ -80,7 +80,7 @@ TEST_F(StreamTest, BehindTheFenceNothingIsHeardUntilItIsClosed) {
   EXPECT_EQ(heard(), "0 1 bye");
 }
 
-TEST_F(StreamTest, WhatIsMissingIsSaidAgainInWhateverOrderItComes) {
+TEST_F(StreamTest, MissingSamplesThatComeInAnyOrderAreHeardInOrder) {
   accept(0);
   stream_.fence();
   close(4);
@@ -158,7 +158,7 @@ TEST(Heard, ReportsSurviveTheWire) {
   EXPECT_THROW(decode(twice), std::runtime_error);
 }
 
-TEST(Heard, WhatAllHaveHeardIsTheLeastOfThoseWhoAreStillThere) {
+TEST(Heard, HeardByAllIsTheLeastOfTheRemainingMembers) {
   const NodeId a{1}, b{2}, c{3};
   HeardTable table({a, b, c});
   EXPECT_EQ(table.by_all(a), 0u);

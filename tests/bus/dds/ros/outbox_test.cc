@@ -46,7 +46,7 @@ TEST(Outbox, AnImageBeforeTheFirstMeasurementHasNoNewest) {
   EXPECT_EQ(outbox.images.first()->newest_measurement, std::nullopt);
 }
 
-TEST(Outbox, WhatHasNoRoomIsDroppedAndCountedTheNewestFirst) {
+TEST(Outbox, RecordsWithoutRoomAreDroppedAndCountedTheNewestFirst) {
   Outbox outbox(small());
   for (std::uint32_t i = 0; i < 5; ++i) EXPECT_EQ(outbox.put(DrawnImage(i, i, 1).record), i < 3);
   EXPECT_EQ(outbox.dropped().images, 2u);

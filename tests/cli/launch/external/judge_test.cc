@@ -175,7 +175,7 @@ TEST_F(JudgingASlot, ABrokenFrameIsNotMissing) {
   EXPECT_EQ(counts().missing, 0u);
 }
 
-TEST_F(Judging, WhatIsNeverSentIsMissing) {
+TEST_F(Judging, FramesNeverSentAreMissing) {
   judge.begin(kBegin);
   for (int cycle = 0; cycle < 5; ++cycle) others(cycle);
   EXPECT_EQ(counts().missing, 0u);  // it is still waiting

@@ -92,7 +92,7 @@ TEST_F(SweepAnswers, DifferencesArePaired) {
 }
 
 // Differences of mean m and variance 1 in three drives, t = sqrt(3) m: p = 1 - t / sqrt(2 + t^2) = 0.04.
-TEST_F(SweepAnswers, WhatIsCertainAloneNeedNotBeCertainAmongOthers) {
+TEST_F(SweepAnswers, ADifferenceCertainAloneNeedNotBeCertainAmongOthers) {
   const SweepFile sweep = small_sweep(3);
   const SweepDrives drives(sweep);
   results::Store made = store(drives, "made");
@@ -285,7 +285,7 @@ TEST_F(InteractionsOnTwoRoads, AnInteractionMayDependOnOtherAxes) {
 }
 
 // The error of adva doubles, that of tt rises on both roads or on one.
-TEST_F(InteractionsOnTwoRoads, WhatRisesIsNotLowered) {
+TEST_F(InteractionsOnTwoRoads, AnErrorThatRisesIsNotCalledLowered) {
   const auto of = [&](double dry, double wet) {
     return told("{axis: noise, lowers: tt, more_than: adva}", 2.0, dry, wet);
   };

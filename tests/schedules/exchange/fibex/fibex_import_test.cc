@@ -142,7 +142,7 @@ TEST_F(Powertrain, OrdinaryPdusKeepTheirSignalsBesideTheCluster) {
   EXPECT_THAT(angle.unlike, HasSubstr("A_INT16"));
 }
 
-TEST_F(Powertrain, WhatIsNotUnderstoodIsNamedWithItsLine) {
+TEST_F(Powertrain, PartsLeftOutAreNamedWithTheirLines) {
   const std::string elements = "fx:FIBEX/fx:ELEMENTS/";
   struct Expected {
     std::string path, near, word;
@@ -262,7 +262,7 @@ TEST(FibexObjects, SlotsBehindTheStaticOnesAreDynamic) {
 }
 
 // Each is no longer a list, for the given reason; the rest of the file is still imported.
-TEST(FibexObjects, WhatIsNoListSaysWhy) {
+TEST(FibexObjects, APduThatIsNoListIsLeftOutWithTheReason) {
   const std::pair<const char*, std::pair<const char*, const char*>> edits[] = {
       {"<SHORT-NAME>sequence<", {"<SHORT-NAME>number<", "no signals sequence, fragment and count"}},
       {"<f:BIT-POSITION>3</f:BIT-POSITION>\n",
@@ -369,7 +369,7 @@ TEST(FibexImport, MistakesAreRefusedWithLineAndValue) {
 }
 
 // The file gives a value twice, with a contradiction.
-TEST(FibexImport, WhatContradictsAValueThatIsKeptIsNamed) {
+TEST(FibexImport, AValueThatContradictsAKeptOneIsNamed) {
   struct Contradiction {
     std::string from, to, note;
   };
@@ -468,7 +468,7 @@ TEST(FibexImport, DamagedXmlIsRefusedInOneSentenceWithItsLine) {
 }
 
 // The same unknown element a hundred times is one note.
-TEST(FibexImport, WhatIsLeftOutOftenIsSaidOnce) {
+TEST(FibexImport, AnElementLeftOutOftenIsNamedOnce) {
   std::string text = kPowertrain;
   for (int i = 0; i < 100; ++i) text = replaced(text, "<fx:GATEWAYS>", "<fx:LINKS/>\n<fx:GATEWAYS>");
   const FibexImport import = parse_fibex(text, "demo.xml");
