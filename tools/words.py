@@ -8,7 +8,7 @@
 
 A text is what comments (C++, shell, Python, CMake, YAML) and Markdown pages say in sentences. Code blocks, tables,
 drawings and formulas are left out. A sentence ends at a full stop, question or exclamation mark, at a colon that ends a
-line, at an empty line, and at each item of a list. A find is a phrase of PHRASES below.
+line, at an empty line, and at each item of a list. A find is a phrase of PHRASES below, or a test's name as in TEST_NAME.
 """
 import re
 import subprocess
@@ -33,6 +33,8 @@ PHRASES = [
     (r"\b(that|those|them|he|she|they) who\b", "name the actor"),
     (r"\b(be it|but for|none the less|nonetheless|lest|whence|thereof|therein|wherein|whereof)\b", "an old word"),
 ]
+# A GoogleTest's name begins with its subject: ACarThatGoesRoundKeepsItsName.
+TEST_NAME = re.compile(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*\w+,\s*((?:What|Who)(?:ever|m|se)?(?![a-z])\w*)\s*\)", re.M)
 CODE_SUFFIXES = {".h", ".cc", ".inc"}
 HASH_SUFFIXES = {".sh", ".py", ".cmake", ".toml", ".yaml", ".yml"}
 
@@ -123,6 +125,14 @@ def sentences(path):
     yield from flush()
 
 
+def test_names(path):
+    """Finds among the names of tests."""
+    if path.suffix in CODE_SUFFIXES:
+        text = path.read_text(errors="replace")
+        for match in TEST_NAME.finditer(text):
+            yield text.count("\n", 0, match.start(1)) + 1, "a clause as a test's name", match[1], match[0]
+
+
 def measure(path):
     said = list(sentences(path))
     lengths = [len(re.findall(r"[^\s]+", sentence)) for _, sentence in said]
@@ -130,6 +140,7 @@ def measure(path):
              for line, sentence in said
              for phrase, reason in PHRASES
              if (match := re.search(phrase, sentence, re.IGNORECASE))]
+    finds += test_names(path)
     return said, lengths, finds
 
 
@@ -232,11 +243,11 @@ def main(arguments):
     for name in arguments:
         said, lengths, finds = measure(Path(name))
         if not said:
-            print(f"{name}: no sentences")
-            continue
-        longest = max(range(len(said)), key=lambda i: lengths[i])
-        print(f"{name}: {len(said)} sentences, {sum(lengths) / len(said):.1f} words each, "
-              f"{lengths[longest]} the longest (line {said[longest][0]}), {len(finds)} finds")
+            print(f"{name}: no sentences, {len(finds)} finds")
+        else:
+            longest = max(range(len(said)), key=lambda i: lengths[i])
+            print(f"{name}: {len(said)} sentences, {sum(lengths) / len(said):.1f} words each, "
+                  f"{lengths[longest]} the longest (line {said[longest][0]}), {len(finds)} finds")
         for find in finds:
             show(name, find)
     return 0

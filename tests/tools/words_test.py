@@ -69,6 +69,17 @@ class Words(unittest.TestCase):
         _, _, finds = self.measured("a.md", "What does it cost?\n")
         self.assertEqual(finds, [])
 
+    def test_a_tests_name_is_no_clause(self):
+        for macro, name in [("TEST", "WhatIsLostIsCounted"), ("TEST_F", "WhoMaySend"), ("TEST_P", "WhoeverSendsIsHeard"),
+                            ("TYPED_TEST", "WhateverComesIsKept"), ("TEST", "WhomItHarms"), ("TEST", "WhoseSlotItIs")]:
+            for between in [" ", "\n     "]:
+                _, _, finds = self.measured("a_test.cc", f"\n{macro}(Bus,{between}{name}) {{\n}}\n")
+                self.assertEqual(finds, [(2 + between.count("\n"), "a clause as a test's name")], name)
+        for text in ["TEST(Bus, WholeFramesArrive) {\n", "TEST(Bus, ALostFrameIsCounted) {\n", "TEST(WholeBus, Starts) {\n",
+                     "TEST(Bus, ItCountsWhatIsLost) {\n", "// TEST(Bus, WhatIsLostIsCounted)\n"]:
+            _, _, finds = self.measured("a_test.cc", text)
+            self.assertEqual(finds, [], text)
+
     def test_the_tree_is_within_its_bounds_and_bounds_only_fall(self):
         with tempfile.TemporaryDirectory() as folder:
             bounds, today = words.BOUNDS, words.measured_tree
