@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${1:-build/release/ttfusion}
+"$program" --version >/dev/null   # before anything is deleted
 find docs/keys -name '*.md' ! -name README.md -delete
 find keys/schemas -name '*.schema.json' -delete
 "$program" keys --format markdown -o docs/keys

@@ -29,7 +29,8 @@ struct ExportOptions {
   bool json = false;
 };
 
-void refuse_other_end(const ExportOptions& options);  // of the file's name
+// Throws InputError if the file's name ends as those of another format.
+void refuse_other_end(const ExportOptions& options);
 
 // A drive that is exported: its logs are no output.
 recording::merge::MergedLogs drive_of(const ExportOptions& options) {
@@ -170,7 +171,7 @@ int export_experiment_tables(const ExportOptions& options) {
 struct Format {
   std::string_view name;
   std::string_view about;
-  std::vector<std::string_view> ends;  // of its file's name; none: a folder
+  std::vector<std::string_view> ends;  // its files' names have one of these; a folder has none
   int (*write)(const ExportOptions&);
 };
 
