@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 #include "recording/scene/geometry.h"
 
@@ -22,6 +23,79 @@ constexpr Duration kFollowed = Duration::milliseconds(2'000);  // beside the way
 constexpr int kMostPeriods = 3;  // between two readings: after more the clocks' rates count, and no jitter
 
 }  // namespace
+
+void Spread::add(Duration duration) {
+  const double seconds = duration.seconds();
+  if (count_++ == 0) first_ = seconds;
+  const double off = seconds - first_;
+  sum_ += off;
+  squares_ += off * off;
+}
+double Spread::mean() const { return count_ == 0 ? kNone : first_ + sum_ / static_cast<double>(count_); }
+double Spread::deviation() const {
+  if (count_ < 2) return kNone;
+  const double n = static_cast<double>(count_);
+  return std::sqrt(std::max(0.0, squares_ - sum_ * sum_ / n) / (n - 1.0));
+}
+
+void DetectionAccount::on(const recording::records::DetectionMade& detection) {
+  if (detection.begin < from_) return;
+  ++(detection.secondary ? findings_.secondary : findings_.primary);
+  Camera& camera = cameras_[index_of(detection.id.sensor)];
+  ++camera.detections;
+  if (camera.last) camera.intervals.add(detection.begin - *camera.last);
+  camera.last = detection.begin;
+}
+
+void DetectionAccount::on(const recording::records::SequencePlanned& planned) {
+  const TrueTime at = planned.stamp.true_time;
+  if (at < from_) return;
+  if (frame_) findings_.frames.add(at - *frame_);
+  frame_ = at;
+}
+
+std::optional<DetectionFindings> DetectionAccount::finish() const {
+  if (findings_.primary + findings_.secondary == 0) return std::nullopt;
+  DetectionFindings found = findings_;
+  const auto most = std::ranges::max_element(cameras_, {}, &Camera::detections);
+  found.camera = static_cast<SensorId>(most - cameras_.begin());
+  found.intervals = most->intervals;
+  return found;
+}
+
+InLane TrueLane::place_of(const recording::records::EgoTruth& ego) const {
+  const sim::world::road::LinePlace place = road_.place_of(ego.x + config_.front_axle_m * std::cos(ego.heading),
+                                                           ego.y + config_.front_axle_m * std::sin(ego.heading));
+  const double direction = sim::world::road::Road::direction(config_.lane);
+  const double along = road_.line_at(place.station).pose.heading + (direction < 0.0 ? std::numbers::pi : 0.0);
+  return {direction * (place.offset - road_.middle(config_.lane)),
+          std::remainder(ego.heading - along, 2.0 * std::numbers::pi)};
+}
+
+bool TrueLane::left_by(const InLane& place) const {
+  return std::abs(place.offset) + 0.5 * config_.width_m > 0.5 * config_.road.lane_width;
+}
+
+bool LaneAccount::judge(const recording::records::EgoTruth& ego) {
+  const InLane place = lane_.place_of(ego);
+  const bool outside = lane_.left_by(place);
+  ++moments_;
+  if (outside) ++outside_;
+  sums_.offset_rms_m += place.offset * place.offset;
+  sums_.heading_rms_rad += place.heading * place.heading;
+  sums_.largest_offset_m = std::max(sums_.largest_offset_m, std::abs(place.offset));
+  sums_.largest_heading_rad = std::max(sums_.largest_heading_rad, std::abs(place.heading));
+  return outside;
+}
+
+LaneFindings LaneAccount::findings() const {
+  LaneFindings found = sums_;
+  const double moments = static_cast<double>(std::max<std::uint64_t>(1, moments_));
+  found.offset_rms_m = std::sqrt(found.offset_rms_m / moments);
+  found.heading_rms_rad = std::sqrt(found.heading_rms_rad / moments);
+  found.outside = static_cast<double>(outside_) / moments;
+  return found;
+}
 
 DrivingAccount::DrivingAccount(const DrivingConfig& config, TrueTime from)
     : config_(config), from_(from), detections_(from), warnings_(from) {

@@ -12,16 +12,112 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
+#include "core/ids.h"
 #include "core/time.h"
-#include "evaluation/driving/detection_account.h"
-#include "evaluation/driving/lane_account.h"
 #include "evaluation/driving/warning_account.h"
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
+#include "sim/world/road/road.h"
 
 namespace ttf::evaluation::driving {
+
+// Mean and deviation of durations [s], of which the squares are summed about the first one.
+class Spread {
+ public:
+  void add(Duration duration);
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  std::uint64_t count() const { return count_; }
+  double mean() const;       // kNone without a sample
+  double deviation() const;  // by the sum of squares over count - 1; kNone for less than two
+
+ private:
+  std::uint64_t count_ = 0;
+  double first_ = 0.0, sum_ = 0.0, squares_ = 0.0;
+};
+
+struct DetectionFindings {
+  std::uint64_t primary = 0, secondary = 0;
+  Spread frames;
+  SensorId camera = kNoSensor;  // the one with the most detections
+  Spread intervals;             // its
+};
+
+// The detections of a detector that several cameras share: how long its frames last, and how often it looks at the
+// camera that it looks at most.
+//
+// An interval lies between the beginnings of two successive detections of a camera, primary or secondary
+// (schedules/sequence/detections.h). A drive has one such detector.
+class DetectionAccount final : public recording::records::Sink {
+ public:
+  // Ignores all before `from`.
+  explicit DetectionAccount(TrueTime from) : from_(from) {}
+  // Returns nothing without a detection.
+  std::optional<DetectionFindings> finish() const;
+
+  bool wants_frames() const override { return false; }
+  using recording::records::Sink::on;
+  void on(const recording::records::DetectionMade&) override;
+  void on(const recording::records::SequencePlanned&) override;
+
+ private:
+  struct Camera {
+    std::optional<TrueTime> last;
+    std::uint64_t detections = 0;
+    Spread intervals;
+  };
+  TrueTime from_;
+  DetectionFindings findings_;
+  std::optional<TrueTime> frame_;      // the beginning of the newest one
+  std::array<Camera, 256> cameras_{};  // by SensorId
+};
+
+struct LaneConfig {
+  sim::world::road::RoadConfig road;
+  int lane = -1;
+  double front_axle_m = 2.58;  // ahead of the rear one
+  double width_m = 1.8;        // the vehicle's
+};
+
+// A vehicle's place in its lane, by the truth: the offset of the front axle's middle, and the heading.
+struct InLane {
+  double offset = 0.0;   // [m], to the left of the lane's middle
+  double heading = 0.0;  // [rad], from the lane's direction
+};
+
+class TrueLane {
+ public:
+  explicit TrueLane(const LaneConfig& config) : config_(config), road_(config.road) {}
+  InLane place_of(const recording::records::EgoTruth& ego) const;
+  // Returns whether a side of the vehicle is beyond its mark.
+  bool left_by(const InLane& place) const;
+
+ private:
+  LaneConfig config_;
+  sim::world::road::Road road_;
+};
+
+struct LaneFindings {
+  double offset_rms_m = 0.0, largest_offset_m = 0.0;
+  double heading_rms_rad = 0.0, largest_heading_rad = 0.0;
+  double outside = 0.0;  // share of the moments in which a side is beyond its mark
+};
+
+class LaneAccount {
+ public:
+  explicit LaneAccount(const LaneConfig& config) : lane_(config) {}
+  // Returns whether the vehicle leaves its lane at this moment.
+  bool judge(const recording::records::EgoTruth& ego);
+  LaneFindings findings() const;
+
+ private:
+  TrueLane lane_;
+  LaneFindings sums_;  // squares, until the end
+  std::uint64_t moments_ = 0, outside_ = 0;
+};
 
 // Beside the vehicle: from behind its rear axle to ahead of it, and off its side [m]. Both sides have the same.
 struct BlindSpotZone {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
 #include "core/errors.h"
-#include "recording/capture/coverage.h"
 #include "recording/capture/cycles.h"
 #include "recording/capture/packet.h"
 #include "recording/capture/wrong_slots.h"
@@ -16,6 +16,133 @@ namespace ttf::recording::capture {
 namespace {
 
 using schedules::model::Channel;
+
+constexpr int kSlots = 2048;  // frame ids are 11 bits
+
+// Tracks which owned slots of a capture's cycles have a frame.
+class CaptureCoverage {
+ public:
+  // `count` frames are missing after a packet.
+  using Missing = std::function<void(std::uint64_t packet, std::uint64_t count, std::string text)>;
+  CaptureCoverage(const schedules::model::Cluster& cluster, schedules::model::Channels channels, Missing missing);
+
+  // Takes the next frame, sent `advance` cycles after the previous one, in a cycle with this counter. Returns
+  // whether it is the first frame of its slot and channel in that cycle.
+  bool frame(std::int64_t advance, int counter, int slot, schedules::model::Channel channel, std::uint64_t packet);
+  // Takes a frame that claims this place, but whose header fails its CRC: it is damaged, not missing.
+  void damaged(int counter, int slot, schedules::model::Channel channel);
+  // Call it after the last frame.
+  void finish();
+  std::int64_t cycles() const { return cycle_ + 1; }
+
+ private:
+  struct Owned {
+    int slot = 0;
+    schedules::model::Channel channel{};
+  };
+  struct Claim {
+    std::int64_t cycle = 0;  // the running cycle at its arrival
+    int counter = 0;
+    Owned place;
+  };
+  std::uint64_t& packet_of(int slot, schedules::model::Channel channel);
+  bool was_damaged(const Owned& owned) const;
+  void close_cycle(int before_slot);
+  void silent_cycles(std::int64_t count);
+
+  Missing missing_;
+  int counters_;
+  std::vector<std::vector<Owned>> owned_;  // by cycle counter, in the order of slots
+  std::vector<std::uint64_t> packets_;     // in the current cycle, by slot and channel; 0: no packet
+  std::vector<Claim> damaged_;
+  std::int64_t cycle_ = -1;  // running, from 0
+  int counter_ = 0;
+  int after_slot_ = 0;  // the first cycle's coverage begins after this slot
+  int last_slot_ = 0;
+  std::uint64_t last_packet_ = 0, last_before_cycle_ = 0;
+};
+
+CaptureCoverage::CaptureCoverage(const schedules::model::Cluster& cluster, schedules::model::Channels channels,
+                                 Missing missing)
+    : missing_(std::move(missing)), counters_(cluster.flexray.gCycleCountMax + 1),
+      owned_(static_cast<std::size_t>(counters_)), packets_(kSlots * 2) {
+  for (int counter = 0; counter < counters_; ++counter)
+    for (const schedules::model::FrameSlot& frame : cluster.frames)
+      for (const Channel channel : schedules::model::kBothChannels)
+        if (includes(frame.channels, channel) && includes(channels, channel) &&
+            frame.slot <= cluster.flexray.gNumberOfStaticSlots && in_cycle(frame, counter))
+          owned_[static_cast<std::size_t>(counter)].push_back({frame.slot, channel});
+}
+
+std::uint64_t& CaptureCoverage::packet_of(int slot, Channel channel) {
+  return packets_[static_cast<std::size_t>(slot * 2 + static_cast<int>(channel))];
+}
+
+bool CaptureCoverage::frame(std::int64_t advance, int counter, int slot, Channel channel, std::uint64_t packet) {
+  if (cycle_ < 0) {
+    cycle_ = 0;
+    after_slot_ = slot;
+  } else if (advance > 0) {
+    close_cycle(kSlots);
+    after_slot_ = 0;
+    counter_ = (counter_ + 1) % counters_;
+    silent_cycles(advance - 1);
+    cycle_ += advance;
+    last_before_cycle_ = last_packet_;
+    std::fill(packets_.begin(), packets_.end(), 0);
+    std::erase_if(damaged_, [this](const Claim& claim) { return claim.cycle < cycle_ - 1; });
+  }
+  counter_ = counter;
+  last_slot_ = slot;
+  last_packet_ = packet;
+  std::uint64_t& seen = packet_of(slot, channel);
+  const bool first = seen == 0;
+  if (first) seen = packet;
+  return first;
+}
+
+void CaptureCoverage::damaged(int counter, int slot, Channel channel) {
+  damaged_.push_back({cycle_, counter, {slot, channel}});
+}
+
+bool CaptureCoverage::was_damaged(const Owned& owned) const {
+  return std::any_of(damaged_.begin(), damaged_.end(), [&](const Claim& claim) {
+    return claim.counter == counter_ && claim.place.slot == owned.slot && claim.place.channel == owned.channel;
+  });
+}
+
+void CaptureCoverage::close_cycle(int before_slot) {
+  std::uint64_t after = last_before_cycle_;
+  int slot = 0;
+  for (const Owned& owned : owned_[static_cast<std::size_t>(counter_)]) {
+    for (; slot < owned.slot; ++slot)
+      for (const Channel channel : schedules::model::kBothChannels) after = std::max(after, packet_of(slot, channel));
+    if (owned.slot <= after_slot_ || owned.slot >= before_slot || packet_of(owned.slot, owned.channel) != 0 ||
+        was_damaged(owned))
+      continue;
+    missing_(after, 1,
+             fmt::format("slot {} on {}, cycle {}: has no frame", owned.slot, letter(owned.channel), counter_));
+  }
+}
+
+// Counts the frames missing in `count` cycles without a frame, from counter_ on.
+void CaptureCoverage::silent_cycles(std::int64_t count) {
+  if (count == 0) return;
+  std::uint64_t all = 0, missing = 0;
+  for (int i = 0; i < counters_; ++i) {
+    const auto frames = owned_[static_cast<std::size_t>((counter_ + i) % counters_)].size();
+    all += frames;
+    if (i < count % counters_) missing += frames;
+  }
+  missing += all * static_cast<std::uint64_t>(count / counters_);
+  if (missing > 0)
+    missing_(last_packet_, missing,
+             fmt::format("cycles from {} on: {} without a single frame, {} frames missing", counter_, count, missing));
+}
+
+void CaptureCoverage::finish() {
+  if (cycle_ >= 0) close_cycle(last_slot_);
+}
 
 struct Frame {
   std::uint64_t number = 0;

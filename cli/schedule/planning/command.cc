@@ -2,16 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/output.h"
-#include "cli/schedule/planning/judges.h"
 #include "cli/shipped.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "experiments/judges/error_judge.h"
+#include "experiments/judges/gap_judge.h"
 #include "report/drawing/render.h"
 #include "report/plots/trade_off_picture.h"
 #include "schedules/exchange/cluster_yaml.h"
@@ -32,9 +35,91 @@ namespace explanation = schedules::synthesis::explanation;
 namespace instants = schedules::synthesis::instants;
 namespace plans = schedules::synthesis::plan;
 namespace trade = schedules::synthesis::trade;
+using instants::Reached;
 using instants::Synthesis;
 using plans::Goal;
 using plans::Plan;
+
+// The judges of a plan's objectives that lie above schedules (experiments/judges).
+class PlanJudges {
+ public:
+  explicit PlanJudges(const Plan& plan);
+  PlanJudges(const PlanJudges&) = delete;
+  PlanJudges& operator=(const PlanJudges&) = delete;
+
+  const instants::judging::Judges& by_goal() const { return by_goal_; }
+
+ private:
+  std::optional<experiments::judges::ErrorJudge> error_;
+  experiments::judges::GapJudge gap_error_;
+  instants::judging::Judges by_goal_;
+};
+
+// A regret's part: a density and its errors.
+struct Reference {
+  double process_noise = 0.0;  // the density
+  double least = 0.0;          // for it alone, as far as it was found [m^2]
+  double error = 0.0;          // the error here [m^2]
+};
+
+// In twelve columns, with a space before it.
+std::string square_metres(double value) {
+  if (!std::isfinite(value)) return "unbounded";
+  return fmt::format("{:.{}g} m2", value, value < 1e-3 ? 3 : 4);
+}
+
+// Rounding makes no difference.
+double difference(const Reference& one) {
+  const double more = one.error - one.least;
+  return more <= 1e-9 * one.least ? 0.0 : more;
+}
+
+PlanJudges::PlanJudges(const Plan& plan) : gap_error_(plan) {
+  by_goal_[Goal::kGapError] = &gap_error_;
+  if (plan.error) by_goal_[Goal::kError] = &error_.emplace(plan);
+}
+
+// Returns whether a judge counts the objective.
+bool is_judged(Goal goal) { return goal == Goal::kError || goal == Goal::kGapError; }
+
+// Returns a value of such an objective: m^2, or a ratio where it is a regret.
+std::string judged_text(const Reached& one, double value) {
+  return one.weights.size() > 1 ? fmt::format("{:.5f}", value) : square_metres(value);
+}
+
+// Returns what is known about it: proven best, or how far it may be off.
+std::string judged_proof_text(const Reached& one) {
+  if (!std::isfinite(one.value)) return "the loop was stable at no instants";
+  if (one.bound <= 0.0) return "no bound is known";
+  if (one.proven) return fmt::format("proven best: {}", one.way);
+  if (one.value == one.bound) return fmt::format("best, if {}", one.supposes);
+  const std::string off = fmt::format("at most {:.2g} % off", 100.0 * (one.value / one.bound - 1.0));
+  return one.supposes.empty() ? off : fmt::format("{}, if {}", off, one.supposes);
+}
+
+// Returns them in the plan's order, for a regret; else none.
+std::vector<Reference> references(const Plan& plan, const Reached& one, const PlanJudges& judges,
+                                  const schedules::model::Cluster& made) {
+  std::vector<Reference> found;
+  if (one.weights.size() < 2) return found;
+  for (std::size_t i = 0; i < one.weights.size(); ++i) {
+    std::vector<double> alone(one.weights.size(), 0.0);
+    alone[i] = 1.0;
+    const double error =
+        schedules::synthesis::instants::judging::judged(*judges.by_goal().at(one.goal), alone, plan, made);
+    found.push_back({plan.error->process_noises[i], 1.0 / one.weights[i], error});
+  }
+  return found;
+}
+
+// Returns a line for each: the error, its ratio to the least one, and the difference.
+std::string references_text(const std::vector<Reference>& references) {
+  std::string text;
+  for (const Reference& one : references)
+    text += fmt::format("  with noise {:<9g}{:>12}{:>12}  {:.5f} times the least, {:.2g} m2 more\n", one.process_noise,
+                        square_metres(one.error), "", one.error / one.least, difference(one));
+  return text;
+}
 
 // Returns the weights of the plan's expected error; none if it has no such section, or a regret that is no objective.
 std::vector<double> error_weights(const Plan& plan, const instants::Synthesis& made) {

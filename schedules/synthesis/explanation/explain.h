@@ -18,7 +18,7 @@ struct Explanation {
     std::string text;
   };
   std::vector<Said> core;
-  bool proven = true;  // every search behind it was exact, over the lengths and rates that stand for any (statements.h)
+  bool proven = true;  // every search behind it was exact, over the lengths and rates that stand for any (explain.cc)
   // The least change of each statement of the core that has a number; one of them is enough.
   std::vector<Said> changes;
 };
