@@ -12,10 +12,4 @@ inline double to_half_turn(double angle) {
   return std::abs(angle) <= kPi ? angle : std::remainder(angle, 2.0 * kPi);
 }
 
-// Maps a direction to [-pi/2, pi/2], for objects whose front looks like their back.
-inline double to_quarter_turn(double angle) {
-  constexpr double kPi = std::numbers::pi;
-  return std::abs(angle) <= 0.5 * kPi ? angle : std::remainder(angle, kPi);
-}
-
 }  // namespace ttf::fusion::motion

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace ttf::fusion::oosm {
@@ -28,12 +27,6 @@ constexpr std::string_view name_of(Kind kind) {
   for (const NamedKind& named : kKinds)
     if (named.kind == kind) return named.name;
   return {};
-}
-
-constexpr std::optional<Kind> kind_named(std::string_view name) {
-  for (const NamedKind& named : kKinds)
-    if (named.name == name) return named.kind;
-  return std::nullopt;
 }
 
 }  // namespace ttf::fusion::oosm

@@ -193,7 +193,9 @@ std::string mean_text(const ExperimentFolder& folder, std::size_t paradigm) {
   return interval_words(mean) + (folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
 }
 
-// Says which paradigm has the smallest first measure.
+// Names the paradigms that have the least first measure for certain, with the number of points of each. A paradigm has it
+// at a point if its paired differences from all others stay certain among all pairs at all points, by Holm's method. The
+// drives in the store decide; without a store, and where the drives cannot tell, the sentence says so.
 std::string smallest(const ExperimentFolder& folder, const Pairs& pairs) {
   const std::string& measure = folder.measures[0].name;
   const auto has_value = [](const ExperimentPoint& point) {
@@ -342,8 +344,6 @@ std::string answer_by(const ExperimentFolder& folder, const Pairs& pairs) {
 }
 
 }  // namespace
-
-std::string experiment_answer(const ExperimentFolder& folder) { return answer_by(folder, all_pairs(folder)); }
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
                                    const drive::DiagramWindow& window) {

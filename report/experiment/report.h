@@ -21,9 +21,4 @@ struct ExperimentDrives {
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
                                    const drive::DiagramWindow& window);
 
-// Names the paradigms that have the least first measure for certain, with the number of points of each. A paradigm has it
-// at a point if its paired differences from all others stay certain among all pairs at all points, by Holm's method. The
-// drives in the store decide; without a store, and where the drives cannot tell, the sentence says so.
-std::string experiment_answer(const ExperimentFolder& folder);
-
 }  // namespace ttf::report::experiment

@@ -121,10 +121,4 @@ std::map<int, int> add_key_slots(std::vector<std::vector<PackedFrame>>& vehicles
   return key_slots;
 }
 
-std::vector<PackedFrame> with_key_slots(std::vector<PackedFrame> frames) {
-  std::vector<std::vector<PackedFrame>> one{std::move(frames)};
-  add_key_slots(one);
-  return std::move(one.front());
-}
-
 }  // namespace ttf::schedules::packing

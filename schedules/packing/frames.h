@@ -27,9 +27,8 @@ std::vector<PackedFrame> frames_of(const Instance& instance, const Assignment& a
 
 // Adds a slot without signals for each node with no slot that has the same frame in every cycle: a controller needs
 // one, its key slot. The new slots take the lowest numbers that are free on all channels.
-std::vector<PackedFrame> with_key_slots(std::vector<PackedFrame> frames);
-
-// The same for the vehicles of several variants, each with its frames: a node has the same key slot in all of them, and
+//
+// The vehicles are those of several variants, each with its frames: a node has the same key slot in all of them, and
 // a new slot is free in all that have the node. Returns the key slots by node.
 std::map<int, int> add_key_slots(std::vector<std::vector<PackedFrame>>& vehicles);
 

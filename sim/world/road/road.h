@@ -83,7 +83,6 @@ class Road {
   double length() const { return length_; }
   bool closed() const { return config_.closed; }
   int lanes() const { return config_.left + config_.right; }
-  bool has_lane(int lane) const { return lane != 0 && lane <= config_.left && lane >= -config_.right; }
   // Returns the offset of a lane's middle.
   double middle(int lane) const { return (lane > 0 ? lane - 0.5 : lane + 0.5) * config_.lane_width; }
   // Returns 1 for a lane that is driven along the line, -1 for one that is driven against it.

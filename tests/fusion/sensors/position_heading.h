@@ -2,7 +2,9 @@
 // orientation is the heading up to half a turn.
 #pragma once
 
-#include "fusion/motion/angles.h"
+#include <cmath>
+#include <numbers>
+
 #include "fusion/sensors/sensor_model.h"
 
 namespace ttf::fusion::sensors {
@@ -20,7 +22,7 @@ struct PositionHeading {
   }
   linear::Vector<3> residual(const linear::Vector<3>& z, const linear::Vector<3>& e) const {
     linear::Vector<3> d = z - e;
-    d(2) = motion::to_quarter_turn(d(2));
+    d(2) = std::remainder(d(2), std::numbers::pi);
     return d;
   }
   bool sees(const motion::Kinematics& k) const { return k.has_heading; }

@@ -28,8 +28,9 @@ struct PackedBus {
 PackedBus packed_bus(Instance instance, ChannelUse use = ChannelUse::kOne) {
   const Solution solution = pack(instance);
   Assignment assignment = assigned(solution.places, slot_numbers({}, solution.bins, 1, use));
-  std::vector<PackedFrame> frames = with_key_slots(frames_of(instance, assignment));
-  return {std::move(instance), std::move(assignment), std::move(frames)};
+  std::vector<std::vector<PackedFrame>> vehicles{frames_of(instance, assignment)};
+  add_key_slots(vehicles);
+  return {std::move(instance), std::move(assignment), std::move(vehicles.front())};
 }
 
 std::string all_sentences(const std::vector<Finding>& findings) {

@@ -38,9 +38,10 @@ std::string signals_csv(const table::Instance& instance, std::size_t count) {
 }
 
 std::string bus_text(const table::Instance& instance, const table::Assignment& assignment) {
-  const auto frames = with_key_slots(frames_of(instance, assignment));
-  return bus_fibex(instance, assignment, frames,
-                   bus_of(instance, frames, {"drawn", "drawn.csv", Duration::milliseconds(5)}));
+  std::vector<std::vector<table::PackedFrame>> vehicles{frames_of(instance, assignment)};
+  add_key_slots(vehicles);
+  return bus_fibex(instance, assignment, vehicles.front(),
+                   bus_of(instance, vehicles.front(), {"drawn", "drawn.csv", Duration::milliseconds(5)}));
 }
 
 TEST(StandingBus, IsThePackingThatItWasMadeOf) {
