@@ -7,10 +7,8 @@ cd "$(dirname "$0")/.."
 kept=tools/long_checks.passed
 
 plain_g++() { tools/plain_build.sh g++; }                              # everything, as those build it who know no presets
-plain_clang++() { tools/plain_build.sh clang++; }
-clang_warnings() {                                                     # everything, benchmarks too, warnings as errors
-  cmake --preset release -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
-  cmake --build build/clang --target all benchmarks slow_tests
+plain_clang++() {                                                      # so, too; the presets' warnings are errors
+  CXXFLAGS=$(grep -o ' -W[a-z=0-9-]*' CMakePresets.json | sort -u | tr -d '\n') tools/plain_build.sh clang++ all benchmarks slow_tests
 }
 slow() { tools/slow_tests.sh; }                                        # all slow tests, and those by the wall clock
 sanitizers() { tools/sanitize.sh; }                                    # all tests of which .ci/run has the touched ones
@@ -23,7 +21,7 @@ tidy() { tools/tidy.sh; }                                              # every s
 fuzz() { tools/fuzz.sh 300; }                                          # five minutes a target
 results() { tools/results.py check; }                                  # all kept replications of every page
 
-all=(plain_g++ plain_clang++ clang_warnings slow sanitizers sanitizers_slow threads threads_wide tidy fuzz results)
+all=(plain_g++ plain_clang++ slow sanitizers sanitizers_slow threads threads_wide tidy fuzz results)
 [[ $# -gt 0 ]] || set -- "${all[@]}"
 tools/install_deps.sh --gates
 [[ -z $(git status --porcelain) ]] || { echo "error: commit first: what passes is kept with its commit" >&2; exit 2; }

@@ -205,7 +205,7 @@ std::string report(const Plan& plan, const Synthesis& made, const PlanJudges& ju
                                  payload, made.candidates, joined(choices, " and "));
   text += fmt::format("{:<22}{:>12}{:>12}\n", "objective", "value", "bound");
   for (const instants::Reached& one : made.reached)
-    text += fmt::format("{:<22}{:>12}{:>12}  {}\n{}", instants::name_of(one.goal), value_text(one, one.value),
+    text += fmt::format("{:<22}{:>12}{:>12}  {}\n{}", name_of(one.goal), value_text(one, one.value),
                         value_text(one, one.bound), proof_text(one),
                         references_text(references(plan, one, judges, cluster)));
   text += fmt::format("{:<22}{:>12}{:>12}{:>12}{:>12}\n", "chain [ms]", "best age", "worst age", "largest", "every");
@@ -227,7 +227,7 @@ nlohmann::ordered_json report_json(const Plan& plan, const Synthesis& made, cons
   if (plan.payload) json["payload_bytes"] = made.candidate.payload;
   for (const instants::Reached& one : made.reached) {
     json["objective"].push_back(
-        {{"name", instants::name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
+        {{"name", name_of(one.goal)}, {"value", one.value}, {"bound", one.bound}, {"proven", one.proven}});
     if (one.proven) json["objective"].back()["way"] = one.way;
     if (!one.supposes.empty()) json["objective"].back()["supposes"] = one.supposes;
     for (const Reference& part : references(plan, one, judges, made.cluster))

@@ -65,19 +65,6 @@ std::vector<Candidate> checked_candidates(const Plan& plan) {
 
 }  // namespace
 
-const char* name_of(Goal goal) {
-  switch (goal) {
-    case Goal::kWorstAge: return "worst_age";
-    case Goal::kDataAge: return "data_age";
-    case Goal::kSlots: return "slots";
-    case Goal::kJitter: return "jitter";
-    case Goal::kRoom: return "room";
-    case Goal::kError: return "error";
-    case Goal::kGapError: return "gap_error";
-  }
-  return "";
-}
-
 Synthesis synthesize(const Plan& plan, const judging::Judges& judges) {
   constexpr std::size_t kMostRefusals = 16;
   const std::vector<Candidate> all = checked_candidates(plan);

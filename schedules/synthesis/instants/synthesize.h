@@ -58,7 +58,4 @@ Feasible feasible(const plan::Plan& plan);
 // Returns whether instants that the search finds pass the check (schedules/check/checker.h).
 bool passes(const plan::Plan& plan);
 
-// The name in a plan, and the unit.
-const char* name_of(plan::Goal goal);
-
 }  // namespace ttf::schedules::synthesis::instants

@@ -6,6 +6,7 @@
 // schedules/synthesis/instants/written.h the instants.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -58,6 +59,10 @@ enum class Goal : std::uint8_t {
   kError,     // least: the expected squared error of an estimator at its uses (plan.error)
   kGapError,  // least: the expected squared error of the gap to a vehicle ahead (plan.gap_error)
 };
+// Their words in plans and results, in the enumeration's order.
+inline constexpr std::array kGoalWords{"worst_age", "data_age", "slots", "jitter", "room", "error", "gap_error"};
+static_assert(kGoalWords.size() == static_cast<std::size_t>(Goal::kGapError) + 1);
+constexpr const char* name_of(Goal goal) { return kGoalWords[static_cast<std::size_t>(goal)]; }
 
 // Possible lengths of the cycle: shortest, shortest + step, ..., at most longest.
 struct CycleLengths {

@@ -20,11 +20,6 @@ constexpr Range<Duration> kPeriods{Duration::milliseconds(1), Duration::millisec
 constexpr Duration kLongestAge = Duration::milliseconds(10'000);
 constexpr std::int64_t kMostLengths = 10'000;
 
-const std::vector<std::pair<std::string, Goal>> kGoals{{"worst_age", Goal::kWorstAge}, {"data_age", Goal::kDataAge},
-                                                       {"slots", Goal::kSlots},        {"jitter", Goal::kJitter},
-                                                       {"room", Goal::kRoom},          {"error", Goal::kError},
-                                                       {"gap_error", Goal::kGapError}};
-
 // Adds a sensor that is like an earlier one. Its instant is left out.
 void add_alike(const std::string& name, YamlMap& map, Plan& plan) {
   model::Cluster& cluster = plan.cluster;
@@ -155,11 +150,8 @@ void read_objective(YamlMap& section, Plan& plan) {
     plan.objective = {Goal::kWorstAge};
     return;
   }
-  std::vector<std::string> names;
-  for (const auto& [name, goal] : kGoals) names.push_back(name);
-  for (const std::string& word : section.words("objective", names)) {
-    const Goal goal =
-        std::find_if(kGoals.begin(), kGoals.end(), [&](const auto& one) { return one.first == word; })->second;
+  for (const std::string& word : section.words("objective", {kGoalWords.begin(), kGoalWords.end()})) {
+    const auto goal = static_cast<Goal>(std::find(kGoalWords.begin(), kGoalWords.end(), word) - kGoalWords.begin());
     if (std::find(plan.objective.begin(), plan.objective.end(), goal) != plan.objective.end())
       section.fail("objective", fmt::format("must name {} once", word));
     else
