@@ -38,9 +38,9 @@ void check_values(const Plan& plan, const synthesis::instants::Synthesis& made) 
   for (const auto& one : made.reached) {
     const bool more_is_better = one.goal == synthesis::plan::Goal::kRoom;
     TTF_CHECK(std::isfinite(one.value) && std::isfinite(one.bound), "{}: {}, bound {}",
-              synthesis::instants::name_of(one.goal), one.value, one.bound);
+              synthesis::plan::name_of(one.goal), one.value, one.bound);
     TTF_CHECK(more_is_better ? one.value <= one.bound : one.value >= one.bound, "{}: {} is beyond its bound {}",
-              synthesis::instants::name_of(one.goal), one.value, one.bound);
+              synthesis::plan::name_of(one.goal), one.value, one.bound);
   }
   TTF_CHECK(made.ages.size() == plan.chains.size(), "{} ages of {} chains", made.ages.size(), plan.chains.size());
   for (std::size_t c = 0; c < plan.chains.size(); ++c) {

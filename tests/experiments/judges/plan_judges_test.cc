@@ -225,7 +225,7 @@ TEST(ErrorOfAPlan, ObjectivesBehindItKeepIt) {
     if (one.goal == Goal::kRoom)
       EXPECT_GE(one.bound, one.value);
     else
-      EXPECT_LE(one.bound, one.value) << instants::name_of(one.goal);
+      EXPECT_LE(one.bound, one.value) << name_of(one.goal);
   }
   // Fewer slots are possible, with another error. So nothing is proven about slots.
   EXPECT_FALSE(made.reached[1].proven);
