@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -17,7 +18,6 @@
 #include "cli/paper_size.h"
 #include "cli/progress.h"
 #include "cli/track/scan_lists.h"
-#include "cli/track/scan_picture.h"
 #include "cli/track/track_judge.h"
 #include "cli/track/track_lives.h"
 #include "cli/track/track_options.h"
@@ -38,12 +38,47 @@
 #include "recording/rows/scan_file.h"
 #include "recording/rows/track_rows.h"
 #include "report/drawing/render.h"
+#include "report/plots/boxes_picture.h"
 #include "sensors/laser/recorded_scans.h"
 #include "sensors/recorded/recorded.h"
 #include "sim/drives/scenario.h"
 
 namespace ttf::cli::track {
 namespace {
+
+// A heading is drawn if it is known as well as this: 20 degrees.
+constexpr double kKnownHeading_rad = 0.35;
+
+// Draws a recorded scan and the tracks that are known once it was taken in.
+class ScanPicture {
+ public:
+  ScanPicture(const recording::rows::RecordedScan& scan, const sensors::laser::RecordedScansConfig& how)
+      : scan_(scan), at_(sensors::laser::instant_of(scan, how)) {}
+  // Takes the tracks whose state is of the scan's instant; the last ones count. A mounted scanner's returns are in its own
+  // axes, tracks in the vehicle's: the picture is of a scanner at the origin.
+  void take(std::span<const fusion::tracks::TrackView> tracks) {
+    if (tracks.empty() || tracks.front().valid_at != at_) return;
+    boxes_.clear();
+    for (const fusion::tracks::TrackView& track : tracks)
+      boxes_.push_back({track.state(0), track.state(1), track.heading, track.length, track.width,
+                        std::to_string(index_of(track.id)), track.sigma_heading <= kKnownHeading_rad,
+                        track.has_length && track.has_width});
+  }
+  std::string svg(const report::drawing::Sheet& sheet) const {
+    std::vector<report::drawing::Point> points;
+    for (const recording::rows::RecordedReturn& hit : scan_.returns)
+      points.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
+    return report::plots::boxes_svg(
+        points, boxes_,
+        fmt::format("Scan {}: {}, {}", scan_.frame, counted(points.size(), "return"), counted(boxes_.size(), "track")),
+        "track", sheet);
+  }
+
+ private:
+  const recording::rows::RecordedScan& scan_;
+  GlobalTime at_;
+  std::vector<report::plots::Box> boxes_;
+};
 
 // Reports all findings; sound rows are kept. Without any sound row, the findings are an error.
 void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {

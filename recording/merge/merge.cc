@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -14,10 +16,131 @@
 #include "recording/log/codec.h"
 #include "recording/log/manifest_codec.h"
 #include "recording/log/writer.h"
-#include "recording/merge/walk.h"
+#include "recording/mcap/chunk.h"
+#include "recording/merge/record_place.h"
 
 namespace ttf::recording::merge {
 namespace {
+
+// Walks through the records of several logs in their canonical order.
+class MergeWalk {
+ public:
+  // A record in an open chunk.
+  struct Message {
+    RecordPlace place;
+    records::RecordKind kind{};
+    std::uint32_t log = 0;
+    std::uint32_t repetition = 0;  // how many records of its node, kind and instant precede it in its log
+    std::uint64_t in_log = 0;      // place in its log
+    std::string_view payload;
+  };
+
+  // `times`: by log, its common scale. Both arguments must outlive the walk.
+  MergeWalk(const std::vector<StoredLog>& logs, const std::vector<CommonTime>& times) : logs_(logs), times_(times) {
+    for (std::size_t log = 0; log < logs.size(); ++log)
+      for (std::size_t chunk = 0; chunk < logs[log].chunks().size(); ++chunk)
+        upcoming_.push_back({times[log](logs[log].chunks()[chunk].first), static_cast<std::uint32_t>(log),
+                             static_cast<std::uint32_t>(chunk)});
+    std::sort(upcoming_.begin(), upcoming_.end(), [](const Upcoming& a, const Upcoming& b) {
+      return std::tie(a.first, a.log, a.chunk) > std::tie(b.first, b.log, b.chunk);
+    });
+  }
+
+  // Returns all records of the next instant, in their order; empty at the end. Valid until the next call.
+  const std::vector<Message>& next() {
+    std::move(used_.begin(), used_.end(), std::back_inserter(free_));
+    used_.clear();
+    instant_.clear();
+    while (!upcoming_.empty() && (open_.empty() || upcoming_.back().first <= open_.front()->time())) {
+      open(upcoming_.back());
+      upcoming_.pop_back();
+    }
+    if (open_.empty()) return instant_;
+    const TrueTime now = open_.front()->time();
+    while (!open_.empty() && open_.front()->time() == now) {
+      std::pop_heap(open_.begin(), open_.end(), later);
+      Open& chunk = *open_.back();
+      while (chunk.at < chunk.messages.size() && chunk.time() == now) instant_.push_back(chunk.messages[chunk.at++]);
+      if (chunk.at < chunk.messages.size()) {
+        std::push_heap(open_.begin(), open_.end(), later);
+      } else {
+        used_.push_back(std::move(open_.back()));
+        open_.pop_back();
+      }
+    }
+    put_in_order(instant_);
+    return instant_;
+  }
+
+ private:
+  struct Upcoming {
+    TrueTime first;
+    std::uint32_t log;
+    std::uint32_t chunk;
+  };
+  struct Open {
+    std::string buffer;
+    std::vector<Message> messages;  // by time
+    std::size_t at = 0;
+    TrueTime time() const { return messages[at].place.at; }
+  };
+  // Sorts the records of one instant.
+  static void put_in_order(std::vector<Message>& instant) {
+    if (instant.size() < 2) return;
+    const auto group = [](const Message& m) { return std::tuple(m.place.rank, m.place.about, m.log); };
+    std::sort(instant.begin(), instant.end(), [&](const Message& a, const Message& b) {
+      return std::tuple_cat(group(a), std::tuple(a.in_log)) < std::tuple_cat(group(b), std::tuple(b.in_log));
+    });
+    for (std::size_t i = 1; i < instant.size(); ++i)
+      if (instant[i].place.of_node && group(instant[i]) == group(instant[i - 1]))
+        instant[i].repetition = instant[i - 1].repetition + 1;
+    std::stable_sort(instant.begin(), instant.end(), [](const Message& a, const Message& b) {
+      return std::tie(a.place.rank, a.place.about, a.repetition, a.payload) <
+             std::tie(b.place.rank, b.place.about, b.repetition, b.payload);
+    });
+  }
+  static bool later(const std::unique_ptr<Open>& a, const std::unique_ptr<Open>& b) { return a->time() > b->time(); }
+  void open(const Upcoming& upcoming) {
+    std::unique_ptr<Open> chunk = closed_chunk();
+    const StoredLog& log = logs_[upcoming.log];
+    const auto records = opener_.open(log.content(log.chunks()[upcoming.chunk]), chunk->buffer);
+    if (!records) return;  // it was sound when the log was read through
+    RecordPlace place;     // the decoder passes one for a readable payload, and none for any other
+    const std::unique_ptr<records::Sink> sink = placing([&place](const RecordPlace& found) { place = found; });
+    std::uint64_t in_log = std::uint64_t{upcoming.chunk} << 32;
+    mcap::for_each_message(*records, [&](std::uint16_t channel, std::uint64_t, std::string_view payload) {
+      if (!records::is_kind(channel)) return false;
+      const auto kind = static_cast<records::RecordKind>(channel);
+      if (!decoder_.decode(kind, payload, *sink)) return false;
+      place.at = times_[upcoming.log](place.at);
+      chunk->messages.push_back({place, kind, upcoming.log, 0, in_log++, payload});
+      return true;
+    });
+    std::sort(chunk->messages.begin(), chunk->messages.end(), [](const Message& a, const Message& b) {
+      return std::tie(a.place.at, a.in_log) < std::tie(b.place.at, b.in_log);
+    });
+    open_.push_back(std::move(chunk));
+    std::push_heap(open_.begin(), open_.end(), later);
+  }
+  std::unique_ptr<Open> closed_chunk() {
+    if (free_.empty()) return std::make_unique<Open>();
+    std::unique_ptr<Open> chunk = std::move(free_.back());
+    free_.pop_back();
+    chunk->messages.clear();
+    chunk->at = 0;
+    return chunk;
+  }
+
+  const std::vector<StoredLog>& logs_;
+  const std::vector<CommonTime>& times_;
+  std::vector<Upcoming> upcoming_;           // the next one last
+  std::vector<std::unique_ptr<Open>> open_;  // a heap, the earliest first
+  std::vector<std::unique_ptr<Open>> used_;  // read to the end; valid until the next call, then free
+  std::vector<std::unique_ptr<Open>> free_;
+  std::vector<Message> instant_;
+  mcap::ChunkOpener opener_;
+  log::Decoder decoder_;
+};
 
 std::map<std::string, std::string> keys_of(const StoredLog& log) {
   std::map<std::string, std::string> keys;
