@@ -18,7 +18,7 @@ LEAST = 10
 WORDS = {
     "How do I add a sensor kind?": ["kSteps"],
     "How do I add a service, or another step of a task?": ["WarningKind"],
-    "How do I add an export?": ["run_export"],
+    "How do I add an export?": ["kFormats"],
     "How do I add a measure?": ["evaluation/measures/table.cc"],
     "Which fields does `summary.json` have?": ["summary.schema.json"],
     "Where is CAN arbitration decided?": ["arbitration", "CanMedium::arbitrate", "lost the arbitration"],
@@ -30,7 +30,7 @@ WORDS = {
     "Where does a late measurement go?": ["strategies/late", "late"],
     "Where is a cluster file checked?": ["`check`", "load_checked_cluster"],
     "Where do faults live?": ["sim/faults", "struct FaultPlan"],
-    "How do I add another part?": ["kMakers", "FaultKind", "MotionModel", "kGoals", "cli/main.cc", "kKinds"],
+    "How do I add another part?": ["kMakers", "FaultKind", "MotionModel", "kGoalWords", "cli/main.cc", "kKinds"],
     "How do I add a file, a folder or a test?": ["tools/modules.toml", "mirrors the modules"],
 }
 
