@@ -6,7 +6,7 @@
 
 A change is what differs from COMMIT. Without COMMIT ('') everything is touched. A program is touched if one of these differs:
 a source of it or of its modules, a header that one of them sees, directly or through others, or the CMakeLists.txt of a folder
-above one of them. A script's test is touched with the programs that it gets, and by all files of the script's folder but C++.
+above one of them. Comments of CMake's files do not count. A script's test is touched with the programs that it gets, and by all files of the script's folder but C++.
 Every other file but Markdown and tools touches everything: data, pages, CMake's own. Tests that get nothing of the build folder are
 left out: they are the same in every build. The build folder must be configured.
 """
@@ -22,16 +22,28 @@ CODE = (".cc", ".cxx", ".c", ".h", ".proto", ".idl")
 FOR_ALL = ("cmake/", "CMakeLists.txt", "CMakePresets.json", "tools/build.sh", "tools/install_deps.sh")   # beginnings of paths
 FOR_NONE = (".ci/", "docs/", "tools/")   # the quick tests have what looks at these
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+# CMake has comments in lines of their own, and behind commands. A text in quotation marks is none, and stays.
+COMMENT = re.compile(r'("(?:\\.|[^"\\])*")|^[ \t]*#[^\n]*\n|[ \t]*#[^\n]*', re.MULTILINE)
 
 
 def output(*command):
     return subprocess.run(command, cwd=TOP, check=True, capture_output=True, text=True).stdout
 
 
+def says_another(file, commit):
+    """Whether a file that differs from the commit's differs in more than CMake's comments."""
+    if not file.endswith((".cmake", "CMakeLists.txt")) or not (TOP / file).is_file():
+        return True
+    before = subprocess.run(["git", "show", f"{commit}:{file}"], cwd=TOP, capture_output=True, text=True, check=False).stdout
+    now = (TOP / file).read_text(encoding="utf-8")
+    return COMMENT.sub(r"\1", before) != COMMENT.sub(r"\1", now)
+
+
 class Touched:
     def __init__(self, build, commit):
         self.build = build
-        self.changed = set(output("git", "diff", "--name-only", commit).split()) if commit else set()
+        changed = output("git", "diff", "--name-only", commit).split() if commit else []
+        self.changed = {file for file in changed if says_another(file, commit)}
         self.lists = {TOP / file for file in self.changed if file.endswith("/CMakeLists.txt")}
         self.all = not commit or any(map(self.is_for_all, self.changed))
         self.known = {line.split(":")[0] for line in output("ninja", "-C", build, "-t", "targets", "all").splitlines()}

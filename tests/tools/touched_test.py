@@ -68,6 +68,14 @@ class Touched(unittest.TestCase):
                 self.assertEqual(self.touched_by(*names), expected)
         self.assertEqual(self.touched_by(commit=""), all_of_the_build)
 
+    def test_a_comment_of_cmake_touches_nothing(self):
+        for change, expected in (("# why\nproject(small CXX)  # which\n", set()),
+                                 ('project(small CXX)\nset(text "# no comment")\n', {"with", "without", "script"})):
+            with self.subTest(change):
+                lists = self.top / "CMakeLists.txt"
+                lists.write_text(FILES["CMakeLists.txt"].replace("project(small CXX)\n", change), encoding="utf-8")
+                self.assertEqual(self.touched_by(), expected)
+
     def test_tests_and_targets_can_be_chosen(self):
         self.assertEqual(self.touched_by("part/part.h", choice=("-R", "script")), set())
         self.assertEqual(self.touched_by("part/part.h", choice=("with", "without")), {"with"})
