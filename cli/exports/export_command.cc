@@ -182,9 +182,8 @@ const std::vector<Format> kFormats = {
     {"perfetto", "tasks, frames and ways, for ui.perfetto.dev", {".pftrace"}, export_perfetto},
     {"foxglove", "scene and plots, for Foxglove and Lichtblick", {".mcap"}, export_for_viewers},
     {"osi",
-     "ASAM OSI: images as SensorData and truth as GroundTruth, beside the log in one .mcap file, or as two .osi files "
-     "in "
-     "a folder",
+     "ASAM OSI: images as SensorData and truth as GroundTruth, beside the log in one .mcap file, or as two .osi "
+     "files in a folder",
      {".mcap"},
      export_for_osi},
     {"tables",

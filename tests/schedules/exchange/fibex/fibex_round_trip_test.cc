@@ -99,8 +99,8 @@ TEST_P(FibexShipped, SaysWhoReceivesWhat) {
   }
 }
 
-// Each parameter at either end of its range. In cluster k those parameters are at the upper end whose number has bit k, in
-// another one the others: so any two parameters differ in one of the clusters, and a file that takes one for the other is found.
+// Each parameter at either end of its range. Cluster k has the parameters with bit k in their number at the upper end, and its
+// inverse has the others there. Any two parameters differ in some cluster, so the test finds a file that swaps them.
 TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
   const model::Cluster shipped = check::load_checked_cluster(shipped_path("paper_synchronised"));
   std::vector<std::function<void(model::Cluster&, bool)>> setters;  // to the upper end or the lower one
