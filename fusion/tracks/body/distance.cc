@@ -56,6 +56,8 @@ sensors::Observation moved(const sensors::Observation& z, const Distance& distan
   result.z(2) -= distance.swing.dot(sight);
   const linear::Matrix<3> added = polar * spread * polar.transpose();
   result.r += 0.5 * (added + added.transpose());
+  const double rate_by_turn = distance.by_rate.dot(sight);
+  result.r(2, 2) += rate_by_turn * rate_by_turn;
   return result;
 }
 
@@ -101,7 +103,10 @@ std::optional<Distance> distance_to(const Body& body, const estimators::Estimato
   distance.between += weight * apart;
   distance.by_size = weight * by_size;
   distance.noise = weight * by_sigma * by_sigma.transpose();
-  distance.swing = weight * turn.rate * by_heading;
+  // A return comes from matter, which turns with the object. A silhouette moves along the outline, too, as another part of the
+  // outline comes into view: the derivative by the heading is not its velocity.
+  distance.by_rate = weight * std::sqrt(turn.variance) * quarter_on(point->at - at);
+  distance.swing = weight * turn.rate * quarter_on(point->at - at);
   return distance;
 }
 

@@ -31,7 +31,8 @@ struct Distance {
   linear::Matrix<2> noise = linear::Matrix<2>::Zero();     // covariance by the heading [m^2]
   linear::Vector<2> axis = linear::Vector<2>::UnitX();     // the object's
   linear::Vector<2> velocity = linear::Vector<2>::Zero();  // the anchor's [m/s]
-  linear::Vector<2> swing = linear::Vector<2>::Zero();     // the point's velocity relative to the anchor [m/s]
+  linear::Vector<2> swing = linear::Vector<2>::Zero();     // matter's velocity there, relative to the anchor [m/s]
+  linear::Vector<2> by_rate = linear::Vector<2>::Zero();   // of it, one standard deviation by the turn rate [m/s]
 };
 
 // Returns the distance of an observed point from the track's anchor, and no value if they are one point. The mounting is
