@@ -92,7 +92,15 @@ linear::Matrix<3> spread_of(const Body& body, const estimators::Estimator& estim
   outline.turn_rate = headed && body.heading.known ? body.heading.rate : 0.0;
   outline.velocity = estimate.x.segment<2>(2) - mounting.velocity +
                      outline.turn_rate * on_its_left(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
-  return spread_of(outline);
+  if (!headed) return spread_of(outline);
+  // Three headings have the moments of all of them up to the fifth (Gauss and Hermite).
+  const double heading = outline.box.heading, step = std::numbers::sqrt3 * centre.facing.sigma;
+  linear::Matrix<3> spread = 2.0 / 3.0 * spread_of(outline);
+  for (const double turned : {-step, step}) {
+    outline.box.heading = heading + turned;
+    spread += spread_of(outline) / 6.0;
+  }
+  return spread;
 }
 
 sensors::Observation with_spread(const sensors::Observation& observation, const linear::Matrix<3>& spread) {
