@@ -161,11 +161,11 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
   object.x = middle.x();
   object.y = middle.y();
   set_covariance(object, point * errors * point.transpose() + t * t.transpose() * (0.25 * spread));
-  if (size.value > config.widest_rear_m) {
+  if (size.value - size.margin > config.widest_rear_m) {
     object.seen = SeenPoint::kSide;
     set_heading(object, t, errors(1, 1));
     set_length(object, size);
-  } else if (is_a_width(config, size)) {
+  } else if (surely_a_width(config, size)) {
     object.seen = SeenPoint::kEnd;
     set_heading(object, n, errors(1, 1));
     set_width(object, size);
