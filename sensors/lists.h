@@ -43,16 +43,15 @@ void read_list(const nodes::host::Input& input, const std::array<std::size_t, kC
   }
 }
 
-// Writes a whole list. `values_of` returns an element's signals in the order of `signals`.
-template <class Element, std::size_t kCount, class ValuesOf>
-void write_list(nodes::host::Output& out, std::uint32_t sequence, GlobalTime at,
-                const std::array<std::size_t, kCount>& signals, const std::vector<Element>& elements,
-                ValuesOf values_of) {
+// Writes a whole list. `values_of` returns an element's values, an array in the order of `signals`. Signals may end earlier.
+template <class Element, class Signals, class ValuesOf>
+void write_list(nodes::host::Output& out, std::uint32_t sequence, GlobalTime at, const Signals& signals,
+                const std::vector<Element>& elements, ValuesOf values_of) {
   const auto count = static_cast<int>(elements.size());
   out.begin(sequence, count, at);
   for (int i = 0; i < count; ++i) {
-    const std::array<double, kCount> values = values_of(elements[static_cast<std::size_t>(i)]);
-    for (std::size_t s = 0; s < kCount; ++s) out.set(i, signals[s], values[s]);
+    const auto values = values_of(elements[static_cast<std::size_t>(i)]);
+    for (std::size_t s = 0; s < signals.size(); ++s) out.set(i, signals[s], values[s]);
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "fusion/config/classes.h"
 #include "nodes/host/signals.h"
 #include "nodes/host/step.h"
+#include "sensors/silhouette_signals.h"
 
 namespace ttf::sensors {
 namespace {
@@ -25,6 +27,13 @@ ttf::fusion::sensors::SeenPoint seen_point(int valid) {
   }
 }
 
+// A code that is no class is none.
+void take_class(ttf::fusion::sensors::Observation& observation, double code) {
+  if (code >= ttf::fusion::config::kClassCount) return;
+  observation.class_id = static_cast<ttf::fusion::sensors::ClassId>(code);
+  observation.score = 1.0;
+}
+
 }  // namespace
 
 ObservationCodec::ObservationCodec(const schedules::model::Cluster& cluster, PduId pdu)
@@ -38,10 +47,7 @@ ObservationCodec::ObservationCodec(const schedules::model::Cluster& cluster, Pdu
                                                 {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width",
                                                  "heading", "sigma_heading", "length", "sigma_length", "valid"});
       break;
-    case Form::kPosition:
-      signals_ = nodes::host::bind_elements<7>(cluster, *layout_,
-                                               {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
-      break;
+    case Form::kPosition: signals_ = bind_silhouettes(cluster, *layout_); break;
     case Form::kRadar:
       returns_ = schedules::model::find_signal(layout_->element, "returns");
       signals_ = returns_ ? nodes::host::bind_elements<7>(cluster, *layout_,
@@ -91,6 +97,7 @@ void ObservationCodec::decode(const bus::cni::ListView& list,
         observation.has_span = true;
         observation.span = value(5);
         observation.sigma_span = sigma(6);
+        if (signals_.size() > kClassSignal) take_class(observation, value(kClassSignal));
       } else {
         observation.width = value(5);
         observation.sigma_width = sigma(6);

@@ -17,6 +17,7 @@ inline constexpr int kValidHeading = 1, kValidLength = 2, kValidWidth = 4, kVali
 // A codec is bound to a PDU once. A layout with x and y has positions: x, y, their covariance, and either
 // heading and extent or the angle that the outline spans. Otherwise it has radar detections: range, bearing,
 // range_rate and their sigmas. If it also has `returns`, a detection is the mean of so many of the visible outline.
+// A layout with a span may have a `class` (fusion/config/classes.h), which counts once.
 //
 // The seen point of a position follows from the bits of the signal `valid`; a layout with a span locates silhouettes.
 //   heading, corner               kCorner

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/time.h"
+#include "fusion/config/classes.h"
 #include "fusion/ego/odometry.h"
 #include "fusion/oosm/kind.h"
 #include "fusion/sensors/known_sensor.h"
@@ -38,14 +39,6 @@ enum class Association : unsigned char { kNearest, kJpda };
 // The confirmation of tracks: after M observations in N lists, or from the probability that the object exists
 // (fusion/tracks/parts/existence.h).
 enum class Birth : unsigned char { kMOfN, kExistence };
-
-// The prior of objects' length and width [m]: cars. An object keeps its size, so a wrong prior is a constant error until
-// a sensor has seen both sides.
-struct Sizes {
-  double length = 4.4, length_sigma = 0.5;
-  double width = 1.8, width_sigma = 0.15;
-  double correlation = 0.0;
-};
 
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
@@ -91,7 +84,11 @@ struct TrackerConfig {
   oosm::Kind late = oosm::Kind::kRewind;
   // Spectral density of the heading's random walk [rad^2/s], beside its turn rate (fusion/tracks/body/heading.h).
   double heading_noise = 0.005;
-  Sizes sizes;
+  Sizes sizes;  // of all objects, without classes
+  std::vector<ClassPrior>
+      classes;  // of which an object is one; the first is that of an object of which nothing is measured
+  // A reported class is any other one with this probability. Reports of one sensor agree in their errors.
+  double class_confusion = 0.05;
   double extent_noise = 0.0;  // spectral density of a random walk of length and width [m^2/s]
   // The sensors' vehicle moves, and its odometry has these errors: tracks live in the odometry frame (fusion/ego/ego_path.h).
   // Absent: tracks live in the vehicle's axes.

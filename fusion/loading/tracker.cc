@@ -7,7 +7,7 @@
 namespace ttf::fusion::loading {
 
 using config::Association, config::Birth, config::BuffWaiting, config::FilterKind, config::MotionModel;
-using config::Sizes, config::SystematicErrorsAre, config::TrackerConfig;
+using config::ClassPrior, config::Sizes, config::SystematicErrorsAre, config::TrackerConfig;
 
 namespace {
 
@@ -56,15 +56,31 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
 }
 
 // As YAML: {length: 4.4, length_sigma: 0.5, width: 1.8, width_sigma: 0.15, correlation: 0}
-Sizes load_sizes(YamlMap yaml) {
-  Sizes s;
+Sizes load_sizes(YamlMap& yaml, Sizes s) {
   s.length = yaml.number_or("length", s.length, {0.1, 20.0}, "m");
   s.length_sigma = yaml.number_or("length_sigma", s.length_sigma, {0.01, 5.0}, "m");
   s.width = yaml.number_or("width", s.width, {0.1, 5.0}, "m");
   s.width_sigma = yaml.number_or("width_sigma", s.width_sigma, {0.01, 2.0}, "m");
   s.correlation = yaml.number_or("correlation", s.correlation, {-0.99, 0.99});
-  yaml.finish();
   return s;
+}
+
+// As YAML: {car: {share: 0.9}, truck: {length: 16.5, length_sigma: 0.5}}. What an entry omits is the class's own.
+std::vector<ClassPrior> load_classes(YamlMap yaml) {
+  std::vector<ClassPrior> classes;
+  for (const ClassPrior& usual : config::kClassPriors) {
+    const std::string name(usual.name);
+    if (!yaml.has(name)) continue;
+    YamlMap entry = yaml.map(name);
+    ClassPrior prior = usual;
+    prior.sizes = load_sizes(entry, usual.sizes);
+    prior.speed_sigma = entry.number_or("speed_sigma", usual.speed_sigma, {0.1, 100.0}, "m/s");
+    prior.share = entry.number_or("share", usual.share, {1e-6, 1.0});
+    entry.finish();
+    classes.push_back(prior);
+  }
+  yaml.finish();
+  return classes;
 }
 
 // The noise is that of the samples, and the constant errors are those of a drive (fusion/ego/odometry.h).
@@ -102,6 +118,8 @@ void load_late(YamlMap& yaml, TrackerConfig& c) {
     yaml.fail("late",
               "must be rewind unless association is nearest, birth is m_of_n and merge_probability is 0: the other "
               "methods do not reverse later decisions");
+  if (!c.classes.empty())
+    yaml.fail("late", "must be rewind with classes: the other methods do not reverse a choice among them");
   if (c.end_overlaps.value_or(false))
     yaml.fail("late", "must be rewind if overlaps is end: the other methods do not bring an ended track back");
 }
@@ -158,7 +176,15 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
         "memory for it");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
-  if (yaml.has("sizes")) c.sizes = load_sizes(yaml.map("sizes"));
+  if (auto sizes = yaml.map_if("sizes")) {
+    c.sizes = load_sizes(*sizes, c.sizes);
+    sizes->finish();
+  }
+  if (auto classes = yaml.map_if("classes")) {
+    if (yaml.has("sizes")) yaml.fail("sizes", "must be absent with classes: each class has its own");
+    c.classes = load_classes(std::move(*classes));
+    c.class_confusion = yaml.number_or("class_confusion", c.class_confusion, {1e-6, 0.8});
+  }
   if (yaml.has("odometry")) c.odometry_line = yaml.line("odometry");
   if (yaml.has("odometry")) c.odometry = load_odometry(yaml.map("odometry"));
   if (c.odometry && c.cross_noise) yaml.fail("cross_noise", "must be absent with odometry: the vehicle's axes turn");

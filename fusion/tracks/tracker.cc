@@ -107,8 +107,8 @@ void Tracker::take_in(Track& track, std::size_t column, const sensors::Observati
     estimator_->update(track.estimate, *counts);
   if (!z) return;
   parts::correct_front(track, *estimator_);
-  parts::correct_extent(track, *estimator_, *z);
   carry(track.unfiltered, *z);
+  parts::correct_extent(track, config_, *estimator_, *z);
 }
 
 }  // namespace ttf::fusion::tracks

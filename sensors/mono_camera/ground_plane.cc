@@ -4,19 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "fusion/config/classes.h"
+
 namespace ttf::sensors::mono_camera {
 namespace {
-
-struct UsualSize {
-  double length, length_sigma, width, width_sigma;  // [m]
-};
-// By sim::world::traffic::ObjectClass. Cars are as the tracker takes them by default; the others are assumed.
-constexpr std::array<UsualSize, 6> kUsual{{{4.4, 0.5, 1.8, 0.15},
-                                           {12.0, 2.5, 2.5, 0.1},
-                                           {5.5, 0.5, 2.0, 0.1},
-                                           {2.2, 0.2, 0.8, 0.1},
-                                           {1.8, 0.1, 0.6, 0.1},
-                                           {0.5, 0.1, 0.6, 0.1}}};
 
 double squared(double a) { return a * a; }
 
@@ -28,7 +19,7 @@ struct Shown {
 
 // With the nearest corner `range` away. Both faces in view run from it: the side to (L |c|, +-L |s|), the end to
 // (W |s|, -+W |c|), along and across the line of sight.
-Shown shown_by(const UsualSize& size, double c, double s, double range, double bearing) {
+Shown shown_by(const ttf::fusion::config::Sizes& size, double c, double s, double range, double bearing) {
   const double side = s < 0.0 ? -1.0 : 1.0, along = std::abs(c), across = std::abs(s);
   const double x1 = size.length * along, y1 = size.length * across, x2 = size.width * across, y2 = size.width * along;
   const double by_length = y1 / (range + x1), by_width = y2 / (range + x2);
@@ -78,13 +69,15 @@ CameraObject GroundPlane::locate(const PictureBox& box) const {
   const double low = -std::atan(box.right / f), high = -std::atan(box.left / f), bearing = 0.5 * (low + high);
   const double by_left = f / (squared(f) + squared(box.left)), by_right = f / (squared(f) + squared(box.right));
   CameraObject object;
+  object.class_code = box.class_code;
   object.span = high - low;
   object.sigma_span = k_.column_sigma_px * std::hypot(by_left, by_right);
 
   const double c = std::cos(bearing), s = std::sin(bearing), range = depth / c;
   const double along = (squared(by_row * k_.row_sigma_px) + squared(by_angle * k_.pitch_sigma_rad)) / squared(c);
   const auto code = static_cast<std::size_t>(box.class_code);
-  const UsualSize& usual = kUsual[code < kUsual.size() ? code : 0];
+  const ttf::fusion::config::Sizes& usual =
+      ttf::fusion::config::kClassPriors[code < ttf::fusion::config::kClassCount ? code : 0].sizes;
   double sum = 0.0, mean = 0.0, squares = 0.0;
   for (const Turn& turn : turns_) {
     const Shown shown = shown_by(usual, turn.c, turn.s, range, bearing);

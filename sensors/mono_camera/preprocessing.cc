@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensors/silhouette_signals.h"
 #include "sensors/stereo_camera/preprocessing.h"
 
 namespace ttf::sensors::mono_camera {
@@ -11,9 +12,8 @@ MonoCameraPreprocessing::MonoCameraPreprocessing(const schedules::model::Cluster
                                                  const schedules::model::Task& task, const MonoCalibration& calibration)
     : Preprocessing(cluster, task), raw_(nodes::host::bind_element<5>(cluster, layout_read(cluster, task, "raw"),
                                                                       {"left", "right", "bottom", "top", "class"})),
-      signals_(nodes::host::bind_element<7>(cluster, layout_written(cluster, task, "objects"),
-                                            stereo_camera::kSilhouetteSignals)),
-      plane_(calibration), objects_port_(*place_of_port(task.writes, "objects")) {
+      signals_(bind_silhouettes(cluster, layout_written(cluster, task, "objects"))), plane_(calibration),
+      objects_port_(*place_of_port(task.writes, "objects")) {
   objects_.reserve(static_cast<std::size_t>(layout_read(cluster, task, "raw").max_elements));
   const auto in = place_of_port(task.reads, "marks"), out = place_of_port(task.writes, "lanes");
   if (!in || !out) return;

@@ -21,8 +21,8 @@ struct ListedLanes {
   std::vector<SeenMark> marks;
 };
 
-// Ports: `raw` (left, right, bottom, top, class) -> `objects` (position and its covariance, span of the silhouette). A camera of
-// lanes has also `marks` (offset, heading, curvature) -> `lanes` (the same with their sigmas and the validity). The device
+// Ports: `raw` (left, right, bottom, top, class) -> `objects` (position and its covariance, span of the silhouette, and the
+// class if the list has one). A camera of lanes has also `marks` (offset, heading, curvature) -> `lanes` (the same with their sigmas and the validity). The device
 // sends the marks before the boxes. Marks of another picture are left out.
 class MonoCameraPreprocessing final : public Preprocessing {
  public:
@@ -34,7 +34,7 @@ class MonoCameraPreprocessing final : public Preprocessing {
   void process_lanes(nodes::host::StepContext& context, const nodes::host::Strobe& measurement);
 
   std::array<std::size_t, 5> raw_;
-  std::array<std::size_t, 7> signals_;
+  std::vector<std::size_t> signals_;
   GroundPlane plane_;
   std::size_t objects_port_;
   std::vector<CameraObject> objects_;

@@ -9,12 +9,9 @@
 
 namespace ttf::sensors::stereo_camera {
 
-// The lists of silhouettes that cameras of all kinds have.
-inline constexpr std::array<std::string_view, 7> kSilhouetteSignals{"x",           "y",    "sigma_x",   "sigma_y",
-                                                                    "correlation", "span", "sigma_span"};
-// Writes the nearest silhouettes, as many as the list holds.
+// Writes the nearest silhouettes, as many as the list holds. `signals` are those of the layout (sensors/silhouette_signals.h).
 void write_silhouettes(nodes::host::Output& out, const nodes::host::Strobe& measurement,
-                       const std::array<std::size_t, 7>& signals, std::vector<CameraObject>& objects);
+                       const std::vector<std::size_t>& signals, std::vector<CameraObject>& objects);
 
 // Ports: `raw` (bearing, disparity, width) -> `objects` (position and its covariance, span of the silhouette).
 class CameraPreprocessing final : public Preprocessing {
@@ -26,7 +23,7 @@ class CameraPreprocessing final : public Preprocessing {
   void process(nodes::host::StepContext& context, const nodes::host::Strobe& measurement) override;
 
   std::array<std::size_t, 3> raw_;
-  std::array<std::size_t, 7> signals_;
+  std::vector<std::size_t> signals_;
   CameraCalibration calibration_;
   std::vector<CameraObject> objects_;
 };

@@ -187,7 +187,7 @@ void LateUpdates::mend(tracks::Track& track, Object& object, const tracks::Obser
   now.sigma_length = widened(z.sigma_length, walked);
   now.sigma_width = widened(z.sigma_width, walked);
   if (range > 0.0) now.sigma_span = widened(z.sigma_span, walked / (range * range));
-  tracks::parts::correct_extent(then, estimator, now);
+  tracks::parts::correct_extent(then, tracker_.config(), estimator, now);
   track.extent = then.extent;
   track.shown = then.shown;
   if (referred.moved) {

@@ -77,6 +77,26 @@ double angle_subtended(double range, double aspect, const Eigen::Vector2d& size)
   return corners ? corners->angle() : 0.0;
 }
 
+// The span that an extent lets one expect, with its variance by the sizes and that of the errors that repeat.
+struct ExpectedSpan : Subtended {
+  double variance, repeating;
+};
+
+// Returns no value if the aspect is unknown, or if the outline surrounds the sensor.
+std::optional<ExpectedSpan> expected_span(const Extent& extent, const Aspect& aspect) {
+  if (aspect.sigma_angle > kWorstAspectSigma) return std::nullopt;
+  const Subtended expected = subtended(aspect.range, aspect.angle, extent.size);
+  if (expected.angle <= 0.0) return std::nullopt;
+  // Seen end on, the span has a kink: it is smallest there and grows to either side. So the larger difference
+  // stands for the derivative.
+  const double left = angle_subtended(aspect.range, aspect.angle + aspect.sigma_angle, extent.size),
+               right = angle_subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size);
+  const double by_aspect = std::max(std::abs(left - expected.angle), std::abs(right - expected.angle));
+  const double by_range = expected.angle * aspect.sigma_range / aspect.range;
+  return ExpectedSpan{expected, expected.by_size.dot(extent.covariance * expected.by_size),
+                      by_aspect * by_aspect + by_range * by_range};
+}
+
 }  // namespace
 
 Extent::Extent(const config::Sizes& prior) : size(prior.length, prior.width) {
@@ -117,21 +137,20 @@ Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
   return {corners->angle(), corners->by_size(corners->high) - corners->by_size(corners->low)};
 }
 
+std::optional<double> log_density_of_span(const Extent& extent, const Aspect& aspect, double span, double sigma) {
+  const std::optional<ExpectedSpan> expected = expected_span(extent, aspect);
+  if (!expected) return std::nullopt;
+  const double variance = expected->variance + sigma * sigma + expected->repeating, nu = span - expected->angle;
+  return -0.5 * (nu * nu / variance + std::log(variance));
+}
+
 void correct_span(Extent& extent, const Aspect& aspect, double span, double sigma) {
-  if (aspect.sigma_angle > kWorstAspectSigma) return;
-  const Subtended expected = subtended(aspect.range, aspect.angle, extent.size);
-  if (expected.angle <= 0.0) return;
-  // Seen end on, the span has a kink: it is smallest there and grows to either side. So the larger difference
-  // stands for the derivative.
-  const double left = angle_subtended(aspect.range, aspect.angle + aspect.sigma_angle, extent.size),
-               right = angle_subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size);
-  const double by_aspect = std::max(std::abs(left - expected.angle), std::abs(right - expected.angle));
-  const double by_range = expected.angle * aspect.sigma_range / aspect.range;
-  double repeating = by_aspect * by_aspect + by_range * by_range;
-  const double before = expected.by_size.dot(extent.covariance * expected.by_size);
-  const double nu = span - expected.angle;
-  if (nu * nu > kCompatible * kCompatible * (before + sigma * sigma + repeating)) return;
-  Eigen::Vector2d by_size = expected.by_size;
+  const std::optional<ExpectedSpan> expected = expected_span(extent, aspect);
+  if (!expected) return;
+  double repeating = expected->repeating;
+  const double nu = span - expected->angle;
+  if (nu * nu > kCompatible * kCompatible * (expected->variance + sigma * sigma + repeating)) return;
+  Eigen::Vector2d by_size = expected->by_size;
   const double foreshortening[] = {std::abs(std::sin(aspect.angle)), std::abs(std::cos(aspect.angle))};
   for (Eigen::Index k = 0; k < 2; ++k)
     if (foreshortening[k] < kFlattest * aspect.sigma_angle) {

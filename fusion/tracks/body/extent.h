@@ -17,6 +17,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "fusion/config/tracker_config.h"
 
@@ -51,6 +52,10 @@ struct Aspect {
   double range = 0.0, sigma_range = 0.0;
   double angle = 0.0, sigma_angle = 0.0;
 };
+
+// Returns the logarithm of the probability density of a measured span with sigma > 0, [rad], up to a constant. Returns no value
+// where the span is not used: if the aspect's sigma exceeds 0.3 rad, or if the outline surrounds the sensor.
+std::optional<double> log_density_of_span(const Extent& extent, const Aspect& aspect, double span, double sigma);
 
 // Updates by a measured span with sigma > 0, [rad], white. A side that is foreshortened to less than four
 // sigmas of the aspect is not updated: its size would be the ratio of two unknowns. The span is not used if the

@@ -2,6 +2,7 @@
 
 #include "fusion/tracks/body/distance.h"
 #include "fusion/tracks/body/returns.h"
+#include "fusion/tracks/parts/classes.h"
 #include "fusion/tracks/parts/extents.h"
 
 namespace ttf::fusion::tracks::parts {
@@ -10,13 +11,13 @@ Track born(const sensors::Observation& z, const ObservationId& id, const config:
            const estimators::Estimator& estimator) {
   Track track;
   track.birth = track.newest = id;
-  track.extent = body::Extent(config.sizes);
+  track.extent = body::Extent(prior_of(track, config));
   track.estimate = estimator.initial(z.returns > 0 ? with_spread(z, track.extent) : z);
   track.anchor = body::first_anchor(z, z.from);
   track.heading = body::unknown_heading(config);
   if (z.has_heading) correct(track.heading, z.heading, z.sigma_heading, z.heading);
-  correct_extent(track, estimator, z);
   carry(track.unfiltered, z);
+  correct_extent(track, config, estimator, z);
   track.hits = 1;
   track.lists = 1;
   if (config.birth == config::Birth::kExistence) track.existence = config.initial_existence * z.weight;

@@ -4,6 +4,7 @@
 
 #include "fusion/motion/angles.h"
 #include "fusion/tracks/body/centre.h"
+#include "fusion/tracks/parts/classes.h"
 
 namespace ttf::fusion::tracks::parts {
 namespace {
@@ -38,9 +39,11 @@ void correct_front(Track& track, const estimators::Estimator& estimator) {
     update_front(track.heading, estimators::velocity_of(estimator.cartesian(track.estimate)));
 }
 
-void correct_extent(Track& track, const estimators::Estimator& estimator, const sensors::Observation& z) {
+void correct_extent(Track& track, const config::TrackerConfig& config, const estimators::Estimator& estimator,
+                    const sensors::Observation& z) {
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
+  if (z.has_length || z.has_width) choose_class(track, config, estimator);
   if (!z.has_span) return;
   const double seen_from = (z.z.head<2>() - z.from.position).norm();
   const double shown = z.span * seen_from;
@@ -52,10 +55,12 @@ void correct_extent(Track& track, const estimators::Estimator& estimator, const 
   const body::Facing& facing = now.facing;
   const Eigen::Vector2d sight(x / range, y / range);
   const double range_variance = sight.dot(now.estimate.p * sight);
-  correct_span(
-      track.extent,
-      {range, std::sqrt(range_variance), motion::to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
-      z.sigma_span);
+  const SeenSpan span{
+      {range, std::sqrt(range_variance), motion::to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma},
+      z.span,
+      z.sigma_span};
+  choose_class(track, config, estimator, &span);
+  correct_span(track.extent, span.aspect, span.angle, span.sigma);
 }
 
 }  // namespace ttf::fusion::tracks::parts

@@ -4,6 +4,7 @@
 // The velocity tells the front. The span needs the aspect, so the extent comes last, after position, course and axis.
 #pragma once
 
+#include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/track.h"
@@ -15,7 +16,8 @@ void correct_heading(Track& track, const estimators::Estimator& estimator, const
                      double age = 0.0);
 // Remembers the front that the velocity tells after an update.
 void correct_front(Track& track, const estimators::Estimator& estimator);
-// Corrects the extent after the update by this observation.
-void correct_extent(Track& track, const estimators::Estimator& estimator, const sensors::Observation& observation);
+// Corrects the extent and the class after the update by this observation.
+void correct_extent(Track& track, const config::TrackerConfig& config, const estimators::Estimator& estimator,
+                    const sensors::Observation& observation);
 
 }  // namespace ttf::fusion::tracks::parts
