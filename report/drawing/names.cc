@@ -28,6 +28,21 @@ constexpr std::array<std::string_view, recording::log::kSensorColours.size()> kC
 constexpr std::array<Marker, recording::log::kSensorMarkers.size()> kMarkers{
     Marker::kCross, Marker::kPlus, Marker::kTriangle, Marker::kDownTriangle, Marker::kDiamond};
 
+// By SensorLook. Colours and markers take turns among the sensors of a look.
+struct LookRow {
+  std::array<std::string_view, 3> words;  // one of them is in the kind or the name
+  std::array<std::string_view, 2> colours;
+  std::array<Marker, 2> markers;
+};
+constexpr std::array<LookRow, static_cast<std::size_t>(SensorLook::kOther)> kSensorLooks{
+    {{{"laser", "lidar", "lsc"}, {kVermilion, kOrange}, {Marker::kCross, Marker::kPlus}},
+     {{"camera", "stereo", "scabor"}, {kBlue, kSkyBlue}, {Marker::kTriangle, Marker::kDownTriangle}},
+     {{"radar"}, {kGreen, kOrange}, {Marker::kDiamond, Marker::kDiamond}}}};
+
+const LookRow* row_of(SensorLook look) {
+  return look == SensorLook::kOther ? nullptr : &kSensorLooks[static_cast<std::size_t>(look)];
+}
+
 // A word that a later version of the program wrote has no place here.
 template <std::size_t kCount>
 std::optional<std::size_t> place_of(std::string_view word, const std::array<std::string_view, kCount>& words) {
@@ -106,22 +121,18 @@ Names names_of(const recording::log::LogManifest& manifest) {
 SensorLook look_of(const Names& names, SensorId sensor) {
   const recording::log::SensorStyle* style = style_of(names, sensor);
   const std::string name = lower(style != nullptr && !style->kind.empty() ? style->kind : names.sensor(sensor));
-  const auto contains = [&](const char* part) { return name.find(part) != std::string::npos; };
-  if (contains("laser") || contains("lidar") || contains("lsc")) return SensorLook::kLaser;
-  if (contains("camera") || contains("stereo") || contains("scabor")) return SensorLook::kCamera;
-  return contains("radar") ? SensorLook::kRadar : SensorLook::kOther;
+  const auto is_there = [&](std::string_view word) { return !word.empty() && name.find(word) != std::string::npos; };
+  const auto row =
+      std::ranges::find_if(kSensorLooks, [&](const LookRow& one) { return std::ranges::any_of(one.words, is_there); });
+  return static_cast<SensorLook>(row - kSensorLooks.begin());
 }
 
 std::string sensor_colour(const Names& names, SensorId sensor) {
   if (const recording::log::SensorStyle* style = style_of(names, sensor))
     if (const auto place = place_of(style->colour, recording::log::kSensorColours))
       return std::string(kColours[*place]);
-  switch (look_of(names, sensor)) {
-    case SensorLook::kLaser: return one_of_kind({kVermilion, kOrange}, place_in_kind(names, sensor));
-    case SensorLook::kCamera: return one_of_kind({kBlue, kSkyBlue}, place_in_kind(names, sensor));
-    case SensorLook::kRadar: return one_of_kind({kGreen, kOrange}, place_in_kind(names, sensor));
-    case SensorLook::kOther: break;
-  }
+  if (const LookRow* row = row_of(look_of(names, sensor)))
+    return one_of_kind(row->colours, place_in_kind(names, sensor));
   const std::string others[] = {std::string(kPurple), std::string(kSkyBlue), std::string(kOrange)};
   return others[index_of(sensor) % 3];
 }
@@ -129,14 +140,8 @@ std::string sensor_colour(const Names& names, SensorId sensor) {
 Marker sensor_marker(const Names& names, SensorId sensor) {
   if (const recording::log::SensorStyle* style = style_of(names, sensor))
     if (const auto place = place_of(style->marker, recording::log::kSensorMarkers)) return kMarkers[*place];
-  const bool first = place_in_kind(names, sensor) % 2 == 0;
-  switch (look_of(names, sensor)) {
-    case SensorLook::kLaser: return first ? Marker::kCross : Marker::kPlus;
-    case SensorLook::kCamera: return first ? Marker::kTriangle : Marker::kDownTriangle;
-    case SensorLook::kRadar: return Marker::kDiamond;
-    case SensorLook::kOther: break;
-  }
-  return Marker::kDownTriangle;
+  const LookRow* row = row_of(look_of(names, sensor));
+  return row ? row->markers[place_in_kind(names, sensor) % 2] : Marker::kDownTriangle;
 }
 
 // A PDU without a sensor gets a colour that the sensors leave free.
