@@ -1,7 +1,14 @@
+#include <algorithm>
+#include <array>
+
 #include "keys/descriptions.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::keys {
 namespace {
+
+using schedules::model::kSensorKinds;
+using schedules::model::SensorKindRow;
 
 // Every sensor has these, whatever its kind.
 constexpr Description kSensor[] = {
@@ -215,19 +222,20 @@ constexpr Description kKnownSensor[] = {
     {"bias_sigma.time", "The unknown bias of its time stamps has this standard deviation."},
 };
 
+constexpr std::array<KindDescriptions, kSensorKinds.size()> kKinds{
+    {{"camera", kCamera, kCameraPreprocessing},
+     {"laser", kLaser, kLaserPreprocessing},
+     {"radar", kRadar, kRadarPreprocessing},
+     {"mono_camera", kMonoCamera, kMonoCameraPreprocessing},
+     {"odometry", kOdometry, kOdometryPreprocessing}}};
+static_assert(std::ranges::is_permutation(kKinds, kSensorKinds, {}, &KindDescriptions::word, &SensorKindRow::word),
+              "each kind of sensors has its descriptions");
+
 }  // namespace
 
 Descriptions sensor_descriptions() { return kSensor; }
-Descriptions laser_descriptions() { return kLaser; }
-Descriptions camera_descriptions() { return kCamera; }
-Descriptions radar_descriptions() { return kRadar; }
-Descriptions mono_camera_descriptions() { return kMonoCamera; }
-Descriptions odometry_descriptions() { return kOdometry; }
-Descriptions odometry_preprocessing_descriptions() { return kOdometryPreprocessing; }
+std::span<const KindDescriptions> kind_descriptions() { return kKinds; }
 Descriptions laser_preprocessing_descriptions() { return kLaserPreprocessing; }
-Descriptions camera_preprocessing_descriptions() { return kCameraPreprocessing; }
-Descriptions radar_preprocessing_descriptions() { return kRadarPreprocessing; }
-Descriptions mono_camera_preprocessing_descriptions() { return kMonoCameraPreprocessing; }
 Descriptions known_sensor_descriptions() { return kKnownSensor; }
 
 }  // namespace ttf::keys

@@ -15,18 +15,16 @@ struct Description {
 };
 using Descriptions = std::span<const Description>;
 
+// The keys of a kind's sensors, and those of their preprocessing.
+struct KindDescriptions {
+  std::string_view word;  // in files, the kind's
+  Descriptions sensor, preprocessing;
+};
+
 Descriptions scenario_descriptions();
-Descriptions sensor_descriptions();  // below a sensor of a scenario, whatever its kind
-Descriptions laser_descriptions();
-Descriptions camera_descriptions();
-Descriptions radar_descriptions();
-Descriptions mono_camera_descriptions();
+Descriptions sensor_descriptions();                     // below a sensor of a scenario, whatever its kind
+std::span<const KindDescriptions> kind_descriptions();  // the first kind says the meaning of a key that several have
 Descriptions laser_preprocessing_descriptions();
-Descriptions camera_preprocessing_descriptions();
-Descriptions radar_preprocessing_descriptions();
-Descriptions mono_camera_preprocessing_descriptions();
-Descriptions odometry_descriptions();
-Descriptions odometry_preprocessing_descriptions();
 Descriptions ego_descriptions();            // below `world.ego`
 Descriptions road_descriptions();           // below `world.road`
 Descriptions traffic_light_descriptions();  // below `world.traffic_lights[]`

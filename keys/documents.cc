@@ -1,16 +1,17 @@
 #include "keys/documents.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "experiments/campaign/file.h"
 #include "experiments/sweep/file.h"
 #include "faults/plan.h"
 #include "recording/replay/config.h"
 #include "schedules/file/loader.h"
-#include "schedules/model/cluster.h"
 #include "schedules/synthesis/plan/loader.h"
 #include "sensors/laser/recorded_scans.h"
 #include "sim/drives/scenario.h"
@@ -48,37 +49,32 @@ std::vector<Chapter> scenario_chapters() {
                                 {"tracker.sensors.NAME.mounting", mounting_descriptions()},
                                 {"faults[]", fault_descriptions()}};
   for (const char* place : {"world.size", "world.objects[].size"}) chapters.push_back({place, size_descriptions()});
-  struct Kind {
-    const char* name;
-    const char* when;
-    Descriptions sensor, preprocessing;
-  };
-  const std::array<Kind, schedules::model::kSensorKinds.size()> kinds{
-      {{"camera", "kind=camera", camera_descriptions(), camera_preprocessing_descriptions()},
-       {"laser", "kind=laser", laser_descriptions(), laser_preprocessing_descriptions()},
-       {"radar", "kind=radar", radar_descriptions(), radar_preprocessing_descriptions()},
-       {"mono_camera", "kind=mono_camera", mono_camera_descriptions(), mono_camera_preprocessing_descriptions()},
-       {"odometry", "kind=odometry", odometry_descriptions(), odometry_preprocessing_descriptions()}}};
-  for (const Kind& kind : kinds) chapters.push_back({std::string("preprocessing.") + kind.name, kind.preprocessing});
+  for (const KindDescriptions& kind : kind_descriptions())
+    chapters.push_back({fmt::format("preprocessing.{}", kind.word), kind.preprocessing});
   // A kind's own entry, or that of any name.
-  const auto add_sensor = [&](const std::string& name) {
-    const std::string place = "sensors." + name;
+  const auto add_sensor = [&](std::string_view name) {
+    const std::string place = fmt::format("sensors.{}", name);
     chapters.push_back({place, sensor_descriptions()});
     chapters.push_back({place + ".mounting", mounting_descriptions()});
-    for (const Kind& kind : kinds) {
+    for (const KindDescriptions& kind : kind_descriptions()) {
       const bool any = name == kAnyName;
-      if (!any && name != kind.name) continue;
-      const char* when = any ? kind.when : "";
+      if (!any && name != kind.word) continue;
+      const std::string when = any ? fmt::format("kind={}", kind.word) : "";
       chapters.push_back({place, kind.sensor, when});
       chapters.push_back({place + ".preprocessing", kind.preprocessing, when});
     }
   };
-  for (const Kind& kind : kinds) add_sensor(kind.name);
+  for (const KindDescriptions& kind : kind_descriptions()) add_sensor(kind.word);
   add_sensor(kAnyName);
   // Keys within a mapping that one kind alone has need no condition.
-  const std::string any = std::string("sensors.") + kAnyName;
-  chapters.push_back({any, mono_camera_descriptions()});
-  chapters.push_back({any + ".preprocessing", mono_camera_preprocessing_descriptions()});
+  const auto add_within = [&](std::string place, Descriptions rows) {
+    if (std::ranges::any_of(rows, [](const Description& row) { return row.key.find('.') != row.key.npos; }))
+      chapters.push_back({std::move(place), rows});
+  };
+  for (const KindDescriptions& kind : kind_descriptions()) {
+    add_within(fmt::format("sensors.{}", kAnyName), kind.sensor);
+    add_within(fmt::format("sensors.{}.preprocessing", kAnyName), kind.preprocessing);
+  }
   return chapters;
 }
 

@@ -15,7 +15,7 @@ namespace ttf::keys {
 struct Chapter {
   std::string place;
   Descriptions rows;
-  std::string_view when = "";  // as of a description, for all of them
+  std::string when = "";  // as of a description, for all of them
 };
 
 struct Document {
