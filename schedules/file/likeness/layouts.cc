@@ -42,6 +42,12 @@ const std::vector<Field> kScanHeader{{"sequence", "", 16}, {"fragment", "", 8}, 
 const std::vector<Field> kListHeader{
     {"sequence", "", 16}, {"fragment", "", 8}, {"count", "", 8}, {"timestamp", "us", 32}};
 
+// One of a camera's objects.
+const std::vector<Field> kSilhouette{{"x", "m", 16, -163.84, 0.005},        {"y", "m", 16, -163.84, 0.005},
+                                     {"sigma_x", "m", 14, 0, 0.002},        {"sigma_y", "m", 14, 0, 0.002},
+                                     {"correlation", "", 8, -1, 0.0078125}, {"span", "rad", 12, 0, 0.0005},
+                                     {"sigma_span", "rad", 8, 0, 0.0002},   {"spare", "", 8}};
+
 KnownLayouts laser() {
   return {layout(64, 1300, 14, kScanHeader,
                  {{"layer", "", 2}, {"azimuth", "rad", 14, -1.6384, 0.0002}, {"range", "m", 16, 0, 0.005, 200}}),
@@ -64,15 +70,7 @@ KnownLayouts camera() {
   return {
       layout(8, 40, 1, {{"sequence", "", 12}, {"fragment", "", 6}, {"count", "", 6}},
              {{"bearing", "rad", 14, -0.8192, 0.0001}, {"disparity", "px", 14, 0, 0.01}, {"width", "px", 12, 0, 0.25}}),
-      layout(56, 25, 4, kListHeader,
-             {{"x", "m", 16, -163.84, 0.005},
-              {"y", "m", 16, -163.84, 0.005},
-              {"sigma_x", "m", 14, 0, 0.002},
-              {"sigma_y", "m", 14, 0, 0.002},
-              {"correlation", "", 8, -1, 0.0078125},
-              {"span", "rad", 12, 0, 0.0005},
-              {"sigma_span", "rad", 8, 0, 0.0002},
-              {"spare", "", 8}})};
+      layout(56, 25, 4, kListHeader, kSilhouette)};
 }
 
 KnownLayouts radar() {
@@ -91,6 +89,17 @@ KnownLayouts radar() {
                   {"returns", "", 4}})};
 }
 
+KnownLayouts mono_camera() {
+  return {layout(64, 16, 8, kScanHeader,
+                 {{"left", "px", 13, -1024, 0.25},
+                  {"right", "px", 13, -1024, 0.25},
+                  {"bottom", "px", 12, -512, 0.25},
+                  {"top", "px", 12, -512, 0.25},
+                  {"class", "", 4},
+                  {"spare", "", 2}}),
+          layout(56, 8, 4, kListHeader, kSilhouette)};
+}
+
 }  // namespace
 
 std::optional<KnownLayouts> known_layouts(model::SensorKind kind) {
@@ -98,7 +107,7 @@ std::optional<KnownLayouts> known_layouts(model::SensorKind kind) {
     case model::SensorKind::kLaser: return laser();
     case model::SensorKind::kCamera: return camera();
     case model::SensorKind::kRadar: return radar();
-    case model::SensorKind::kMonoCamera:
+    case model::SensorKind::kMonoCamera: return mono_camera();
     case model::SensorKind::kOdometry: return std::nullopt;
   }
   return std::nullopt;

@@ -15,7 +15,7 @@ struct KnownLayouts {
   model::PduLayout raw, objects;
 };
 
-// Returns nothing for kinds whose lists have no layout of their own.
+// Returns nothing for a kind that cannot be copied: no task would take a second list of odometry.
 std::optional<KnownLayouts> known_layouts(model::SensorKind kind);
 std::vector<std::pair<std::string_view, model::SensorKind>> known_kinds();  // those with layouts
 

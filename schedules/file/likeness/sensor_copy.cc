@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/counted.h"
+#include "schedules/analysis/can_load.h"
 #include "schedules/file/likeness/layouts.h"
 #include "schedules/left_out/tasks.h"
 #include "schedules/model/limits.h"
@@ -70,6 +71,7 @@ class Copier {
         return like(fmt::format("needs {} of {}, which has {} of at most {}", counted(more, "more task"), nodes[n].name,
                                 nodes[n].tasks.size(), model::kMostTasks));
     if (auto refused = too_many()) return refused;
+    if (auto refused = too_long()) return refused;
     return no_key_slot();
   }
 
@@ -160,6 +162,21 @@ class Copier {
         return Refusal{raw ? "raw" : "objects",
                        fmt::format("must be at most {}: the list's header holds no more", most)};
     }
+    return std::nullopt;
+  }
+
+  // Another kind's raw data may need a CAN with a flexible data rate.
+  std::optional<Refusal> too_long() const {
+    if (!known_) return std::nullopt;
+    for (const model::CanBus& bus : cluster_.can_buses)
+      for (const model::CanMessage& message : bus.messages) {
+        if (!own(message.pdu)) continue;
+        const int bytes = made_layout(index_of(message.pdu)).fragment_bytes;
+        if (!analysis::can_data_length(bus.flexible_data_rate, bytes))
+          return Refusal{"kind", fmt::format("must be a kind whose frames fit {}: they have {} bytes, and it takes at "
+                                             "most {}",
+                                             bus.name, bytes, bus.flexible_data_rate ? 64 : 8)};
+      }
     return std::nullopt;
   }
 
