@@ -4,6 +4,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "core/strict_yaml.h"
@@ -21,6 +22,14 @@ struct SensorSteps {
   schedules::model::StepPorts emulator, preprocessing;
 };
 
+// The part of an object that an observation shows, as far as the expected error of a drive takes it
+// (experiments/sweep/expected_drive.h).
+enum class Shows : std::uint8_t {
+  kNothing,
+  kFace,       // the ends of a face, and its direction
+  kSilhouette  // a width in the picture; Preprocessing has focal_px and width_sigma_px
+};
+
 // `Model` is the sensor as the world emulates it, `Preprocessing` what its host assumes of it.
 template <class Kind>
 concept IsKind = requires(YamlMap& yaml, const typename Kind::Model& model, const sim::world::Weather& weather) {
@@ -33,6 +42,7 @@ concept IsKind = requires(YamlMap& yaml, const typename Kind::Model& model, cons
   { Kind::field_of(model) } -> std::same_as<std::optional<fusion::sensors::Field>>;
   // The span up to whose multiples range rates are known [m/s]; none for a kind without range rates.
   { Kind::rate_span(model) } -> std::same_as<std::optional<double>>;
+  { Kind::kShows } -> std::convertible_to<Shows>;
   { Kind::kSteps[0] } -> std::convertible_to<SensorSteps>;
   requires std::constructible_from<typename Kind::EmulatorStep, const EmulatorConfig&, const typename Kind::Model&>;
   requires std::constructible_from<typename Kind::PreprocessingStep, const schedules::model::Cluster&,

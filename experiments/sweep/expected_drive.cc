@@ -12,6 +12,9 @@ namespace ttf::experiments::sweep {
 namespace {
 
 using evaluation::accuracy::Face;
+using sensors::Shows;
+using sensors::kinds::Sensors;
+using sensors::kinds::SensorsOfKind;
 
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 constexpr double kWorldStep_s = 0.01;  // the world draws once per step (sim/world/world.h)
@@ -69,12 +72,6 @@ bool shows_one_face(const sim::world::ObjectConfig& object, const sensors::Place
   return (std::abs(c * x + s * y) < 0.5 * least.length) != (std::abs(c * y - s * x) < 0.5 * least.width);
 }
 
-template <class Entries> bool shows_one_face(const sim::world::ObjectConfig& object, const Entries& sensors) {
-  return shows_one_face(object, sensors.usual.model.device.placement) &&
-         std::all_of(sensors.own.begin(), sensors.own.end(),
-                     [&](const auto& entry) { return shows_one_face(object, entry.model.device.placement); });
-}
-
 bool knows_size(const fusion::config::Sizes& prior, const sim::world::ObjectConfig& object) {
   return object.size.draw == sim::world::SizeDraw::kNominal && std::abs(prior.length - object.length) < kKnown_m &&
          std::abs(prior.width - object.width) < kKnown_m && prior.length_sigma <= kKnown_m &&
@@ -83,7 +80,13 @@ bool knows_size(const fusion::config::Sizes& prior, const sim::world::ObjectConf
 
 bool shows_one_face(const sim::drives::Scenario& scenario) {
   const sim::world::ObjectConfig& object = scenario.world.objects.front();
-  return shows_one_face(object, scenario.sensors.lasers) && shows_one_face(object, scenario.sensors.cameras);
+  bool alone = true;
+  Sensors::each(scenario.sensors, [&]<class Kind>(const SensorsOfKind<Kind>& kind) {
+    if (Kind::kShows == Shows::kNothing) return;
+    alone = alone && shows_one_face(object, kind.usual.model.device.placement);
+    for (const auto& entry : kind.own) alone = alone && shows_one_face(object, entry.model.device.placement);
+  });
+  return alone;
 }
 
 Face face_in_view(const sim::world::ObjectConfig& object) {
@@ -147,45 +150,53 @@ double ExpectedError::mean_of(double sum) const {
 
 Eigen::Index ExpectedError::hidden() const { return face_ == Face::kRear || face_ == Face::kFront ? 0 : 1; }
 
-// Both ends of a face err alike. So the variance of their distance is four times that of their middle.
+sensors::Shows ExpectedError::shows(const Seen& seen) const {
+  return Sensors::of_kind(sensors_, of_cluster_.at(index_of(seen.id.sensor)).kind,
+                          []<class Kind>(const SensorsOfKind<Kind>&) { return Kind::kShows; });
+}
+
 std::optional<SizeLook> ExpectedError::size_seen(const Seen& seen) const {
-  const std::size_t index = index_of(seen.id.sensor);
-  const schedules::model::Sensor& sensor = of_cluster_.at(index);
-  switch (sensor.kind) {
-    case schedules::model::SensorKind::kLaser: {
-      const Eigen::Vector2d across = direction(seen.heading + inward(face_) + kQuarter);
-      const double variance = 4.0 * across.dot(seen.noise * across);
-      return SizeLook{index, Eigen::Vector2d::Unit(shown()), (1.0 - kRepeating) * variance, kRepeating * variance};
-    }
-    // The width in the picture depends on the estimated range and heading, whose errors repeat. At the edge of the face the
-    // next one appears, so that the larger difference counts.
-    case schedules::model::SensorKind::kCamera: {
-      const sensors::Placement& place = sensors_.cameras.of(sensor.name).model.device.placement;
-      const sensors::stereo_camera::CameraCalibration& camera = sensors_.cameras.preprocessing_of(sensor.name);
-      const Eigen::Vector2d way = seen.at - Eigen::Vector2d(place.x, place.y);
-      const double range = way.norm(), bearing = std::atan2(way.y(), way.x()) - place.heading;
-      const double sigma = camera.width_sigma_px * std::cos(bearing) / camera.focal_px * range;
-      const Facing facing = this->facing(recursion_.newest(), seen.heading, seen.speed);
-      if (facing.variance > kWorstAspect * kWorstAspect) return std::nullopt;
-      const Eigen::Matrix2d position = recursion_.believed(recursion_.newest()).topLeftCorner<2, 2>();
-      const double range_variance =
-          way.dot(position * way) / (range * range) + 0.25 * size_.believed()(hidden(), hidden());
-      const double shown_side = prior_.mean(shown()), hidden_side = prior_.mean(hidden());
-      const double by_range = shown_side / range * std::sqrt(range_variance);
-      const double by_aspect = shown_at(std::sqrt(facing.variance), range, shown_side, hidden_side) - shown_side;
-      return SizeLook{index, Eigen::Vector2d::Unit(shown()), sigma * sigma,
-                      by_range * by_range + by_aspect * by_aspect};
-    }
-    case schedules::model::SensorKind::kRadar:
-    case schedules::model::SensorKind::kMonoCamera:
-    case schedules::model::SensorKind::kOdometry: break;
-  }
-  return std::nullopt;
+  const schedules::model::Sensor& sensor = of_cluster_.at(index_of(seen.id.sensor));
+  return Sensors::of_kind(sensors_, sensor.kind,
+                          [&]<class Kind>(const SensorsOfKind<Kind>& kind) -> std::optional<SizeLook> {
+                            if constexpr (Kind::kShows == Shows::kSilhouette) {
+                              const typename Kind::Preprocessing& camera = kind.preprocessing_of(sensor.name);
+                              return silhouette_seen(seen, kind.of(sensor.name).model.device.placement, camera.focal_px,
+                                                     camera.width_sigma_px);
+                            }
+                            return Kind::kShows == Shows::kFace ? std::optional(face_seen(seen)) : std::nullopt;
+                          });
+}
+
+// Both ends of a face err alike. So the variance of their distance is four times that of their middle.
+SizeLook ExpectedError::face_seen(const Seen& seen) const {
+  const Eigen::Vector2d across = direction(seen.heading + inward(face_) + kQuarter);
+  const double variance = 4.0 * across.dot(seen.noise * across);
+  return {index_of(seen.id.sensor), Eigen::Vector2d::Unit(shown()), (1.0 - kRepeating) * variance,
+          kRepeating * variance};
+}
+
+// The width in the picture depends on the estimated range and heading, whose errors repeat. At the edge of the face the
+// next one appears, so that the larger difference counts.
+std::optional<SizeLook> ExpectedError::silhouette_seen(const Seen& seen, const sensors::Placement& place,
+                                                       double focal_px, double width_sigma_px) const {
+  const Eigen::Vector2d way = seen.at - Eigen::Vector2d(place.x, place.y);
+  const double range = way.norm(), bearing = std::atan2(way.y(), way.x()) - place.heading;
+  const double sigma = width_sigma_px * std::cos(bearing) / focal_px * range;
+  const Facing facing = this->facing(recursion_.newest(), seen.heading, seen.speed);
+  if (facing.variance > kWorstAspect * kWorstAspect) return std::nullopt;
+  const Eigen::Matrix2d position = recursion_.believed(recursion_.newest()).topLeftCorner<2, 2>();
+  const double range_variance = way.dot(position * way) / (range * range) + 0.25 * size_.believed()(hidden(), hidden());
+  const double shown_side = prior_.mean(shown()), hidden_side = prior_.mean(hidden());
+  const double by_range = shown_side / range * std::sqrt(range_variance);
+  const double by_aspect = shown_at(std::sqrt(facing.variance), range, shown_side, hidden_side) - shown_side;
+  return SizeLook{index_of(seen.id.sensor), Eigen::Vector2d::Unit(shown()), sigma * sigma,
+                  by_range * by_range + by_aspect * by_aspect};
 }
 
 // A line through returns along a face of width w: its angle has 12 / w^2 of the variance of its middle.
 void ExpectedError::take_axis(const Seen& seen) {
-  if (of_cluster_.at(index_of(seen.id.sensor)).kind != schedules::model::SensorKind::kLaser) return;
+  if (shows(seen) != Shows::kFace) return;
   const Eigen::Vector2d normal = direction(seen.heading + inward(face_));
   const double width = prior_.mean(shown());
   heading_.see(seen.measured, 12.0 * normal.dot(seen.noise * normal) / (width * width), seen.speed);

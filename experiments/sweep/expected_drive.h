@@ -69,7 +69,11 @@ class ExpectedError final : public recording::records::Sink {
     double face = 0.0, position = 0.0;  // expected squares [m^2]
   };
   double mean_of(double sum) const;
+  sensors::Shows shows(const Seen& seen) const;
   std::optional<SizeLook> size_seen(const Seen& seen) const;
+  SizeLook face_seen(const Seen& seen) const;
+  std::optional<SizeLook> silhouette_seen(const Seen& seen, const sensors::Placement& place, double focal_px,
+                                          double width_sigma_px) const;
   void take_axis(const Seen& seen);
   // The estimated heading: the variance that the tracker believes [rad^2], the derivative by the velocity across [s/m], and
   // the part of measured axes in the square of the error [rad^2].

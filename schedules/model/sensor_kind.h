@@ -1,5 +1,4 @@
-// The kinds of sensors, as far as a schedule sees them. sensors/kinds/sensors.h has the rest of each row: model, preprocessing,
-// steps, looks.
+// The kinds of sensors, as far as a schedule sees them. Model, preprocessing and steps of a kind are in its folder below sensors/.
 #pragma once
 
 #include <array>

@@ -13,10 +13,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/check.h"
@@ -59,14 +61,30 @@ template <IsKind KindOf> struct SensorsOfKind {
   }
 };
 
-// The table: a row is a member, and a line of each of the lists below.
-struct Sensors {
-  SensorsOfKind<laser::Kind> lasers;
-  SensorsOfKind<stereo_camera::Kind> cameras;
-  SensorsOfKind<radar::Kind> radars;
-  SensorsOfKind<mono_camera::Kind> mono_cameras;
-  SensorsOfKind<odometry::Kind> odometries;
+// Rows of kinds, and the lists that follow from them.
+template <IsKind... Kind> struct KindList {
+  static constexpr std::array kKinds{Kind::kKind...};
+  using OfEach = std::tuple<SensorsOfKind<Kind>...>;
 
+  static consteval auto steps() {
+    std::array<SensorSteps, (Kind::kSteps.size() + ...)> steps;
+    auto end = steps.begin();
+    ((end = std::ranges::copy(Kind::kSteps, end).out), ...);
+    return steps;
+  }
+};
+
+// The table: a place for each kind.
+using Kinds = KindList<laser::Kind, stereo_camera::Kind, radar::Kind, mono_camera::Kind, odometry::Kind>;
+static_assert(std::ranges::equal(Kinds::kKinds, schedules::model::kSensorKinds, {}, {},
+                                 &schedules::model::SensorKindRow::kind),
+              "each kind of schedules/model/sensor_kind.h has its place in the table, in the same order");
+
+// The steps of all kinds.
+inline constexpr auto kSteps = Kinds::steps();
+
+class Sensors {
+ public:
   // Defaulted in the source. Inline, each user would compile them.
   Sensors();
   Sensors(const Sensors&);
@@ -75,26 +93,20 @@ struct Sensors {
   Sensors& operator=(Sensors&&) noexcept;
   ~Sensors();
 
+  template <class Kind> SensorsOfKind<Kind>& of() { return std::get<SensorsOfKind<Kind>>(kinds_); }
+  template <class Kind> const SensorsOfKind<Kind>& of() const { return std::get<SensorsOfKind<Kind>>(kinds_); }
+
   // Calls `visit` with the SensorsOfKind of each kind.
-  template <class Self, class Visit> static void each(Self& sensors, Visit visit) {
-    visit(sensors.lasers);
-    visit(sensors.cameras);
-    visit(sensors.radars);
-    visit(sensors.mono_cameras);
-    visit(sensors.odometries);
+  template <class Self, class Visit> static void each(Self& sensors, const Visit& visit) {
+    std::apply([&](auto&... kind) { (visit(kind), ...); }, sensors.kinds_);
   }
   // Returns what `visit` returns for the SensorsOfKind of one kind.
-  template <class Self, class Visit>
-  static auto of_kind(Self& sensors, schedules::model::SensorKind kind, Visit visit)
-      -> decltype(visit(sensors.lasers)) {
-    switch (kind) {
-      case laser::Kind::kKind: return visit(sensors.lasers);
-      case stereo_camera::Kind::kKind: return visit(sensors.cameras);
-      case radar::Kind::kKind: return visit(sensors.radars);
-      case mono_camera::Kind::kKind: return visit(sensors.mono_cameras);
-      case odometry::Kind::kKind: return visit(sensors.odometries);
-    }
-    TTF_CHECK(false, "sensor kind {}", static_cast<int>(kind));
+  template <std::size_t kPlace = 0, class Self, class Visit>
+  static decltype(auto) of_kind(Self& sensors, schedules::model::SensorKind kind, const Visit& visit) {
+    if constexpr (kPlace + 1 < Kinds::kKinds.size())
+      if (kind != Kinds::kKinds[kPlace]) return of_kind<kPlace + 1>(sensors, kind, visit);
+    TTF_CHECK(kind == Kinds::kKinds[kPlace], "sensor kind {}", static_cast<int>(kind));
+    return visit(std::get<kPlace>(sensors.kinds_));
   }
 
   const Device& device_of(const schedules::model::Sensor& sensor) const;
@@ -104,6 +116,9 @@ struct Sensors {
   std::optional<fusion::sensors::Field> field_of(const schedules::model::Sensor& sensor) const;
   // Returns the span up to whose multiples its range rates are known [m/s].
   std::optional<double> rate_span(const schedules::model::Sensor& sensor) const;
+
+ private:
+  Kinds::OfEach kinds_;
 };
 
 // Changes all sensors as this weather does.
@@ -112,18 +127,6 @@ void meet(const sim::world::Weather& weather, Sensors& sensors);
 // Returns how pictures show the cluster's sensors, by SensorId. It ends with the last one that the scenario styles.
 std::vector<recording::log::SensorStyle> sensor_styles(const Sensors& sensors,
                                                        const schedules::model::Cluster& cluster);
-
-template <IsKind... Kind> consteval auto steps_of() {
-  static_assert(sizeof...(Kind) == schedules::model::kSensorKinds.size(), "each kind of sensor has its steps");
-  std::array<SensorSteps, (Kind::kSteps.size() + ...)> steps;
-  std::size_t n = 0;
-  const auto add = [&](const SensorSteps& one) { steps[n++] = one; };
-  (std::ranges::for_each(Kind::kSteps, add), ...);
-  return steps;
-}
-// The steps of all kinds.
-inline constexpr auto kSteps =
-    steps_of<laser::Kind, stereo_camera::Kind, radar::Kind, mono_camera::Kind, odometry::Kind>();
 
 // Returns the step of the task, as the scenario describes its sensor; null if no kind has it.
 std::shared_ptr<nodes::host::Step> make_step(const Sensors& sensors, const EmulatorConfig& config);

@@ -24,6 +24,7 @@ struct Kind {
                       model.device);
   }
   static std::optional<double> rate_span(const Model& model) { return model.rate_span_mps; }
+  static constexpr Shows kShows = Shows::kNothing;
   static constexpr std::array<SensorSteps, 1> kSteps{
       {{{.step = "radar_emulator", .writes = {"raw"}},
         {.step = "radar_preprocessing", .reads = {"raw"}, .writes = {"objects"}}}}};

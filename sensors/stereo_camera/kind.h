@@ -24,6 +24,7 @@ struct Kind {
                       model.device);
   }
   static std::optional<double> rate_span(const Model&) { return std::nullopt; }
+  static constexpr Shows kShows = Shows::kSilhouette;
   static constexpr std::array<SensorSteps, 1> kSteps{
       {{{.step = "camera_emulator", .writes = {"raw"}},
         {.step = "camera_preprocessing", .reads = {"raw"}, .writes = {"objects"}}}}};

@@ -215,12 +215,13 @@ void check_detection(const Scenario& scenario, const Cluster& cluster, const sch
 
 std::vector<nodes::vision::SharedCamera> pictures_of(const Scenario& scenario, const Cluster& cluster,
                                                      const Task& task) {
+  const auto& described = scenario.sensors.of<sensors::mono_camera::Kind>();
   std::vector<nodes::vision::SharedCamera> pictures;
   for (const SensorId camera : cameras_of(cluster, task)) {
     const std::string& name = cluster.sensor(camera).name;
-    const sensors::mono_camera::MonoCameraConfig& model = scenario.sensors.mono_cameras.of(name).model;
-    pictures.push_back({model.focal_px * std::tan(model.half_field_rad), model.half_height_px,
-                        scenario.sensors.mono_cameras.preprocessing_of(name)});
+    const auto& model = described.of(name).model;
+    pictures.push_back(
+        {model.focal_px * std::tan(model.half_field_rad), model.half_height_px, described.preprocessing_of(name)});
   }
   return pictures;
 }

@@ -35,7 +35,7 @@ std::vector<nodes::driving::Picture> pictures_of(const Scenario& scenario, const
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     if (!schedules::model::row_of(cluster.sensors[s].kind).pictures) continue;
     const sensors::mono_camera::MonoCameraConfig& camera =
-        scenario.sensors.mono_cameras.of(cluster.sensors[s].name).model;
+        scenario.sensors.of<sensors::mono_camera::Kind>().of(cluster.sensors[s].name).model;
     if (!camera.device.enabled || !looks_at_regions(cluster, static_cast<SensorId>(s))) continue;
     const sensors::Placement& at = camera.device.placement;
     pictures.push_back({static_cast<SensorId>(s), at.x, at.y, at.heading, camera.height_m, camera.focal_px,
@@ -89,7 +89,8 @@ std::shared_ptr<Step> lane_keeping(const StepSite& site) {
       vehicle.mass, vehicle.front_axle, vehicle.rear_axle,
       vehicle.friction * vehicle.front_stiffness * kGravity * vehicle.mass * vehicle.rear_axle / vehicle.wheelbase()};
   const PduId marks = nodes::host::binding_of(site.task.reads, "marks").pdu;
-  config.lane.ahead_m = site.scenario().sensors.mono_cameras.of(camera_of(site.cluster(), marks)).model.marks.ahead_m;
+  config.lane.ahead_m =
+      site.scenario().sensors.of<sensors::mono_camera::Kind>().of(camera_of(site.cluster(), marks)).model.marks.ahead_m;
   return std::make_shared<nodes::driving::steering::LaneKeeping>(site.cluster(), site.task, config);
 }
 

@@ -16,7 +16,7 @@ ITEM = re.compile(r"^(?:\d+\.|\*) \*\*(?P<question>[^*]+\?)\*\*(?P<answer>.*?)(?
 LEAST = 10
 # A question's links in order: the words behind each of them.
 WORDS = {
-    "How do I add a sensor kind?": ["kSteps"],
+    "How do I add a sensor kind?": ["Kinds"],
     "How do I add a service, or another step of a task?": ["WarningKind"],
     "How do I add an export?": ["kFormats"],
     "How do I add a measure?": ["evaluation/measures/table.cc"],

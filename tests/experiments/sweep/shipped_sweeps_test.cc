@@ -64,20 +64,17 @@ TEST(ShippedSweeps, CanBeDriven) {
 // Whether a sensor sees there. The whole car must be ahead of it.
 bool is_in_sight(const sim::drives::Scenario& scenario, const schedules::model::Sensor& sensor,
                  const sim::world::ObjectState& object) {
-  const auto sees = [&](const auto& model) {
-    std::vector<sim::world::ObjectState> seen{object};
-    sensors::see_from(model.device.placement, seen);
-    const double range = std::hypot(seen[0].x, seen[0].y), bearing = std::atan2(seen[0].y, seen[0].x);
-    return range > object.length && range < model.max_range_m && std::abs(bearing) < model.half_field_rad;
-  };
-  using enum schedules::model::SensorKind;
-  switch (sensor.kind) {
-    case kLaser: return sees(scenario.sensors.lasers.of(sensor.name).model);
-    case kCamera: return sees(scenario.sensors.cameras.of(sensor.name).model);
-    case kRadar: return sees(scenario.sensors.radars.of(sensor.name).model);
-    case kMonoCamera: return sees(scenario.sensors.mono_cameras.of(sensor.name).model);
-    default: return true;  // odometry sees nothing
-  }
+  return sensors::kinds::Sensors::of_kind(scenario.sensors, sensor.kind, [&](const auto& kind) {
+    const auto& model = kind.of(sensor.name).model;
+    if constexpr (requires { model.half_field_rad; }) {
+      std::vector<sim::world::ObjectState> seen{object};
+      sensors::see_from(model.device.placement, seen);
+      const double range = std::hypot(seen[0].x, seen[0].y), bearing = std::atan2(seen[0].y, seen[0].x);
+      return range > object.length && range < model.max_range_m && std::abs(bearing) < model.half_field_rad;
+    } else {
+      return true;  // odometry sees nothing
+    }
+  });
 }
 
 // All experiments with one car whose speed has a memory. All points, all replications.

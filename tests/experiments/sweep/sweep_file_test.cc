@@ -298,10 +298,10 @@ TEST(SweepFile, AKeyReachesASensorByItsName) {
       "axes:\n  noise: {keys: [sensors.right_laser.range_sigma], values: [0.1, 0.3]}\n"
       "  place: {keys: [sensors.left_laser.mounting.y], values: [1.2]}\n",
       TTF_SOURCE_DIR "/experiments/small.yaml");
-  const sensors::kinds::Sensors sensors = SweepDrives(sweep).prepare({1, 0, 0}).scenario.sensors;
-  EXPECT_EQ(sensors.lasers.of("right_laser").model.range_sigma_m, 0.3);
-  EXPECT_EQ(sensors.lasers.of("left_laser").model.range_sigma_m, 0.06);
-  EXPECT_EQ(sensors.lasers.of("left_laser").model.device.placement.y, 1.2);
+  const auto lasers = SweepDrives(sweep).prepare({1, 0, 0}).scenario.sensors.of<sensors::laser::Kind>();
+  EXPECT_EQ(lasers.of("right_laser").model.range_sigma_m, 0.3);
+  EXPECT_EQ(lasers.of("left_laser").model.range_sigma_m, 0.06);
+  EXPECT_EQ(lasers.of("left_laser").model.device.placement.y, 1.2);
   const std::string nowhere = "axes: {noise: {keys: [sensors.laser2.range_sigma], values: [0.1]}}\n";
   EXPECT_THAT(refusal(kHead + nowhere), HasSubstr("sensors.laser2.range_sigma: must be in the file"));
   EXPECT_THAT(refusal(kHead + "axes: {noise: {keys: [cluster.sensors.laser2.period], values: [80 ms]}}\n"),

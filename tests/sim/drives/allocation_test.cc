@@ -79,7 +79,7 @@ TEST_P(Allocations, NoneWithFullLists) {
       object.width = 0.4;
       drive.scenario.world.objects.push_back(object);
     }
-  drive.scenario.sensors.lasers.usual.model.half_field_rad = 0.7;
+  drive.scenario.sensors.of<sensors::laser::Kind>().usual.model.half_field_rad = 0.7;
   const AllocationsSeen seen = expect_none(drive, 290);
   EXPECT_GT(seen.most_hits, 1'200u);
 }

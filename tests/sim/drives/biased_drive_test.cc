@@ -61,7 +61,7 @@ TEST(BiasedDrive, EveryStrategyHasTheSameDrawAndEveryDriveItsOwn) {
     LaserSightings exact;
     drive.run(exact);
     plain[s] = exact.mean_x();
-    drive.scenario.sensors.lasers.usual.model.range_bias.sigma = 1.0;
+    drive.scenario.sensors.of<sensors::laser::Kind>().usual.model.range_bias.sigma = 1.0;
     drive.run(of[s]);
     const double drawn = in_drive({0.0, 1.0}, sensors::ErrorOf::kRange, {1, 0, 0}).fixed;
     EXPECT_GT(std::abs(drawn), 0.05);
@@ -78,7 +78,7 @@ TEST(BiasedDrive, AStampsErrorMovesWhatMoves) {
   drive.scenario.world.objects[0].speed = 10.0;
   LaserSightings exact, early;
   drive.run(exact);
-  drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.05;
+  drive.scenario.sensors.of<sensors::laser::Kind>().usual.model.device.time.fixed = 0.05;
   drive.run(early);
   EXPECT_NEAR(early.mean_x() - exact.mean_x(), 0.5, 0.05);
 }
@@ -115,9 +115,10 @@ TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   size.sigma = {prior.length_sigma, prior.width_sigma};
   size.correlation = prior.correlation;
   size.normal = {2.0, 7.0, 1.0, 3.0};
-  drive.scenario.sensors.lasers.usual.model.range_bias.sigma = 0.4;
-  drive.scenario.sensors.lasers.usual.model.azimuth_bias.sigma =
-      drive.scenario.sensors.cameras.usual.model.bearing_bias.sigma = 0.015;
+  sensors::laser::LaserConfig& laser = drive.scenario.sensors.of<sensors::laser::Kind>().usual.model;
+  laser.range_bias.sigma = 0.4;
+  laser.azimuth_bias.sigma = drive.scenario.sensors.of<sensors::stereo_camera::Kind>().usual.model.bearing_bias.sigma =
+      0.015;
   std::vector<fusion::sensors::KnownSensor>& sensors = drive.scenario.tracker.sensors;
   sensors.resize(2);
   sensors[0].name = "laser";
@@ -154,8 +155,8 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
     car.x = -car.x;
     car.y = -car.y;
     car.heading += std::numbers::pi;
-    behind.scenario.sensors.lasers.usual.model.device.placement.heading =
-        behind.scenario.sensors.cameras.usual.model.device.placement.heading = std::numbers::pi;
+    sensors::kinds::Sensors::each(behind.scenario.sensors,
+                                  [](auto& kind) { kind.usual.model.device.placement.heading = std::numbers::pi; });
     for (const char* name : {"laser", "camera"}) {
       fusion::sensors::KnownSensor& sensor = behind.scenario.tracker.sensors.emplace_back();
       sensor.name = name;
@@ -256,13 +257,13 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
     blocks.push_back(page.substr(from, page.find("```", from) - from));
   }
   ASSERT_EQ(blocks.size(), 6u);
-  const sensors::mono_camera::MonoCameraConfig mono =
-      parse_scenario(scenario + blocks[1], shipped("scenarios/mono.yaml")).sensors.mono_cameras.usual.model;
+  const auto mono_camera = [&](const std::string& block, const char* file) {
+    return parse_scenario(scenario + block, shipped(file)).sensors.of<sensors::mono_camera::Kind>().usual.model;
+  };
+  const sensors::mono_camera::MonoCameraConfig mono = mono_camera(blocks[1], "scenarios/mono.yaml");
   EXPECT_EQ(mono.region_count, 1u);
   EXPECT_EQ(mono.pitch.sigma, 0.001);
-  EXPECT_EQ(parse_scenario(scenario + blocks[2], shipped("scenarios/marks.yaml"))
-                .sensors.mono_cameras.usual.model.marks.miss_probability,
-            0.05);
+  EXPECT_EQ(mono_camera(blocks[2], "scenarios/marks.yaml").marks.miss_probability, 0.05);
   const std::string drawn = scenario.substr(0, scenario.find("\nworld:") + 1) + blocks[3];
   const sim::world::WorldConfig world = parse_scenario(drawn, shipped("scenarios/drawn.yaml")).world;
   EXPECT_EQ(world.acceleration_noise, 20.0);
@@ -274,14 +275,16 @@ TEST(BiasedDrive, TheDocumentedKeysLoad) {
   EXPECT_EQ(world.objects[1].length, 12.0);
   const std::string by_name = blocks[4];
   EXPECT_NE(whole("scenarios/two_lasers.yaml").find(by_name.substr(by_name.find("  right_laser"))), std::string::npos);
-  EXPECT_EQ(parse_scenario(scenario + by_name, "by_name.yaml").sensors.lasers.own.size(), 2u);
+  EXPECT_EQ(parse_scenario(scenario + by_name, "by_name.yaml").sensors.of<sensors::laser::Kind>().own.size(), 2u);
   scenario += blocks[0] + blocks[5];
   const Scenario loaded = parse_scenario(scenario, shipped("scenarios/documented.yaml"));
-  EXPECT_EQ(loaded.sensors.lasers.usual.model.device.placement.x, 3.5);
-  EXPECT_EQ(loaded.sensors.lasers.usual.model.range_bias.sigma, 0.3);
-  EXPECT_EQ(loaded.sensors.lasers.usual.model.device.time.fixed, 0.005);
-  EXPECT_EQ(loaded.sensors.cameras.usual.model.bearing_bias.fixed, -0.005);
-  EXPECT_EQ(loaded.sensors.cameras.usual.model.disparity_bias.sigma, 0.1);
+  const auto& laser = loaded.sensors.of<sensors::laser::Kind>().usual.model;
+  const auto& camera = loaded.sensors.of<sensors::stereo_camera::Kind>().usual.model;
+  EXPECT_EQ(laser.device.placement.x, 3.5);
+  EXPECT_EQ(laser.range_bias.sigma, 0.3);
+  EXPECT_EQ(laser.device.time.fixed, 0.005);
+  EXPECT_EQ(camera.bearing_bias.fixed, -0.005);
+  EXPECT_EQ(camera.disparity_bias.sigma, 0.1);
   EXPECT_EQ(loaded.tracker.systematic, fusion::config::SystematicErrorsAre::kConsidered);
   Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   const fusion::config::TrackerConfig tracker =

@@ -175,10 +175,10 @@ TEST(ClosedLoop, HasOneActuatorAndAVehicle) {
   drive.scenario.world.ego->actuator->oldest = Duration::milliseconds(280);
   EXPECT_THAT(refusal(drive), HasSubstr("world.ego.actuator.oldest = 280 ms: must be from 1 ms to below 280 ms"));
   drive = sound;
-  drive.scenario.sensors.lasers.usual.model.device.time.fixed = 0.01;
+  drive.scenario.sensors.of<sensors::laser::Kind>().usual.model.device.time.fixed = 0.01;
   EXPECT_THAT(refusal(drive), HasSubstr("the stamps of laser err"));
   drive = sound;
-  drive.scenario.sensors.odometries.usual.model.device.time.sigma = 0.01;
+  drive.scenario.sensors.of<sensors::odometry::Kind>().usual.model.device.time.sigma = 0.01;
   EXPECT_THAT(refusal(drive), HasSubstr("the stamps of odometry err"));
   EXPECT_EQ(actuator_node(sound.cluster), actuator);
 }

@@ -39,7 +39,7 @@ class SeenByOne : public testing::TestWithParam<std::tuple<StrategyKind, Birth>>
     lorry.length = 10.0, lorry.width = 2.5;
     lorry.reference = false;
     drive_.scenario.world.objects.push_back(lorry);
-    drive_.scenario.sensors.cameras.usual.model.clutter_per_frame = 0.0;
+    drive_.scenario.sensors.of<sensors::stereo_camera::Kind>().usual.model.clutter_per_frame = 0.0;
     drive_.scenario.duration = Duration::milliseconds(3500);
   }
   evaluation::accuracy::DriveSummary summary() const {
@@ -68,7 +68,7 @@ TEST_P(SeenByOne, TheLaserAloneIsEnough) {
 
 // Straight ahead, where the laser's range ends before the car.
 TEST_P(SeenByOne, TheCameraAloneIsEnough) {
-  drive_.scenario.sensors.lasers.usual.model.max_range_m = 25.0;
+  drive_.scenario.sensors.of<sensors::laser::Kind>().usual.model.max_range_m = 25.0;
   stand(40.0, 0.0);
   const evaluation::accuracy::DriveSummary sum = summary();
   EXPECT_EQ(sum.matched, 37u);

@@ -36,7 +36,7 @@ class TwoLasers : public testing::TestWithParam<StrategyKind> {
   }
 
   double car_length() const { return drive_.scenario.world.objects[0].length; }
-  Laser& laser(std::size_t which) { return drive_.scenario.sensors.lasers.own.at(which); }
+  Laser& laser(std::size_t which) { return drive_.scenario.sensors.of<sensors::laser::Kind>().own.at(which); }
   Sightings sightings() const {
     Sightings seen;
     drive_.run(seen);
@@ -127,7 +127,7 @@ TEST(LaneKeepingWithTwoCameras, TakesItsOwnCamerasDistance) {
     schedules::model::Sensor other = cluster.sensor(*cluster.find_sensor("mono_camera"));
     other.name = "other_camera";
     cluster.sensors.push_back(other);
-    auto& cameras = drive.scenario.sensors.mono_cameras;
+    auto& cameras = drive.scenario.sensors.of<sensors::mono_camera::Kind>();
     cameras.own.clear();
     for (const auto& [name, ahead_m] : {std::pair{"mono_camera", own_m}, std::pair{"other_camera", other_m}}) {
       cameras.own.push_back(cameras.usual);

@@ -39,7 +39,7 @@ TEST_P(RadarDrive, FollowsAllThreeCars) {
 // The laser sees one metre.
 TEST_P(RadarDrive, FollowsThemByRadarAlone) {
   Drive drive(kRadars, GetParam());
-  drive.scenario.sensors.lasers.usual.model.max_range_m = 1.0;
+  drive.scenario.sensors.of<sensors::laser::Kind>().usual.model.max_range_m = 1.0;
   const evaluation::accuracy::DriveSummary summary = measured(drive);
   EXPECT_LT(summary.missed, summary.matched / 10);
   EXPECT_LT(summary.position_rmse_truth, 2.0);

@@ -46,15 +46,18 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
 TEST(ScenarioFiles, SensorAndCalibrationDefaultsAgree) {
   // Preprocessing assumes the sensors' real parameters, unless a drive says otherwise.
   const Scenario s;
-  EXPECT_EQ(s.sensors.cameras.preprocessing.baseline_m, s.sensors.cameras.usual.model.baseline_m);
-  EXPECT_EQ(s.sensors.cameras.preprocessing.focal_px, s.sensors.cameras.usual.model.focal_px);
-  EXPECT_EQ(s.sensors.cameras.preprocessing.disparity_sigma_px, s.sensors.cameras.usual.model.disparity_sigma_px);
-  EXPECT_EQ(s.sensors.cameras.preprocessing.bearing_sigma_rad, s.sensors.cameras.usual.model.bearing_sigma_rad);
-  EXPECT_EQ(s.sensors.cameras.preprocessing.width_sigma_px, s.sensors.cameras.usual.model.width_sigma_px);
-  EXPECT_EQ(s.sensors.lasers.preprocessing.segmentation.azimuth_step_rad,
-            s.sensors.lasers.usual.model.azimuth_step_rad);
-  EXPECT_EQ(s.sensors.lasers.preprocessing.rectangle.azimuth_step_rad, s.sensors.lasers.usual.model.azimuth_step_rad);
-  EXPECT_EQ(s.sensors.lasers.preprocessing.rectangle.range_noise_m, s.sensors.lasers.usual.model.range_sigma_m);
+  const auto& lasers = s.sensors.of<sensors::laser::Kind>();
+  const auto& cameras = s.sensors.of<sensors::stereo_camera::Kind>();
+  const sensors::laser::LaserConfig& laser = lasers.usual.model;
+  const sensors::stereo_camera::CameraConfig& camera = cameras.usual.model;
+  EXPECT_EQ(cameras.preprocessing.baseline_m, camera.baseline_m);
+  EXPECT_EQ(cameras.preprocessing.focal_px, camera.focal_px);
+  EXPECT_EQ(cameras.preprocessing.disparity_sigma_px, camera.disparity_sigma_px);
+  EXPECT_EQ(cameras.preprocessing.bearing_sigma_rad, camera.bearing_sigma_rad);
+  EXPECT_EQ(cameras.preprocessing.width_sigma_px, camera.width_sigma_px);
+  EXPECT_EQ(lasers.preprocessing.segmentation.azimuth_step_rad, laser.azimuth_step_rad);
+  EXPECT_EQ(lasers.preprocessing.rectangle.azimuth_step_rad, laser.azimuth_step_rad);
+  EXPECT_EQ(lasers.preprocessing.rectangle.range_noise_m, laser.range_sigma_m);
 }
 
 TEST(ScenarioFiles, TheWorldHasAsManyObjectsAsSaid) {

@@ -50,19 +50,21 @@ TEST(SensorEntries, ASensorHasItsOwnOrThatOfItsKind) {
                                               "  rear: {kind: camera, focal: 900, time_bias: 1 ms}\n"
                                               "preprocessing: {laser: {fewest_points: 4}, camera: {focal: 1000}}\n")
                                               .sensors;
-  EXPECT_EQ(sensors.lasers.of("left_laser").model.device.placement.y, 0.9);
-  EXPECT_EQ(sensors.lasers.of("left_laser").model.max_range_m, 60.0);
-  EXPECT_EQ(sensors.lasers.of("left_laser").model.range_sigma_m, 0.06) << "an entry is complete";
-  EXPECT_EQ(sensors.lasers.of("laser").model.range_sigma_m, 0.2);
-  EXPECT_EQ(sensors.lasers.of("any_other").model.range_sigma_m, 0.2);
-  EXPECT_EQ(sensors.lasers.of("rear").model.range_sigma_m, 0.2) << "that is a camera's";
-  EXPECT_EQ(sensors.cameras.of("rear").model.focal_px, 900.0);
-  EXPECT_EQ(sensors.cameras.of("rear").model.device.time.fixed, 0.001);
-  EXPECT_EQ(sensors.cameras.of("camera").model.focal_px, 1100.0);
-  EXPECT_EQ(sensors.lasers.preprocessing_of("right_laser").fewest_points, 5);
-  EXPECT_EQ(sensors.lasers.preprocessing_of("left_laser").fewest_points, 4);
-  EXPECT_EQ(sensors.lasers.preprocessing_of("any_other").fewest_points, 7);
-  EXPECT_EQ(sensors.cameras.preprocessing_of("rear").focal_px, 1000.0);
+  const auto& lasers = sensors.of<ttf::sensors::laser::Kind>();
+  const auto& cameras = sensors.of<ttf::sensors::stereo_camera::Kind>();
+  EXPECT_EQ(lasers.of("left_laser").model.device.placement.y, 0.9);
+  EXPECT_EQ(lasers.of("left_laser").model.max_range_m, 60.0);
+  EXPECT_EQ(lasers.of("left_laser").model.range_sigma_m, 0.06) << "an entry is complete";
+  EXPECT_EQ(lasers.of("laser").model.range_sigma_m, 0.2);
+  EXPECT_EQ(lasers.of("any_other").model.range_sigma_m, 0.2);
+  EXPECT_EQ(lasers.of("rear").model.range_sigma_m, 0.2) << "that is a camera's";
+  EXPECT_EQ(cameras.of("rear").model.focal_px, 900.0);
+  EXPECT_EQ(cameras.of("rear").model.device.time.fixed, 0.001);
+  EXPECT_EQ(cameras.of("camera").model.focal_px, 1100.0);
+  EXPECT_EQ(lasers.preprocessing_of("right_laser").fewest_points, 5);
+  EXPECT_EQ(lasers.preprocessing_of("left_laser").fewest_points, 4);
+  EXPECT_EQ(lasers.preprocessing_of("any_other").fewest_points, 7);
+  EXPECT_EQ(cameras.preprocessing_of("rear").focal_px, 1000.0);
 }
 
 TEST(SensorEntries, ThoseOfTheClusterAreTaken) {

@@ -81,12 +81,12 @@ TEST(MonoCameraDrive, AConsideredPitchIsConsistentAnIgnoredOneIsNot) {
   sim::world::ObjectConfig& car = world.objects[0];
   car.x = 30.0, car.y = 0.0, car.heading = 0.0, car.speed = 0.0;
   car.segments.clear();
-  sensors::kinds::Sensors& sensors = drive.scenario.sensors;
-  sensors.odometries.usual.model.yaw_rate_bias = {};
-  sensors.lasers.usual.model.max_range_m = 1.0;
-  for (auto& entry : sensors.cameras.own) entry.model.max_range_m = 1.0;
-  for (auto& entry : sensors.radars.own) entry.model.max_range_m = 1.0;
-  auto& camera = sensors.mono_cameras.usual;
+  sensors::kinds::Sensors& all = drive.scenario.sensors;
+  all.of<sensors::odometry::Kind>().usual.model.yaw_rate_bias = {};
+  all.of<sensors::laser::Kind>().usual.model.max_range_m = 1.0;
+  for (auto& entry : all.of<sensors::stereo_camera::Kind>().own) entry.model.max_range_m = 1.0;
+  for (auto& entry : all.of<sensors::radar::Kind>().own) entry.model.max_range_m = 1.0;
+  auto& camera = all.of<sensors::mono_camera::Kind>().usual;
   camera.model.pitch.sigma = kPitch;
   camera.preprocessing->pitch_sigma_rad = 0.0;
 
