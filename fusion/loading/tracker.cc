@@ -65,7 +65,8 @@ Sizes load_sizes(YamlMap& yaml, Sizes s) {
   return s;
 }
 
-// As YAML: {car: {share: 0.9}, truck: {length: 16.5, length_sigma: 0.5}}. What an entry omits is the class's own.
+// As YAML: {car: {share: 0.9}, truck: {length: 16.5, length_sigma: 0.5}}. What an entry omits is the class's own. A share of zero
+// leaves the class out.
 std::vector<ClassPrior> load_classes(YamlMap yaml) {
   std::vector<ClassPrior> classes;
   for (const ClassPrior& usual : config::kClassPriors) {
@@ -75,9 +76,9 @@ std::vector<ClassPrior> load_classes(YamlMap yaml) {
     ClassPrior prior = usual;
     prior.sizes = load_sizes(entry, usual.sizes);
     prior.speed_sigma = entry.number_or("speed_sigma", usual.speed_sigma, {0.1, 100.0}, "m/s");
-    prior.share = entry.number_or("share", usual.share, {1e-6, 1.0});
+    prior.share = entry.number_or("share", usual.share, {0.0, 1.0});
     entry.finish();
-    classes.push_back(prior);
+    if (prior.share > 0.0) classes.push_back(prior);
   }
   yaml.finish();
   return classes;
@@ -183,6 +184,7 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   if (auto classes = yaml.map_if("classes")) {
     if (yaml.has("sizes")) yaml.fail("sizes", "must be absent with classes: each class has its own");
     c.classes = load_classes(std::move(*classes));
+    if (c.classes.empty()) yaml.fail("classes", "must have one class with a share above zero");
     c.class_confusion = yaml.number_or("class_confusion", c.class_confusion, {1e-6, 0.8});
   }
   if (yaml.has("odometry")) c.odometry_line = yaml.line("odometry");
