@@ -27,10 +27,6 @@ using recording::records::CanError;
 double seconds(TrueTime at) { return (at - TrueTime{}).seconds(); }
 std::string cell(TrueTime at) { return report::drawing::cell(seconds(at), 6); }
 
-std::string node_name(NodeId node, const schedules::model::Cluster& cluster) {
-  return index_of(node) < cluster.nodes.size() ? cluster.node(node).name : "-";
-}
-
 std::string node_names(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster) {
   std::string names;
   for (const NodeId node : nodes) names += (names.empty() ? "" : ", ") + node_name(node, cluster);
@@ -100,10 +96,6 @@ std::string states_text(const FaultFindings& findings, const schedules::model::C
   return table.rows() == 0 ? "No node changed its state on FlexRay.\n" : table.text();
 }
 
-std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster) {
-  return bus < cluster.can_buses.size() ? cluster.can_buses[bus].name : "-";
-}
-
 // Returns "" without errors on a private CAN.
 std::string cans_text(const FaultFindings& findings, const schedules::model::Cluster& cluster) {
   report::drawing::Table table(
@@ -162,70 +154,14 @@ std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>&
                                              node_names(sound, cluster)));
 }
 
-nlohmann::ordered_json seconds_or_null(const std::optional<TrueTime>& at) {
-  return at ? nlohmann::ordered_json(seconds(*at)) : nlohmann::ordered_json(nullptr);
-}
-nlohmann::ordered_json name_or_null(NodeId node, const schedules::model::Cluster& cluster) {
-  return node == kNoNode ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(node_name(node, cluster));
-}
-
-nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules::model::Cluster& cluster) {
-  auto checks = nlohmann::ordered_json::array();
-  for (const auto check : evaluation::faults::kAllChecks)
-    for (const bool faulty : {false, true}) {
-      const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
-      if (seen.cycles == 0) continue;
-      nlohmann::ordered_json one = {{"check", name_of(check)},
-                                    {"by_faulty_node", faulty},
-                                    {"cycles", seen.cycles},
-                                    {"first_s", seconds(seen.first)},
-                                    {"nodes", names_json(seen.nodes, cluster)}};
-      if (check == evaluation::faults::Check::kGuardian) {
-        one["guardians"] = nlohmann::ordered_json::array();
-        for (const auto channel : schedules::model::kBothChannels)
-          if (seen.guardians[index_of(channel)]) one["guardians"].push_back(std::string(1, letter(channel)));
-      }
-      checks.push_back(std::move(one));
-    }
-  return checks;
-}
-
-// Adds the effects of one fault, or the unattributed ones, to `one`.
-void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const schedules::model::Cluster& cluster) {
-  one["checks"] = checks_json(effects, cluster);
-  one["guardians"] = nlohmann::ordered_json::array();
-  for (const GuardianSeen& kept : effects.guardians)
-    one["guardians"].push_back({{"what", kept.cut ? "cut" : "blocked"},
-                                {"why", kept.why},
-                                {"signals", kept.signals},
-                                {"first_cycle", kept.first_cycle},
-                                {"first_s", seconds(kept.first)}});
-  one["states"] = nlohmann::ordered_json::array();
-  for (const StateSeen& state : effects.states)
-    one["states"].push_back({{"node", node_name(state.node, cluster)},
-                             {"from", state.from},
-                             {"to", state.to},
-                             {"why", state.why},
-                             {"first_s", seconds(state.first)},
-                             {"times", state.times}});
-  one["harmed"] = effects.harmed();
-  one["harms"] = nlohmann::ordered_json::array();
-  for (const Harm harm : evaluation::faults::kAllHarms)
-    for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
-      one["harms"].push_back({{"harm", name_of(harm)},
-                              {"first_s", seconds(harmed.first)},
-                              {"node", name_or_null(harmed.node, cluster)},
-                              {"sender", name_or_null(harmed.sender, cluster)},
-                              {"slot", harmed.slot},
-                              {"times", harmed.times}});
-}
-
 }  // namespace
 
-nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster) {
-  auto names = nlohmann::ordered_json::array();
-  for (const NodeId node : nodes) names.push_back(node_name(node, cluster));
-  return names;
+std::string node_name(NodeId node, const schedules::model::Cluster& cluster) {
+  return index_of(node) < cluster.nodes.size() ? cluster.node(node).name : "-";
+}
+
+std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster) {
+  return bus < cluster.can_buses.size() ? cluster.can_buses[bus].name : "-";
 }
 
 std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const faults::FaultPlan& plan,
@@ -248,45 +184,6 @@ std::string faults_text(std::string_view drive, const FaultFindings& findings, c
   return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
          guardians_text(findings) + states_text(findings, cluster) + "\n" + cans_text(findings, cluster) +
          harms_text(findings, fault_free, cluster);
-}
-
-nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::model::Cluster& cluster) {
-  auto json = nlohmann::ordered_json::array();
-  for (const FaultSeen& fault : faults) {
-    nlohmann::ordered_json one;
-    one["fault"] = fault.fault;
-    one["kind"] = fault.kind;
-    one["node"] = name_or_null(fault.node, cluster);
-    one["begins_s"] = seconds_or_null(fault.begins);
-    one["ends_s"] = seconds_or_null(fault.ends);
-    one["acts"] = fault.acts;
-    one["first_act_s"] = seconds_or_null(fault.first_act);
-    one["first_act"] = fault.text;
-    add_effects(one, fault, cluster);
-    json.push_back(std::move(one));
-  }
-  return json;
-}
-
-nlohmann::ordered_json cans_json(const std::vector<CanSeen>& cans, const schedules::model::Cluster& cluster) {
-  auto json = nlohmann::ordered_json::array();
-  for (const CanSeen& seen : cans) {
-    nlohmann::ordered_json one = {{"can", can_name(seen.bus, cluster)},
-                                  {"node", node_name(seen.node, cluster)},
-                                  {"first_s", seconds(seen.first)},
-                                  {"error_passive", seen.passive},
-                                  {"bus_off", seen.bus_off}};
-    for (std::size_t e = 1; e < seen.errors.size(); ++e)
-      one["error_frames"][to_text(static_cast<CanError>(e))] = seen.errors[e];
-    json.push_back(std::move(one));
-  }
-  return json;
-}
-
-nlohmann::ordered_json unattributed_json(const FaultEffects& effects, const schedules::model::Cluster& cluster) {
-  nlohmann::ordered_json one;
-  add_effects(one, effects, cluster);
-  return one;
 }
 
 }  // namespace ttf::cli::drive

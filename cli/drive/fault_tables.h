@@ -2,7 +2,7 @@
 // guardians' interventions, changes of state, and harm to fault-free nodes.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +13,10 @@
 
 namespace ttf::cli::drive {
 
+// Return "-" for one that the cluster has not.
+std::string node_name(NodeId node, const schedules::model::Cluster& cluster);
+std::string can_name(std::uint8_t bus, const schedules::model::Cluster& cluster);
+
 // Returns the nodes on FlexRay that no active fault names. `plan` is the drive's plan, resolved.
 std::vector<NodeId> fault_free_nodes(const evaluation::faults::FaultFindings& findings, const faults::FaultPlan& plan,
                                      const schedules::model::Cluster& cluster);
@@ -20,14 +24,5 @@ std::vector<NodeId> fault_free_nodes(const evaluation::faults::FaultFindings& fi
 // `drive` names it in the first line. Effects without a matching fault have lines of their own, "unattributed".
 std::string faults_text(std::string_view drive, const evaluation::faults::FaultFindings& findings,
                         const std::vector<NodeId>& fault_free, const schedules::model::Cluster& cluster);
-// Returns the same as JSON, with times in seconds from the start of the drive; absent times are null.
-nlohmann::ordered_json faults_json(const std::vector<evaluation::faults::FaultSeen>& faults,
-                                   const schedules::model::Cluster& cluster);
-// Returns the controllers on private CANs that had errors.
-nlohmann::ordered_json cans_json(const std::vector<evaluation::faults::CanSeen>& cans,
-                                 const schedules::model::Cluster& cluster);
-nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::model::Cluster& cluster);
-nlohmann::ordered_json unattributed_json(const evaluation::faults::FaultEffects& effects,
-                                         const schedules::model::Cluster& cluster);
 
 }  // namespace ttf::cli::drive

@@ -11,8 +11,6 @@
 namespace ttf::cli::drive {
 namespace {
 
-using evaluation::lateness::NodeTiming;
-using evaluation::lateness::RealTimeFindings;
 using recording::exports::NodeLateness;
 using recording::records::BinnedDurations;
 
@@ -101,30 +99,6 @@ std::string sums(const StrategyResult& result) {
   return table.text();
 }
 
-nlohmann::ordered_json late_json(const BinnedDurations& late) {
-  if (late.empty()) return {{"count", 0}, {"p50", nullptr}, {"p99", nullptr}, {"p999", nullptr}, {"longest", nullptr}};
-  return {{"count", late.count()},
-          {"p50", in_us(late.quantile(500))},
-          {"p99", in_us(late.quantile(990))},
-          {"p999", in_us(late.quantile(999))},
-          {"longest", in_us(late.longest())}};
-}
-
-nlohmann::ordered_json medium_json(const recording::records::MediumCounts& counts) {
-  return {{"sent", counts.sent},      {"received", counts.received}, {"not_sent", counts.not_sent},
-          {"lost", counts.lost},      {"foreign", counts.foreign},   {"malformed", counts.malformed},
-          {"dropped", counts.dropped}};
-}
-
-nlohmann::ordered_json scaled_json(const StrategyResult& result, const BinnedDurations& all, double unit_us) {
-  if (all.empty()) return {{"count", 0}, {"p50", nullptr}, {"p99", nullptr}, {"longest", nullptr}};
-  const auto value = [&](Duration d) { return scaled_us(result, d) / unit_us; };
-  return {{"count", all.count()},
-          {"p50", value(all.quantile(500))},
-          {"p99", value(all.quantile(990))},
-          {"longest", value(all.longest())}};
-}
-
 }  // namespace
 
 std::string real_time_text(const StrategyResult& result) {
@@ -134,50 +108,6 @@ std::string real_time_text(const StrategyResult& result) {
   text += distributions(result, {{"frames left", &NodeLateness::departures}, {"frames came", &NodeLateness::arrivals}});
   text += distributions(result, {{"in transit", &NodeLateness::transits}});
   return text + problems(result) + "\n" + media(result) + sums(result);
-}
-
-nlohmann::ordered_json real_time_json(const StrategyResult& result) {
-  if (!result.real_time) return nullptr;
-  const RealTimeFindings& found = *result.real_time;
-  nlohmann::ordered_json json;
-  json["time_scale"] = static_cast<double>(found.time_scale_ppm) * 1e-6;
-  json["nodes"] = nlohmann::ordered_json::array();
-  for (const auto& [node, timing] : found.timing) {
-    const auto of_node = found.lateness.find(node);
-    const NodeLateness late = of_node == found.lateness.end() ? NodeLateness{} : of_node->second;
-    nlohmann::ordered_json one;
-    one["node"] = result.cluster.node(node).name;
-    one["lateness_us"] = {{"wake_ups", late_json(late.wake_ups)},
-                          {"floor", late_json(late.floor)},
-                          {"departures", late_json(late.departures)},
-                          {"arrivals", late_json(late.arrivals)},
-                          {"transits", late_json(late.transits)}};
-    one["late_wake_ups"] = timing.late_wake_ups;
-    one["slots_missed"] = timing.slots_missed;
-    one["late_frames"] = timing.late_frames;
-    one["early_frames"] = timing.early_frames;
-    one["frames_lost"] = timing.frames_lost;
-    one["withheld_by_the_sender"] = timing.missing.withheld;
-    one["sender_away"] = timing.missing.away;
-    one["lost_on_the_way"] = timing.lost_on_the_way();
-    one["medium"] = nullptr;
-    if (const auto told = found.medium.find(node); told != found.medium.end())
-      one["medium"] = medium_json(told->second);
-    one["largest_offset_correction_us"] = nullptr;
-    if (timing.largest_offset_correction)
-      one["largest_offset_correction_us"] = in_us(*timing.largest_offset_correction);
-    json["nodes"].push_back(std::move(one));
-  }
-  json["precision_us"] = nlohmann::ordered_json::array();
-  for (const evaluation::lateness::HostPrecision& host : found.precision) {
-    nlohmann::ordered_json one{{"host", host.host}};
-    one.update(scaled_json(result, host.apart, 1.0));
-    json["precision_us"].push_back(std::move(one));
-  }
-  json["sensor_to_feature_ms"] = {{"newest", scaled_json(result, result.summary.age_used_newest, 1e3)},
-                                  {"oldest", scaled_json(result, result.summary.age_used_oldest, 1e3)}};
-  if (result.driving) json["reading_jitter_us"] = scaled_json(result, result.driving->reading_jitter, 1.0);
-  return json;
 }
 
 }  // namespace ttf::cli::drive

@@ -1,7 +1,6 @@
 // The tables of a launch in real time, beside those of every drive: the lateness of processes and frames.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/drive/run_outputs.h"
@@ -12,7 +11,5 @@ namespace ttf::cli::drive {
 // timing problems and losses, the media's counts, the clocks' agreement and the ages of used measurements. Empty in
 // virtual time.
 std::string real_time_text(const StrategyResult& result);
-// Returns the same for `"real_time"` in summary.json; null in virtual time.
-nlohmann::ordered_json real_time_json(const StrategyResult& result);
 
 }  // namespace ttf::cli::drive

@@ -70,20 +70,4 @@ std::vector<std::string> recording_reasons(const StrategyResult& result, const f
   return reasons;
 }
 
-nlohmann::ordered_json recording_json(const StrategyResult& result, const fusion::config::TrackerConfig& tracker) {
-  const sim::drives::RecordingUse& use = *result.recording;
-  nlohmann::ordered_json json{{"ends_after_s", use.ends_after.seconds()},
-                              {"ends_early", use.ends_early()},
-                              {"made_track", result.made_track},
-                              {"reasons", recording_reasons(result, tracker)}};
-  for (const sim::drives::RecordingUse::OfSensor& of : use.sensors)
-    json["sensors"].push_back({{"name", of.sensor},
-                               {"rows", of.rows.rows},
-                               {"lists", of.rows.lists},
-                               {"unused_between_instants", of.rows.between},
-                               {"unused_beyond_the_end", of.rows.beyond},
-                               {"measurements_without_row", of.rows.silent}});
-  return json;
-}
-
 }  // namespace ttf::cli::drive

@@ -1,7 +1,6 @@
 // The use that `run --input` made of its recording, for people and for scripts.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,6 @@ class TrackWatch final : public recording::records::Sink {
 
 // Returns the sentences of all strategies, those of equal ones once; empty without a recording.
 std::string recordings_text(const std::vector<StrategyResult>& results);
-nlohmann::ordered_json recording_json(const StrategyResult& result, const fusion::config::TrackerConfig& tracker);
 
 // Returns the reasons why a drive did not do its work with its recording, in sentences: most rows are beyond
 // its end, it dropped most lists as too old, or it made no track. Empty otherwise, and without a recording. Rows between

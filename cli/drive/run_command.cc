@@ -17,6 +17,7 @@
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
 #include "cli/drive/step_options.h"
+#include "cli/drive/summary.h"
 #include "cli/drive_progress.h"
 #include "cli/output.h"
 #include "cli/shipped.h"

@@ -8,12 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "cli/drive/fault_tables.h"
 #include "cli/drive/real_time_outputs.h"
-#include "cli/drive/recording_outputs.h"
-#include "cli/drive/startup_outputs.h"
 #include "cli/drive_progress.h"
-#include "evaluation/measures/figures.h"
 #include "experiments/sweep/driving.h"
 #include "recording/log/reader.h"
 #include "recording/records/tee.h"
@@ -35,43 +31,6 @@ using evaluation::measures::DriveFigures;
 using evaluation::measures::Measure;
 using evaluation::measures::ShownIn;
 using evaluation::measures::Subject;
-
-DriveFigures figures_of(const StrategyResult& result) {
-  return {result.summary, result.outcome, result.driving ? &*result.driving : nullptr};
-}
-
-nlohmann::ordered_json ages(const evaluation::accuracy::AgeStatistics& statistics) {
-  if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
-  return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
-}
-
-nlohmann::ordered_json statistics_json(const evaluation::ages::DurationStatistics& had) {
-  if (had.count == 0) return nullptr;
-  return {{"least_ms", in_ms(had.least)},
-          {"mean_ms", in_ms(had.mean())},
-          {"p99_ms", in_ms(had.p99())},
-          {"most_ms", in_ms(had.most)}};
-}
-
-nlohmann::ordered_json bounds_json(std::optional<Duration> best, std::optional<Duration> worst) {
-  nlohmann::ordered_json bounds{nullptr, nullptr};
-  if (best) bounds[0] = in_ms(*best);
-  if (worst) bounds[1] = in_ms(*worst);
-  return bounds;
-}
-
-nlohmann::ordered_json stages_json(const evaluation::ages::SensorStages& sensor) {
-  nlohmann::ordered_json json{
-      {"measured", sensor.measured}, {"seen", sensor.seen()}, {"to", sensor.to_use ? "use" : "fusion"}};
-  for (const evaluation::ages::StageFinding& stage : sensor.stages)
-    json["stages"].push_back({{"stage", stage.name},
-                              {"bounds_ms", bounds_json(stage.best, stage.worst)},
-                              {"had", statistics_json(stage.had)},
-                              {"age_bounds_ms", bounds_json(stage.age_best, stage.age_worst)},
-                              {"age", statistics_json(stage.age)},
-                              {"beyond", stage.beyond}});
-  return json;
-}
 
 constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
 constexpr const char* kIndex = "index.html";
@@ -189,6 +148,10 @@ std::string table_of(const std::vector<Column>& columns, std::size_t in_group) {
 
 }  // namespace
 
+DriveFigures figures_of(const StrategyResult& result) {
+  return {result.summary, result.outcome, result.driving ? &*result.driving : nullptr};
+}
+
 std::string comparison_table(const std::vector<StrategyResult>& results) {
   std::vector<Column> columns;
   for (const StrategyResult& result : results) columns.push_back({std::string(name_of(result.strategy)), &result});
@@ -202,45 +165,6 @@ std::string comparison_table(const std::vector<ScenarioResults>& scenarios) {
     for (const StrategyResult& result : scenario.results)
       columns.push_back({fmt::format("{}\n{}", scenario.name, name_of(result.strategy)), &result});
   return table_of(columns, scenarios.front().results.size());
-}
-
-// Values that are not finite become null.
-nlohmann::ordered_json to_json(const sim::drives::Scenario& scenario, std::uint64_t seed,
-                               const std::vector<StrategyResult>& results) {
-  nlohmann::ordered_json json;
-  json["scenario"] = scenario.name;
-  json["seed"] = seed;
-  json["duration_s"] = scenario.duration.seconds();
-  if (scenario.truth) {
-    json["truth"] = {{"file", scenario.truth->name}, {"length_s", scenario.truth->length().seconds()}};
-    for (const recording::osi::TracedObject& object : scenario.truth->objects)
-      json["truth"]["objects"].push_back({{"id", object.id}, {"kind", name_of(object.kind)}});
-  }
-  for (const StrategyResult& result : results) {
-    nlohmann::ordered_json one;
-    one["strategy"] = name_of(result.strategy);
-    one["cluster"] = result.cluster.name;
-    add_to(one, evaluation::measures::measures(), figures_of(result));
-    for (const auto& [sensor, statistics] : result.summary.age_used_by_sensor)
-      one["age_when_used_by_sensor"][result.cluster.sensor(sensor).name] = ages(statistics);
-    for (const evaluation::ages::SensorStages& sensor : result.stages)
-      one["age_by_stage"][result.cluster.sensor(sensor.sensor).name] = stages_json(sensor);
-    if (!result.startup.empty()) one["startup"] = startup_json(result);
-    for (std::size_t b = 0; b < result.outcome.can_load.size(); ++b)
-      one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
-    one["content_hash"] = result.content_hash;
-    one["log"] = result.log_path;
-    if (result.recording) one["recording"] = recording_json(result, scenario.tracker);
-    if (result.real_time) one["real_time"] = real_time_json(result);
-    if (!scenario.faults.empty()) {
-      one["faults"] = faults_json(result.faults.faults, result.cluster);
-      one["fault_free_nodes"] = names_json(result.fault_free, result.cluster);
-      one["unattributed"] = unattributed_json(result.faults.unattributed, result.cluster);
-      if (!result.faults.cans.empty()) one["cans"] = cans_json(result.faults.cans, result.cluster);
-    }
-    json["strategies"].push_back(std::move(one));
-  }
-  return json;
 }
 
 std::vector<std::string> picture_files(std::string_view strategy) {

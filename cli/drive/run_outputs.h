@@ -1,7 +1,6 @@
-// The results of `ttfusion run` for people: tables, pictures, an index page; and its JSON.
+// The results of `ttfusion run` for people: tables, pictures, an index page.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +13,7 @@
 #include "evaluation/driving/driving_account.h"
 #include "evaluation/faults/fault_account.h"
 #include "evaluation/lateness/lateness_account.h"
+#include "evaluation/measures/figures.h"
 #include "fusion/strategies/strategy.h"
 #include "schedules/model/cluster.h"
 #include "sim/drives/drive.h"
@@ -39,6 +39,8 @@ struct StrategyResult {
   std::string log_path;
   std::string content_hash;
 };
+// The result must outlive them.
+evaluation::measures::DriveFigures figures_of(const StrategyResult& result);
 
 // A scenario that was driven with some strategies.
 struct ScenarioResults {
@@ -48,8 +50,6 @@ struct ScenarioResults {
 // Returns the comparison table, with one column per strategy. Several scenarios stand side by side.
 std::string comparison_table(const std::vector<StrategyResult>& results);
 std::string comparison_table(const std::vector<ScenarioResults>& scenarios);
-nlohmann::ordered_json to_json(const sim::drives::Scenario& scenario, std::uint64_t seed,
-                               const std::vector<StrategyResult>& results);
 // Returns all files that write_pictures() may write for this strategy.
 std::vector<std::string> picture_files(std::string_view strategy);
 // Writes timing diagrams, position plots and index.html into `folder`, from the logs alone.

@@ -41,26 +41,6 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold) 
   return text;
 }
 
-nlohmann::ordered_json startup_json(const StrategyResult& result) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const evaluation::cluster::NodeStartup& node : result.startup) {
-    nlohmann::ordered_json one;
-    one["node"] = result.cluster.node(node.node).name;
-    one["powered_on_ms"] = nullptr;
-    if (node.powered) one["powered_on_ms"] = in_ms(*node.powered);
-    one["active"] = nullptr;
-    if (node.active)
-      one["active"] = {{"cycle", node.active->cycle},
-                       {"at_ms", in_ms(node.active->at)},
-                       {"from", node.active->from},
-                       {"why", node.active->why}};
-    one["state"] = node.state;
-    one["why"] = node.why;
-    list.push_back(std::move(one));
-  }
-  return list;
-}
-
 std::string never_started(const StrategyResult& result, bool cold) {
   const bool started = std::ranges::any_of(
       result.startup, [](const evaluation::cluster::NodeStartup& node) { return node.active.has_value(); });

@@ -1,7 +1,6 @@
 // The tables of `ttfusion run` about nodes that started up or changed their state during a drive.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/drive/run_outputs.h"
@@ -12,8 +11,6 @@ namespace ttf::cli::drive {
 // cycle, instant (true time) and cause. Empty without changes of state. `cold` means that the drives began
 // with a start-up; otherwise the tables have nodes that left the running cluster.
 std::string startup_text(const std::vector<StrategyResult>& results, bool cold);
-// Returns the same for one drive: a list with an entry per node.
-nlohmann::ordered_json startup_json(const StrategyResult& result);
 
 // Returns "" if a node became active. Otherwise a sentence names the nodes. Drives that began integrated return "".
 std::string never_started(const StrategyResult& result, bool cold);

@@ -8,6 +8,7 @@
 
 #include "cli/argument_checks.h"
 #include "cli/commands.h"
+#include "cli/drive/summary.h"
 #include "cli/output.h"
 #include "core/errors.h"
 #include "keys/documents.h"
@@ -36,9 +37,10 @@ std::vector<Page> pages_of(const Document& document, const std::string& format) 
 }
 
 std::vector<Page> pages_of_summary(const std::string& format) {
-  if (format == "markdown") return ttf::keys::summary::pages();
-  if (format == "json-schema") return {ttf::keys::summary::schema()};
-  return {{fmt::format("{}.txt", ttf::keys::summary::kKind), ttf::keys::summary::text()}};
+  const std::vector<ttf::keys::summary::Member> members = drive::summary_members();
+  if (format == "markdown") return ttf::keys::summary::pages(members);
+  if (format == "json-schema") return {ttf::keys::summary::schema(members)};
+  return {{fmt::format("{}.txt", ttf::keys::summary::kKind), ttf::keys::summary::text(members)}};
 }
 
 int print_keys(const KeysOptions& options) {

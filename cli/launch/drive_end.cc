@@ -41,7 +41,7 @@ std::string DriveEnd::sentence() const {
   if (absent.empty()) return "";
   std::vector<std::string> names;
   std::vector<std::pair<std::string, std::vector<std::string>>> by_state;  // in the order of their first nodes
-  for (const Absent& one : absent) {
+  for (const drive::AbsentNode& one : absent) {
     names.push_back(one.name);
     auto same = std::ranges::find(by_state, one.state, &std::pair<std::string, std::vector<std::string>>::first);
     if (same == by_state.end()) same = by_state.insert(by_state.end(), {one.state, {}});
@@ -54,12 +54,6 @@ std::string DriveEnd::sentence() const {
   for (const auto& [state, who] : by_state)
     text += fmt::format("{}{} ({})", state == by_state.front().first ? "" : "; ", state, joined(who));
   return text;
-}
-
-nlohmann::ordered_json DriveEnd::json() const {
-  auto list = nlohmann::ordered_json::array();
-  for (const Absent& one : absent) list.push_back({{"node", one.name}, {"state", one.state}});
-  return list;
 }
 
 std::vector<std::string> states_at_end(const schedules::model::Cluster& cluster, bool cold,

@@ -2,11 +2,11 @@
 // node never joined the cluster, or left it for good.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/drive/launch_findings.h"
 #include "cli/supervision/supervisor.h"
 #include "evaluation/cluster/startup_account.h"
 #include "schedules/model/cluster.h"
@@ -22,16 +22,12 @@ struct NodeAtEnd {
 };
 
 struct DriveEnd {
-  struct Absent {
-    std::string name, state;  // state: the controller's, or the failed process's ending
-  };
   // Nodes whose process failed, and nodes on FlexRay that were not normal active; in the given order.
-  std::vector<Absent> absent;
+  std::vector<drive::AbsentNode> absent;
   bool nobody = false;  // true if no node of the launch on FlexRay was in operation
 
   // Returns "a, b were not in operation at the end: integration listen", or "" if all were.
   std::string sentence() const;
-  nlohmann::ordered_json json() const;
 };
 DriveEnd drive_end(const std::vector<NodeAtEnd>& nodes);
 

@@ -15,6 +15,7 @@
 #include "cli/drive/real_time_outputs.h"
 #include "cli/drive/run_outputs.h"
 #include "cli/drive/startup_outputs.h"
+#include "cli/drive/summary.h"
 #include "cli/launch/drive_end.h"
 #include "cli/launch/launch_live.h"
 #include "cli/launch/launch_plan.h"
@@ -36,8 +37,9 @@ namespace ttf::cli::launch {
 namespace {
 
 constexpr const char* kSummary = "summary.json";
-constexpr const char* kExternal = "external_nodes";                 // the same
-constexpr const char* kNotInOperation = "not_in_operation_at_end";  // a key of the summary and of the manifest
+// Members of the summary that the manifest has, too.
+constexpr const char* kExternal = "external_nodes";
+constexpr const char* kNotInOperation = "not_in_operation_at_end";
 
 // Returns the arguments of this process, as given.
 std::vector<std::string> command_line() {
@@ -48,15 +50,13 @@ std::vector<std::string> command_line() {
 }
 
 // Prints and writes the drive's results, from the logs of the nodes that reached its end.
-void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result, const std::optional<DriveEnd>& end,
-                 const std::optional<Verdict>& verdict, const std::vector<external::Account>& accounts,
-                 const LaunchArguments& arguments) {
+void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result,
+                 const std::optional<Verdict>& verdict, const nlohmann::ordered_json& launched,
+                 const std::vector<external::Account>& accounts, const LaunchArguments& arguments) {
   const std::vector<drive::StrategyResult> results{result};
   if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
   nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
-  if (end) json[kNotInOperation] = end->json();
-  if (!accounts.empty()) json[kExternal] = json_of(accounts);
-  if (verdict) json["verdict"] = verdict->json();
+  json.update(launched);
   write_file(fmt::format("{}/{}", set.folder, kSummary), json.dump(2) + '\n');
   if (arguments.json) {
     fmt::print("{}\n", json.dump(2));
@@ -72,15 +72,15 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
 
 // Reports nodes out of operation at the end and an empty comparison, in a sentence each. Returns the exit
 // code: a drive fails if no node is in operation at its end, even if all processes ended well.
-int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result, int exit_code,
-             supervision::LaunchFolder& folder) {
+int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result,
+             const nlohmann::ordered_json& launched, int exit_code, supervision::LaunchFolder& folder) {
   const std::string absent = end.sentence();
   const bool failed = end.nobody && exit_code == 0;
   if (!absent.empty()) fmt::print(stderr, "{}: {}\n", failed ? "error" : "warning", absent);
   if (result != nullptr && result->summary.uses == result->summary.stale_uses)
     print_warnings(fmt::format("no current image was used from {} s on (evaluate_from): there is nothing to evaluate",
                                scaled_text(set.scenario.evaluate_from.ns, 1'000'000'000)));
-  folder.set(kNotInOperation, end.json());
+  folder.set(kNotInOperation, launched.at(kNotInOperation));
   if (failed)
     folder.finish(1, absent, std::chrono::system_clock::now());
   else
@@ -133,20 +133,22 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
   print_warnings(drive.warnings());
   plan.set.scenario.duration = drive.driven();  // the drive is judged to its real end
   const std::optional<drive::StrategyResult> result = drive.result(folder.logs());
-  const drive::StrategyResult* const told = result ? &*result : nullptr;
+  const drive::StrategyResult* const shown = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
   if (watch.begun())
-    end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told), plan.set.externals));
+    end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, shown), plan.set.externals));
   const std::vector<external::Account> accounts = drive.accounts();
   std::optional<Verdict> verdict;
   if (result && result->real_time)
     verdict = verdict_of({&plan.set.cluster, &*result->real_time, result->service, health.restarts(),
                           end ? end->sentence() : std::string(), wrongs_text(accounts)});
-  if (!accounts.empty()) folder.set(kExternal, json_of(accounts));
-  if (result) tell_result(plan.set, *result, end, verdict, accounts, arguments);
+  const nlohmann::ordered_json launched =
+      to_json(drive::LaunchFindings{end ? std::optional(end->absent) : std::nullopt, told(accounts), verdict});
+  if (!accounts.empty()) folder.set(kExternal, launched.at(kExternal));
+  if (result) tell_result(plan.set, *result, verdict, launched, accounts, arguments);
   std::fflush(stdout);  // both streams may share one file
   if (!end && !accounts.empty()) folder.write();
-  const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
+  const int code = end ? tell_end(plan.set, *end, shown, launched, exit_code, folder) : exit_code;
   say_written(plan.set.folder);
   return code;
 }

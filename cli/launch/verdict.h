@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/drive/launch_findings.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "evaluation/accuracy/service_account.h"
@@ -29,12 +29,7 @@ struct DriveFacts {
   std::string external = {};  // external::wrongs_text()
 };
 
-struct Verdict {
-  bool matters = false;
-  std::string sentence;
-
-  nlohmann::ordered_json json() const { return {{"matters", matters}, {"sentence", sentence}}; }
-};
+using drive::Verdict;
 // The counts matter if the service was not served as promised. They matter, too, if a node was out of operation at the
 // end.
 Verdict verdict_of(const DriveFacts& facts);

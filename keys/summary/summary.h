@@ -1,5 +1,5 @@
-// summary.json, which `run` and `launch` write: every member with its meaning, for people and as a schema. The members with
-// a number by which a drive is judged are rows of evaluation/measures/table.cc.
+// The members of summary.json, for people and as a schema. `run` and `launch` describe what they write (table.h); the members
+// with a number by which a drive is judged are rows of evaluation/measures/table.cc.
 #pragma once
 
 #include <string>
@@ -7,24 +7,18 @@
 #include <vector>
 
 #include "keys/render.h"
+#include "keys/summary/table.h"
 
 namespace ttf::keys::summary {
 
 inline constexpr std::string_view kKind = "summary";
 
-struct Member {
-  std::string path;     // "strategies[].nees.mean"; [] stands for each entry of a list, NAME for any name
-  std::string type;     // a type of JSON; "number or null"
-  std::string meaning;  // a sentence without its full stop, with the unit
-  bool optional = false;
-};
+// Returns the members of a strategy's part that are measures, with those that hold them.
+std::vector<Member> measured();
 
-// In the order of the file.
-std::vector<Member> members();
-
-// The same as of documents (render.h).
-std::string text();
-std::vector<Page> pages();
-Page schema();  // JSON Schema, draft 07
+// The same as of documents (render.h). `members` are all, in the order of the file.
+std::string text(const std::vector<Member>& members);
+std::vector<Page> pages(const std::vector<Member>& members);
+Page schema(const std::vector<Member>& members);  // JSON Schema, draft 07
 
 }  // namespace ttf::keys::summary

@@ -18,6 +18,8 @@ cmp -s "$work/faults.json" "$source/keys/schemas/faults.schema.json" || fail "ke
 for kind in faults summary; do
   expect 0 '^wrote .*/keys$' keys $kind --format markdown -o "$work/keys"
 done
+expect 0 '^wrote .*/summary.json$' keys summary --format json-schema -o "$work/summary.json"
+cmp "$work/summary.json" "$source/keys/schemas/summary.schema.json" || fail "keys writes another schema of summary.json than the one kept"
 for page in faults summary summary_faults; do
   cmp "$work/keys/$page.md" "$source/docs/keys/$page.md" || fail "keys --format markdown writes another page $page.md than the one kept"
 done

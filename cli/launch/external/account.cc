@@ -79,25 +79,19 @@ std::string wrongs_text(const std::vector<Account>& accounts) {
   return text;
 }
 
-nlohmann::ordered_json json_of(const std::vector<Account>& accounts) {
-  auto list = nlohmann::ordered_json::array();
+std::vector<drive::ExternalNode> told(const std::vector<Account>& accounts) {
+  std::vector<drive::ExternalNode> all;
   for (const Account& account : accounts) {
     const Counts& counts = account.counts;
-    nlohmann::ordered_json malformed{{"all", counts.all_malformed()}};
+    drive::ExternalNode& one = all.emplace_back();
+    one = {account.node,        counts.in_window, counts.early,
+           counts.late,         counts.missing,   {{"all", counts.all_malformed()}},
+           account.never_heard, std::nullopt,     state_text(account)};
     for (std::size_t kind = 0; kind < kMalformedKinds; ++kind)
-      malformed[std::string(text_of(static_cast<Malformed>(kind)))] = counts.malformed[kind];
-    list.push_back({{"node", account.node},
-                    {"in_window", counts.in_window},
-                    {"early", counts.early},
-                    {"late", counts.late},
-                    {"malformed", std::move(malformed)},
-                    {"missing", counts.missing},
-                    {"never_heard", account.never_heard},
-                    {"first_after_s", account.first ? nlohmann::ordered_json(account.first->seconds())
-                                                    : nlohmann::ordered_json(nullptr)},
-                    {"state", state_text(account)}});
+      one.malformed.emplace_back(text_of(static_cast<Malformed>(kind)), counts.malformed[kind]);
+    if (account.first) one.first_after_s = account.first->seconds();
   }
-  return list;
+  return all;
 }
 
 }  // namespace ttf::cli::launch::external

@@ -1,11 +1,11 @@
-// The account of a real node at the end of a drive: in a table, in words and as JSON.
+// The account of a real node at the end of a drive: in a table, in words and for summary.json.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/drive/launch_findings.h"
 #include "cli/launch/external/judge.h"
 #include "core/time.h"
 
@@ -30,6 +30,6 @@ std::string table_text(const std::vector<Account>& accounts);
 // Returns what was not as it should be, for the verdict: "camera_pre: 3 early, 1 late; camera: 2 missing". Empty if
 // nothing.
 std::string wrongs_text(const std::vector<Account>& accounts);
-nlohmann::ordered_json json_of(const std::vector<Account>& accounts);
+std::vector<drive::ExternalNode> told(const std::vector<Account>& accounts);
 
 }  // namespace ttf::cli::launch::external

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/drive/summary.h"
+
 namespace ttf::cli::launch {
 namespace {
 
@@ -13,7 +15,7 @@ TEST(DriveEnd, SaysNothingWhereAllAreInOperation) {
   const DriveEnd end = drive_end({{"laser", false, kWell, ""}, {"fusion", true, kWell, kActive}});
   EXPECT_EQ(end.sentence(), "");
   EXPECT_FALSE(end.nobody);
-  EXPECT_EQ(end.json(), nlohmann::ordered_json::array());
+  EXPECT_TRUE(end.absent.empty());
 }
 
 TEST(DriveEnd, NamesWhoWasNot) {
@@ -24,8 +26,9 @@ TEST(DriveEnd, NamesWhoWasNot) {
   const DriveEnd two =
       drive_end({{"gateway", true, kWell, kLost}, {"fusion", true, kWell, kActive}, {"feature", true, kWell, kLost}});
   EXPECT_EQ(two.sentence(), "gateway, feature were not in operation at the end: integration listen");
-  EXPECT_EQ(two.json().dump(), R"([{"node":"gateway","state":"integration listen"},)"
-                               R"({"node":"feature","state":"integration listen"}])");
+  EXPECT_EQ(to_json(drive::LaunchFindings{two.absent, {}, {}}).dump(),
+            R"({"not_in_operation_at_end":[{"node":"gateway","state":"integration listen"},)"
+            R"({"node":"feature","state":"integration listen"}]})");
 }
 
 TEST(DriveEnd, SaysWhatEachWas) {

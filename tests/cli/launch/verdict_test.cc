@@ -48,7 +48,6 @@ TEST_F(Verdicts, ProblemsThatDoNotReachTheServiceDoNotMatter) {
       verdict.sentence,
       "39 late wake-ups, 13 missed slots, 2 late frames, 1 lost frame, 1 restart: this does not matter, each of 37 "
       "used images was as fresh as the schedule promises");
-  EXPECT_EQ(verdict.json()["matters"], false);
 }
 
 TEST_F(Verdicts, RealNodesAreCountedAsOthersAre) {
