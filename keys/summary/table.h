@@ -100,17 +100,14 @@ template <class Of> struct Row {
 
   Row(std::function<Json(const Of&)> object, std::vector<Member> its)
       : json(std::move(object)), members(std::move(its)) {}
+  // A number, a text, or a list of them; `each` is the meaning of the list's entries.
   template <class Value>
-  Row(const char* name, Value value, const char* meaning, Absent may_be = Absent::kNever)
-      : Row(name, value, meaning, nullptr, may_be) {}
-  // `each`: the meaning of a list's entries.
-  template <class Value>
-  Row(const char* name, Value value, const char* meaning, const char* each, Absent may_be = Absent::kNever)
+  Row(const char* name, Value value, const char* meaning, const char* each = nullptr, Absent may_be = Absent::kNever)
       : Row(name, may_be, meaning, std::type_identity<Result<Value>>{}) {
     json = [value](const Of& of) { return written(value(of), [](const auto& one) { return Json(one); }); };
     if (each != nullptr) members.push_back({place<Result<Value>>(), type_of<Inner<Present<Result<Value>>>>(), each});
   }
-  // `rows`: those of the object, or of each object in a list.
+  // An object, or a list of them; `rows` are those of each.
   template <class Value>
   Row(const char* name, Value value, const char* meaning, const Rows<Entry<Result<Value>>>& rows,
       Absent may_be = Absent::kNever)
