@@ -58,7 +58,10 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
     elder.anchor = opposite(elder.anchor);
   if (younger.shown.known && (!elder.shown.known || younger.shown.variance < elder.shown.variance))
     elder.shown = younger.shown;
-  if (younger.extent.covariance.determinant() < elder.extent.covariance.determinant()) elder.extent = younger.extent;
+  if (younger.extent.covariance.determinant() < elder.extent.covariance.determinant()) {
+    elder.extent = younger.extent;
+    elder.class_index = younger.class_index;  // whose prior the extent has
+  }
   auto& sums = elder.unfiltered.classes.sums;
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += younger.unfiltered.classes.sums[i];
   const bool newer = younger.newest.measured > elder.newest.measured;

@@ -130,6 +130,7 @@ TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
   tracks[0].misses = 5;
   tracks[2].hits = 0b111;
   correct_width(tracks[2].extent, 1.9, 0.1);
+  tracks[2].class_index = 3;
   const estimators::Estimate certain = tracks[2].estimate;
   twins.unite(tracks, list_of_tracks({&tracks[2]}).view(), *estimator);
   ASSERT_EQ(tracks.size(), 3u) << "one list is not enough";
@@ -145,6 +146,7 @@ TEST(Twins, TheElderStaysAndTheMoreCertainEstimateIsKept) {
   EXPECT_EQ(tracks[0].existence, 0.99);
   EXPECT_EQ(tracks[0].misses, 0);
   EXPECT_NEAR(tracks[0].extent.size(1), 1.9, 0.05);
+  EXPECT_EQ(tracks[0].class_index, 3) << "the class goes with the extent";
   EXPECT_EQ(tracks[1].birth.measurement.sequence, 2u);
 }
 
