@@ -1,7 +1,7 @@
 // The classes of objects in traffic, with the priors of their sizes.
 //
 // A class is a belief about an object before sensors have seen it: how long and wide such objects are, and how frequent. The
-// tracker chooses among the classes of its configuration by what it measures of an object (fusion/tracks/parts/classes.h).
+// tracker chooses among the classes of its configuration by its measurements of an object (fusion/tracks/parts/classes.h).
 //
 // Sources. Car: the mean of the world's car and its draws (docs/fusion/world.md). Van, truck, two-wheelers and pedestrian: the usual
 // vehicles of the class, with the spread that a type approval allows (a truck from 7.5 t to a coach of 15 m). Shares: the labels of
@@ -12,6 +12,8 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+
+#include "fusion/sensors/observation.h"
 
 namespace ttf::fusion::config {
 
@@ -26,21 +28,20 @@ struct Sizes {
 struct ClassPrior {
   std::string_view name;
   Sizes sizes;
-  double share = 0.0;        // how frequent the class is, relative to the others
-  double speed_sigma = 0.0;  // [m/s] over ground, of a normal distribution about standing
-  // The class of observations (sensors::Observation::class_id) that is this one.
-  std::size_t id = 0;
+  double share = 0.0;                       // how frequent the class is, relative to the others
+  double speed_sigma = 0.0;                 // [m/s] over ground, of a normal distribution about standing
+  sensors::ClassId id = sensors::kNoClass;  // as observations report it; kNoClass: none does
 };
 
 // By the class code of the world and of a camera's boxes (sim/world/traffic/classes.h).
 inline constexpr std::size_t kClassCount = 6;
 inline constexpr std::array<ClassPrior, kClassCount> kClassPriors{{
-    {"car", {4.4, 0.5, 1.8, 0.15, 0.0}, 0.72, 20.0, 0},
-    {"truck", {12.0, 2.5, 2.5, 0.1, 0.0}, 0.04, 20.0, 1},
-    {"van", {5.5, 0.5, 2.0, 0.1, 0.0}, 0.07, 20.0, 2},
-    {"motorbike", {2.2, 0.2, 0.8, 0.1, 0.0}, 0.02, 20.0, 3},
-    {"cyclist", {1.8, 0.1, 0.6, 0.1, 0.0}, 0.04, 5.0, 4},
-    {"pedestrian", {0.5, 0.1, 0.6, 0.1, 0.0}, 0.11, 1.5, 5},
+    {"car", {4.4, 0.5, 1.8, 0.15, 0.0}, 0.72, 20.0, sensors::ClassId{0}},
+    {"truck", {12.0, 2.5, 2.5, 0.1, 0.0}, 0.04, 20.0, sensors::ClassId{1}},
+    {"van", {5.5, 0.5, 2.0, 0.1, 0.0}, 0.07, 20.0, sensors::ClassId{2}},
+    {"motorbike", {2.2, 0.2, 0.8, 0.1, 0.0}, 0.02, 20.0, sensors::ClassId{3}},
+    {"cyclist", {1.8, 0.1, 0.6, 0.1, 0.0}, 0.04, 5.0, sensors::ClassId{4}},
+    {"pedestrian", {0.5, 0.1, 0.6, 0.1, 0.0}, 0.11, 1.5, sensors::ClassId{5}},
 }};
 
 }  // namespace ttf::fusion::config

@@ -11,11 +11,23 @@
 namespace ttf::recording::replay {
 namespace {
 
+// The classes of the configuration are those of the rows by their names. No row reports the others.
+fusion::config::TrackerConfig with_ids_of(const std::vector<std::string>& classes,
+                                          fusion::config::TrackerConfig config) {
+  for (fusion::config::ClassPrior& prior : config.classes) {
+    const auto found = std::find(classes.begin(), classes.end(), prior.name);
+    prior.id = found == classes.end() ? fusion::sensors::kNoClass
+                                      : static_cast<fusion::sensors::ClassId>(found - classes.begin());
+  }
+  return config;
+}
+
 class Replay {
  public:
   Replay(const RecordedLists& recorded, const ReplaySetup& setup, const TrackSink& sink)
       : recorded_(recorded), setup_(setup), sink_(sink),
-        strategy_(fusion::strategies::make_strategy(setup.strategy, setup.tracker, setup.timings)) {
+        strategy_(fusion::strategies::make_strategy(setup.strategy, with_ids_of(recorded.classes, setup.tracker),
+                                                    setup.timings)) {
     account_.sensors.resize(recorded.sensors.size());
   }
 

@@ -29,11 +29,11 @@ double log_density(const body::Extent& extent, const SeenSpan& span) {
   return known ? *known : log_density_of_any_aspect(extent, span);
 }
 
-double log_of_reports(const Classification& reported, std::size_t id, double confusion) {
+double log_of_reports(const Classification& reported, sensors::ClassId id, double confusion) {
   constexpr double kOthers = config::kClassCount - 1;
   double all = 0.0;
   for (const double sum : reported.sums) all += sum;
-  const double own = reported.sums[id];
+  const double own = id == sensors::kNoClass ? 0.0 : reported.sums[static_cast<std::size_t>(id)];
   return own * std::log1p(-confusion) + (all - own) * std::log(confusion / kOthers);
 }
 

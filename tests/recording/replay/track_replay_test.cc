@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "recording/replay/replay.h"
@@ -74,6 +75,34 @@ TEST(TrackReplay, FollowsBothCars) {
   for (const SensorAccount& sensor : outcome.account.sensors) EXPECT_EQ(sensor.in_order, sensor.lists);
   EXPECT_EQ(outcome.account.sensors[0].lists, 200u);
   EXPECT_EQ(outcome.account.sensors[0].observations, 400u);
+}
+
+// Rows number their classes by the alphabet: a van is 1, the tracker's truck. Without a class of this name, reports are of none
+// of its classes.
+TEST(TrackReplay, ReportsAreOfTheClassOfTheirName) {
+  for (const auto& [name, length] : {std::pair{"van", 5.5}, {"truck", 12.0}, {"car", 4.4}, {"bus", 4.4}}) {
+    ReplayConfig config;
+    for (const fusion::config::ClassPrior& prior : fusion::config::kClassPriors)
+      config.tracker.classes.push_back(prior);
+    std::vector<recording::rows::ObservationRow> rows;
+    for (std::int64_t ms = 0; ms < 1000; ms += 50) {
+      rows.push_back(position_row("camera", ms, ms, 20.0, 0.0));
+      rows.back().width = 2.0;
+      rows.back().sigma_width = 0.5;
+      rows.back().class_name = name;
+    }
+    rows.push_back(position_row("camera", 0, 0, 90.0, 0.0));
+    rows.back().class_name = "aeroplane";
+    const RecordedLists arrivals = recorded_lists_of_rows(rows, config);
+    ASSERT_EQ(arrivals.classes, (std::vector<std::string>{"aeroplane", name}));
+    double seen = 0.0;
+    const ReplaySetup setup{StrategyKind::kAdva, config.tracker, sensor_timings(arrivals, config, StrategyKind::kAdva)};
+    replay(arrivals, setup, [&](GlobalTime, std::span<const fusion::tracks::TrackView> tracks) {
+      ASSERT_LE(tracks.size(), 1u);
+      if (!tracks.empty()) seen = tracks.front().length;
+    });
+    EXPECT_NEAR(seen, length, 1e-6) << name;
+  }
 }
 
 TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
