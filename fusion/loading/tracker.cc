@@ -1,5 +1,9 @@
 #include "fusion/loading/tracker.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "fusion/loading/known_sensor.h"
@@ -55,32 +59,53 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
   c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "lists"));
 }
 
+// Reads a number, or takes the usual one.
+using ReadNumber = double(YamlMap& yaml, std::string_view key, double usual, Range<double> allowed,
+                          std::string_view unit);
+
+double usual_or_given(YamlMap& yaml, std::string_view key, double usual, Range<double> allowed, std::string_view unit) {
+  return yaml.number_or(key, usual, allowed, unit);
+}
+
+// For classes: each has its own usual value, so that the key has no default.
+double own_or_given(YamlMap& yaml, std::string_view key, double own, Range<double> allowed, std::string_view unit) {
+  return yaml.has(key) ? yaml.number(key, allowed, unit) : own;
+}
+
 // As YAML: {length: 4.4, length_sigma: 0.5, width: 1.8, width_sigma: 0.15, correlation: 0}
-Sizes load_sizes(YamlMap& yaml, Sizes s) {
-  s.length = yaml.number_or("length", s.length, {0.1, 20.0}, "m");
-  s.length_sigma = yaml.number_or("length_sigma", s.length_sigma, {0.01, 5.0}, "m");
-  s.width = yaml.number_or("width", s.width, {0.1, 5.0}, "m");
-  s.width_sigma = yaml.number_or("width_sigma", s.width_sigma, {0.01, 2.0}, "m");
-  s.correlation = yaml.number_or("correlation", s.correlation, {-0.99, 0.99});
+Sizes load_sizes(YamlMap& yaml, Sizes s, ReadNumber& number) {
+  s.length = number(yaml, "length", s.length, {0.1, 20.0}, "m");
+  s.length_sigma = number(yaml, "length_sigma", s.length_sigma, {0.01, 5.0}, "m");
+  s.width = number(yaml, "width", s.width, {0.1, 5.0}, "m");
+  s.width_sigma = number(yaml, "width_sigma", s.width_sigma, {0.01, 2.0}, "m");
+  s.correlation = number(yaml, "correlation", s.correlation, {-0.99, 0.99}, "");
   return s;
 }
 
-// As YAML: {car: {share: 0.9}, truck: {length: 16.5, length_sigma: 0.5}}. What an entry omits is the class's own. A share of zero
-// leaves the class out.
-std::vector<ClassPrior> load_classes(YamlMap yaml) {
+// Returns the class of this name. A class of another name is a finding, and reads as the first one.
+ClassPrior class_of(const std::string& name, YamlMap& entry) {
+  std::vector<std::string_view> names;
+  for (const ClassPrior& one : config::kClassPriors) {
+    if (one.name == name) return one;
+    names.push_back(one.name);
+  }
+  entry.fail("", fmt::format("must be one of {}", fmt::join(names, ", ")));
+  return config::kClassPriors.front();
+}
+
+// As YAML: {car: {share: 0.9}, truck: {length: 16.5, length_sigma: 0.5}}. A class keeps its own values where an
+// entry has none. A share of zero leaves the class out. The order is that of the table, whatever the file's.
+std::vector<ClassPrior> load_classes(YamlMap& yaml) {
   std::vector<ClassPrior> classes;
-  for (const ClassPrior& usual : config::kClassPriors) {
-    const std::string name(usual.name);
-    if (!yaml.has(name)) continue;
-    YamlMap entry = yaml.map(name);
-    ClassPrior prior = usual;
-    prior.sizes = load_sizes(entry, usual.sizes);
-    prior.speed_sigma = entry.number_or("speed_sigma", usual.speed_sigma, {0.1, 100.0}, "m/s");
-    prior.share = entry.number_or("share", usual.share, {0.0, 1.0});
+  for (auto& [name, entry] : yaml.named_maps("classes")) {
+    ClassPrior prior = class_of(name, entry);
+    prior.sizes = load_sizes(entry, prior.sizes, own_or_given);
+    prior.speed_sigma = own_or_given(entry, "speed_sigma", prior.speed_sigma, {0.1, 100.0}, "m/s");
+    prior.share = own_or_given(entry, "share", prior.share, {0.0, 1.0}, "");
     entry.finish();
     if (prior.share > 0.0) classes.push_back(prior);
   }
-  yaml.finish();
+  std::sort(classes.begin(), classes.end(), [](const ClassPrior& a, const ClassPrior& b) { return a.id < b.id; });
   return classes;
 }
 
@@ -178,15 +203,17 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   if (auto sizes = yaml.map_if("sizes")) {
-    c.sizes = load_sizes(*sizes, c.sizes);
+    c.sizes = load_sizes(*sizes, c.sizes, usual_or_given);
     sizes->finish();
   }
-  if (auto classes = yaml.map_if("classes")) {
+  if (yaml.has("classes")) {
     if (yaml.has("sizes")) yaml.fail("sizes", "must be absent with classes: each class has its own");
-    c.classes = load_classes(std::move(*classes));
-    if (c.classes.empty()) yaml.fail("classes", "must have one class with a share above zero");
-    c.class_confusion = yaml.number_or("class_confusion", c.class_confusion, {1e-6, 0.8});
+    c.classes = load_classes(yaml);
+    if (c.classes.empty()) yaml.fail("classes", "must have one with a share above zero");
   }
+  c.class_confusion = yaml.number_or("class_confusion", c.class_confusion, {1e-6, 0.8});
+  if (c.classes.empty() && yaml.has("class_confusion"))
+    yaml.fail("class_confusion", "must be absent without classes: no report of a class counts");
   if (yaml.has("odometry")) c.odometry_line = yaml.line("odometry");
   if (yaml.has("odometry")) c.odometry = load_odometry(yaml.map("odometry"));
   if (c.odometry && c.cross_noise) yaml.fail("cross_noise", "must be absent with odometry: the vehicle's axes turn");

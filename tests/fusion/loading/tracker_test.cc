@@ -1,4 +1,5 @@
 // The tracker's configuration is read strictly.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -126,6 +127,89 @@ TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
   EXPECT_NE(sentences[2].find("t.yaml:3: turn_noise = 0"), std::string::npos) << sentences[2];
   EXPECT_NE(sentences[3].find("t.yaml:4: mode_seconds"), std::string::npos) << sentences[3];
   EXPECT_NE(sentences[4].find("t.yaml:5: initial_turn_rate_sigma"), std::string::npos) << sentences[4];
+}
+
+// The sentences of a text that is refused.
+std::vector<std::string> refusals(const std::string& text) {
+  std::vector<std::string> sentences;
+  load(text, &sentences);
+  return sentences;
+}
+
+TEST(TrackerConfig, ClassesAreThoseOfTheTableUnlessSaid) {
+  EXPECT_TRUE(load("{}").classes.empty());
+  std::string all = "classes:\n";
+  for (const ClassPrior& usual : kClassPriors) all += "  " + std::string(usual.name) + ": {}\n";
+  const TrackerConfig c = load(all);
+  ASSERT_EQ(c.classes.size(), kClassCount);
+  EXPECT_EQ(c.class_confusion, 0.05);
+  for (std::size_t k = 0; k < kClassCount; ++k) {
+    const ClassPrior &read = c.classes[k], &usual = kClassPriors[k];
+    EXPECT_EQ(read.name, usual.name);
+    EXPECT_EQ(static_cast<std::size_t>(read.id), k);
+    EXPECT_EQ(read.share, usual.share);
+    EXPECT_EQ(read.speed_sigma, usual.speed_sigma);
+    EXPECT_EQ(read.sizes.length, usual.sizes.length);
+    EXPECT_EQ(read.sizes.length_sigma, usual.sizes.length_sigma);
+    EXPECT_EQ(read.sizes.width, usual.sizes.width);
+    EXPECT_EQ(read.sizes.width_sigma, usual.sizes.width_sigma);
+    EXPECT_EQ(read.sizes.correlation, usual.sizes.correlation);
+  }
+}
+
+TEST(TrackerConfig, AClassHasItsOwnValuesAndTheOrderIsTheTables) {
+  const TrackerConfig c = load(
+      "classes:\n  pedestrian: {speed_sigma: 2, share: 1}\n"
+      "  truck: {length: 16.5, length_sigma: 0.25, width: 2.55, width_sigma: 0.05, correlation: -0.5}\n"
+      "  car: {width: 1.75}\nclass_confusion: 0.1\n");
+  ASSERT_EQ(c.classes.size(), 3u);
+  EXPECT_EQ(c.class_confusion, 0.1);
+  const ClassPrior &car = c.classes[0], &truck = c.classes[1], &pedestrian = c.classes[2];
+  EXPECT_EQ(car.name, "car");
+  EXPECT_EQ(car.sizes.length, 4.4);
+  EXPECT_EQ(car.sizes.width, 1.75);
+  EXPECT_EQ(car.share, 0.72);
+  EXPECT_EQ(truck.name, "truck");
+  EXPECT_EQ(truck.id, sensors::ClassId{1});
+  EXPECT_EQ(truck.sizes.length, 16.5);
+  EXPECT_EQ(truck.sizes.length_sigma, 0.25);
+  EXPECT_EQ(truck.sizes.width, 2.55);
+  EXPECT_EQ(truck.sizes.width_sigma, 0.05);
+  EXPECT_EQ(truck.sizes.correlation, -0.5);
+  EXPECT_EQ(truck.speed_sigma, 20.0);
+  EXPECT_EQ(pedestrian.name, "pedestrian");
+  EXPECT_EQ(pedestrian.id, sensors::ClassId{5});
+  EXPECT_EQ(pedestrian.speed_sigma, 2.0);
+  EXPECT_EQ(pedestrian.share, 1.0);
+  EXPECT_EQ(pedestrian.sizes.length, 0.5);
+}
+
+TEST(TrackerConfig, RefusesWhatClassesCannotBe) {
+  using testing::ElementsAre;
+  EXPECT_THAT(refusals("classes:\n  car: {}\n  lorry: {length: 21}\n"),
+              ElementsAre("t.yaml:3: classes.lorry: must be one of car, truck, van, motorbike, cyclist, pedestrian",
+                          "t.yaml:3: classes.lorry.length = 21: must be a number 0.1..20 m"));
+  EXPECT_THAT(refusals("classes:\n  car: {share: 0}\n  van: {speed_sigma: 0, weight: 1}\n  truck: big\n"),
+              ElementsAre("t.yaml:4: classes.truck: must be a mapping",
+                          "t.yaml:2: classes.car.share = 0: must be a number 1e-06..1",
+                          "t.yaml:3: classes.van.speed_sigma = 0: must be a number 0.1..100 m/s",
+                          testing::StartsWith("t.yaml:3: classes.van.weight: is not a known key here")));
+  EXPECT_THAT(refusals("classes: {car: {}}\nsizes: {length: 4.5}\n"),
+              ElementsAre("t.yaml:2: sizes: must be absent with classes: each class has its own"));
+  EXPECT_THAT(refusals("classes: {car: {}}\nclass_confusion: 0\n"),
+              ElementsAre("t.yaml:2: class_confusion = 0: must be a number 1e-06..0.8"));
+  EXPECT_THAT(refusals("class_confusion: 0.1\n"),
+              ElementsAre("t.yaml:1: class_confusion = 0.1: must be absent without classes: no report of a class "
+                          "counts"));
+  for (const oosm::NamedKind& named : oosm::kKinds) {
+    const std::vector<std::string> sentences = refusals("classes: {car: {}}\nlate: " + std::string(named.name) + "\n");
+    if (named.kind == oosm::Kind::kRewind)
+      EXPECT_THAT(sentences, ElementsAre());
+    else
+      EXPECT_THAT(sentences, ElementsAre("t.yaml:2: late = " + std::string(named.name) +
+                                         ": must be rewind with classes: the other methods do not reverse a choice "
+                                         "among them"));
+  }
 }
 
 TEST(TrackerConfig, OdometryHasErrors) {
