@@ -5,10 +5,13 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstdint>
 
 #include "core/random.h"
+#include "fusion/config/classes.h"
 #include "nodes/host/step.h"
 #include "schedules/file/loader.h"
+#include "sim/world/traffic/classes.h"
 
 namespace ttf::sensors {
 namespace {
@@ -48,6 +51,46 @@ TEST(ObservationCodec, ACamerasSilhouetteIsASpanNotAWidth) {
   EXPECT_NEAR(z.sigma_span, 0.002, 0.0001 + 1e-12);
   EXPECT_EQ(z.seen, ttf::fusion::sensors::SeenPoint::kSilhouette);
   EXPECT_FALSE(z.has_width || z.has_length || z.has_heading);
+}
+
+TEST(ObservationCodec, AReportedClassCountsOnceAndACodeOfNoClassIsNone) {
+  List list("surround_synchronised.yaml", "mono_objects");
+  constexpr int kCodes = 16;  // four bits
+  list.out.begin(0, kCodes, GlobalTime{});
+  for (int code = 0; code < kCodes; ++code) {
+    list.set(code, "span", 0.22);
+    list.set(code, "class", code);
+  }
+  const auto observations = list.decoded();
+  ASSERT_EQ(observations.size(), 16u);
+  for (std::size_t code = 0; code < observations.size(); ++code) {
+    const ttf::fusion::sensors::Observation& z = observations[code];
+    EXPECT_TRUE(z.has_span);
+    EXPECT_NEAR(z.span, 0.22, 0.00025 + 1e-12);
+    if (code < ttf::fusion::config::kClassCount) {
+      EXPECT_EQ(z.class_id, ttf::fusion::sensors::ClassId{static_cast<std::uint8_t>(code)});
+      EXPECT_EQ(z.score, 1.0);
+    } else {
+      EXPECT_EQ(z.class_id, ttf::fusion::sensors::kNoClass) << code;
+      EXPECT_EQ(z.score, 0.0);
+    }
+  }
+}
+
+TEST(ObservationCodec, ClassesHaveTheCodesOfTheWorld) {
+  ASSERT_EQ(sim::world::traffic::kClasses.size(), ttf::fusion::config::kClassCount);
+  for (std::size_t code = 0; code < ttf::fusion::config::kClassCount; ++code)
+    EXPECT_EQ(ttf::fusion::config::kClassPriors[code].name, sim::world::traffic::kClasses[code].name);
+}
+
+TEST(ObservationCodec, AListWithoutClassesReportsNone) {
+  List list("surround_synchronised.yaml", "stereo_objects");
+  list.out.begin(0, 1, GlobalTime{});
+  list.set(0, "span", 0.22);
+  const auto observations = list.decoded();
+  ASSERT_EQ(observations.size(), 1u);
+  EXPECT_TRUE(observations[0].has_span);
+  EXPECT_EQ(observations[0].class_id, ttf::fusion::sensors::kNoClass);
 }
 
 TEST(ObservationCodec, ARadarsReturnsAreOfTheOutline) {
@@ -104,6 +147,7 @@ TEST(ObservationCodec, AnyBytesMakeUsableObservations) {
   RandomStream draw({.seed = 12});
   for (const auto& [file, name] : {std::pair{"paper_synchronised.yaml", "laser_objects"},
                                    {"paper_synchronised.yaml", "camera_objects"},
+                                   {"surround_synchronised.yaml", "mono_objects"},
                                    {"laser_radar.yaml", "radar_objects"}}) {
     List list(file, name);
     for (int round = 0; round < 200; ++round) {
@@ -122,6 +166,8 @@ TEST(ObservationCodec, AnyBytesMakeUsableObservations) {
         ASSERT_TRUE(!z.has_length || z.sigma_length > 0.0);
         ASSERT_TRUE(!z.has_width || z.sigma_width > 0.0);
         ASSERT_TRUE(!z.has_span || z.sigma_span > 0.0);
+        ASSERT_TRUE(z.class_id == ttf::fusion::sensors::kNoClass ||
+                    static_cast<std::size_t>(z.class_id) < ttf::fusion::sensors::kMostClasses);
       }
     }
   }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -95,12 +97,18 @@ class LaneCamera : public testing::Test {
 
   // Measures and preprocesses this list; `marks_lost` leaves the list of marks of the last time.
   void run(std::uint32_t sequence, bool marks_lost = false) {
-    const Cluster& cluster = cluster_;
+    measure(sequence);
+    preprocess(sequence, marks_lost);
+  }
+  void measure(std::uint32_t sequence) {
     nodes::host::StepContext measuring;
     measuring.measurement = sequence;
     measuring.outputs = sent_;
     measuring.sink = &nobody_;
     device_.run(measuring);
+  }
+  void preprocess(std::uint32_t sequence, bool marks_lost = false) {
+    const Cluster& cluster = cluster_;
     std::vector<nodes::host::StrobeLatch> strobes(cluster.sensors.size());
     strobes[index_of(camera_)].strobe(sequence, GlobalTime{1'000'000});
     std::vector<nodes::host::Input> inputs;
@@ -151,6 +159,22 @@ TEST_F(LaneCamera, ListsTheCarAndBothMarks) {
     }
   }
   EXPECT_GE(cars, 5);
+}
+
+// Also one that is of no class.
+TEST_F(LaneCamera, AnObjectsClassIsThatOfItsBox) {
+  nodes::host::Output& raw =
+      *std::find_if(sent_.begin(), sent_.end(), [](const nodes::host::Output& one) { return one.port() == "raw"; });
+  for (std::uint32_t code = 0; code < 8; ++code) {
+    measure(code);
+    ASSERT_EQ(nodes::host::element_count(raw.layout(), raw.view()), 1);
+    raw.set(0, *schedules::model::find_signal(raw.layout().element, "class"), code);
+    preprocess(code);
+    const nodes::host::Output& objects = output("objects");
+    ASSERT_EQ(nodes::host::element_count(objects.layout(), objects.view()), 1);
+    const auto signal = schedules::model::find_signal(objects.layout().element, "class");
+    EXPECT_EQ(nodes::host::element_value(objects.layout(), objects.view(), 0, *signal), code);
+  }
 }
 
 TEST_F(LaneCamera, MarksOfAnotherPictureAreLeftOut) {
