@@ -84,9 +84,9 @@ struct TrackerConfig {
   oosm::Kind late = oosm::Kind::kRewind;
   // Spectral density of the heading's random walk [rad^2/s], beside its turn rate (fusion/tracks/body/heading.h).
   double heading_noise = 0.005;
-  Sizes sizes;  // of all objects, without classes
-  std::vector<ClassPrior>
-      classes;  // of which an object is one; the first is that of an object of which nothing is measured
+  Sizes sizes;  // without classes, those of all objects
+  // An object is of one of them: of the first one while nothing of it is measured.
+  std::vector<ClassPrior> classes;
   // A reported class is any other one with this probability. Reports of one sensor agree in their errors.
   double class_confusion = 0.05;
   double extent_noise = 0.0;  // spectral density of a random walk of length and width [m^2/s]

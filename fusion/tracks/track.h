@@ -14,7 +14,7 @@ namespace ttf::fusion::tracks {
 
 struct Track : Life, body::Body {
   std::uint8_t twin_lists = 0;   // lists in a row that suggested a twin (fusion/tracks/parts/twins.h)
-  std::uint8_t class_index = 0;  // of the configured classes (fusion/tracks/parts/classes.h)
+  std::uint8_t class_index = 0;  // place among the configured ones (fusion/tracks/parts/classes.h)
   ObservationId twin;            // the twin's birth, if twin_lists > 0
   Unfiltered unfiltered;
 };

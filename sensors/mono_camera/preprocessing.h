@@ -21,9 +21,9 @@ struct ListedLanes {
   std::vector<SeenMark> marks;
 };
 
-// Ports: `raw` (left, right, bottom, top, class) -> `objects` (position and its covariance, span of the silhouette, and the
-// class if the list has one). A camera of lanes has also `marks` (offset, heading, curvature) -> `lanes` (the same with their sigmas and the validity). The device
-// sends the marks before the boxes. Marks of another picture are left out.
+// Ports: `raw` (left, right, bottom, top, class) -> `objects` (position and its covariance, span of the silhouette, and the class
+// if the list has one). A camera of lanes has also `marks` (offset, heading, curvature) -> `lanes` (the same with their sigmas and
+// the validity). The device sends the marks before the boxes. Marks of another picture are left out.
 class MonoCameraPreprocessing final : public Preprocessing {
  public:
   MonoCameraPreprocessing(const schedules::model::Cluster& cluster, const schedules::model::Task& task,

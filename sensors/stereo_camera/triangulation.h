@@ -23,7 +23,7 @@ CameraCalibration load_camera_calibration(YamlMap& yaml);
 // The position is that of the silhouette.
 struct CameraObject : ttf::fusion::sensors::PlanePosition {
   double span = 0, sigma_span = 0;  // the angle under which the object is seen [rad]
-  int class_code = 0;               // of a camera that tells classes (fusion/config/classes.h)
+  int class_code = 0;               // if the camera tells classes (fusion/config/classes.h)
 };
 
 // Computes the object of a silhouette. `bearing` [rad] lies within +-1.5, `disparity` [px] is positive, and

@@ -32,7 +32,7 @@ struct Distance {
   linear::Vector<2> axis = linear::Vector<2>::UnitX();     // the object's
   linear::Vector<2> velocity = linear::Vector<2>::Zero();  // the anchor's [m/s]
   linear::Vector<2> swing = linear::Vector<2>::Zero();     // matter's velocity there, relative to the anchor [m/s]
-  linear::Vector<2> by_rate = linear::Vector<2>::Zero();   // of it, one standard deviation by the turn rate [m/s]
+  linear::Vector<2> by_rate = linear::Vector<2>::Zero();   // its standard deviation by the turn rate [m/s]
 };
 
 // Returns the distance of an observed point from the track's anchor, and no value if they are one point. The mounting is

@@ -10,7 +10,7 @@
 namespace ttf::fusion::tracks::parts {
 namespace {
 
-// Returns the same for an aspect of which nothing is known.
+// As log_density_of_span(), for an aspect of which nothing is known: the mean density over all aspects.
 double log_density_of_any_aspect(const body::Extent& extent, const SeenSpan& span) {
   constexpr int kAspects = 9;        // between the end and the side
   constexpr double kLeast = 1e-300;  // has a finite logarithm
