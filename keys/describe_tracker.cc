@@ -51,7 +51,7 @@ constexpr Description kTracker[] = {
     {"classes.NAME.speed_sigma",
      "Speeds of the class have this standard deviation about standing; absent, its own; for clusters with `odometry`.",
      "5"},
-    {"classes.NAME.share", "The class is so frequent, relative to the others; absent, its own.", "0.1"},
+    {"classes.NAME.share", "The class is so frequent, relative to the others; absent, its own; 0 leaves the class out.", "0.1"},
     {"class_confusion", "A sensor reports any other class than the right one with this probability; for `classes`."},
     {"odometry",
      "The odometry of the sensors' vehicle has these errors; for clusters that have a sensor of the kind `odometry`."},

@@ -189,15 +189,17 @@ TEST(TrackerConfig, RefusesWhatClassesCannotBe) {
   EXPECT_THAT(refusals("classes:\n  car: {}\n  lorry: {length: 21}\n"),
               ElementsAre("t.yaml:3: classes.lorry: must be one of car, truck, van, motorbike, cyclist, pedestrian",
                           "t.yaml:3: classes.lorry.length = 21: must be a number 0.1..20 m"));
-  EXPECT_THAT(refusals("classes:\n  car: {share: 0}\n  van: {speed_sigma: 0, weight: 1}\n  truck: big\n"),
+  EXPECT_THAT(refusals("classes:\n  car: {share: 1.5}\n  van: {speed_sigma: 0, weight: 1}\n  truck: big\n"),
               ElementsAre("t.yaml:4: classes.truck: must be a mapping",
-                          "t.yaml:2: classes.car.share = 0: must be a number 1e-06..1",
+                          "t.yaml:2: classes.car.share = 1.5: must be a number 0..1",
                           "t.yaml:3: classes.van.speed_sigma = 0: must be a number 0.1..100 m/s",
                           testing::StartsWith("t.yaml:3: classes.van.weight: is not a known key here")));
   EXPECT_THAT(refusals("classes: {car: {}}\nsizes: {length: 4.5}\n"),
               ElementsAre("t.yaml:2: sizes: must be absent with classes: each class has its own"));
   EXPECT_THAT(refusals("classes: {car: {}}\nclass_confusion: 0\n"),
               ElementsAre("t.yaml:2: class_confusion = 0: must be a number 1e-06..0.8"));
+  EXPECT_THAT(refusals("classes:\n  car: {share: 0}\n"),
+              ElementsAre(testing::HasSubstr("classes: must have one with a share above zero")));
   EXPECT_THAT(refusals("class_confusion: 0.1\n"),
               ElementsAre("t.yaml:1: class_confusion = 0.1: must be absent without classes: no report of a class "
                           "counts"));
