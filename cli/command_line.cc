@@ -56,7 +56,7 @@ Finding unknown_option(const CLI::App& command, const std::string& typed) {
                       : fmt::format("{}, whose --help lists them", is_none));
 }
 
-// Returns the first argument that no command on the way to `command` knows; an option goes before other words.
+// Returns the first argument that no command on the way to `command` has; an option goes before other words.
 std::optional<Finding> unknown_argument(const CLI::App& command) {
   for (const CLI::App* in = &command; in != nullptr; in = in->get_parent()) {
     std::vector<std::string> left = in->remaining();

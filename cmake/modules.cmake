@@ -65,14 +65,14 @@ function(ttf_module name)
   cmake_parse_arguments(MODULE "HOT;WARM;COLD" "" "SOURCES;DEPS" ${ARGN})
   if(MODULE_SOURCES)
     add_library(${name} STATIC ${MODULE_SOURCES})
-    # The export needs to know of no flags: $<BUILD_INTERFACE:...>.
+    # The export needs no flags: $<BUILD_INTERFACE:...>.
     target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:ttf_options> PUBLIC ${MODULE_DEPS})
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
     target_compile_features(${name} PUBLIC cxx_std_20)
     if(MODULE_HOT AND CMAKE_BUILD_TYPE STREQUAL "Release")
       target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-O3>)
     elseif(TARGET ttf_module_headers)
-      # The compiled headers know fmt's definitions, so a module without fmt has them, too.
+      # The compiled headers have fmt's definitions, so a module without fmt has them, too.
       target_compile_definitions(${name} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
       if(MODULE_COLD OR (MODULE_WARM AND NOT TTF_SANITIZE))
         target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${TTF_COLD_OPTIONS}>)

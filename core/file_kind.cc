@@ -18,7 +18,7 @@ struct Kind {
   std::string_view name;
   std::string_view taken_by;
   std::span<const std::string_view> own;   // keys that no other kind has
-  std::span<const std::string_view> only;  // all keys of a kind that is told by having no others; else empty
+  std::span<const std::string_view> only;  // all keys of a kind that is recognised by having no others; else empty
 };
 
 constexpr std::string_view kExperimentKeys[] = {"kind", "paradigms", "variants", "axes"};

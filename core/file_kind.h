@@ -13,7 +13,7 @@ namespace ttf {
 
 enum class FileKind : std::uint8_t { kScenario, kCluster, kExperiment, kTrack, kFaults, kFibex, kDbc, kLog, kCapture };
 
-// Returns the kind by its own keys at the top level: no other kind has them. Without such a key, the kind must know all keys.
+// Returns the kind by its own keys at the top level: no other kind has them. Without such a key, the kind must have all keys.
 // Returns none for other files.
 std::optional<FileKind> kind_of(const StrictYaml& file);
 
@@ -25,7 +25,7 @@ std::optional<FileKind> kind_of_file(const std::string& path);
 StrictYaml load_of_kind(const std::string& path, FileKind wanted);
 
 // Throws InputError with one finding if the file is of another kind. Files of no kind pass. So do those with an own key of the
-// wanted kind: their loader knows more.
+// wanted kind: their loader has more.
 void expect_kind(const StrictYaml& file, FileKind wanted);
 
 // Throws InputError with one finding if the file is of another kind than a log, and is no log by its first bytes. Other files

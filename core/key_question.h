@@ -1,5 +1,5 @@
 // The questions by which a loader reads keys. YamlMap answers them from a file. Without a file KeyAnswers answers, and
-// learns which keys the loader knows (keys/described_reading.h).
+// collects the keys that the loader reads (keys/described_reading.h).
 #pragma once
 
 #include <cstdint>

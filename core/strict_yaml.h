@@ -11,7 +11,7 @@
 // A getter without a usable value adds its finding and returns a value inside the range. Reading continues, so
 // that later mistakes are found too. Getters with a fallback do not require the key.
 //
-// StrictYaml::described() has no file: KeyAnswers answers the getters, and learns which keys a loader reads. Each list
+// StrictYaml::described() has no file: KeyAnswers answers the getters, and collects the keys that a loader reads. Each list
 // and each named mapping has one entry there, and findings are ignored.
 #pragma once
 

@@ -19,7 +19,7 @@ namespace {
 constexpr int kDeepest = 32;
 constexpr std::size_t kMostItems = 1'000'000;
 
-// A value of the merged document. A mapping knows its entries, all else is a node of one text.
+// A value of the merged document. A mapping has its entries, all else is a node of one text.
 struct Entry;
 struct Item {
   std::shared_ptr<const YAML::Node> node;  // an assignment to a YAML::Node would change its document

@@ -93,7 +93,7 @@ int main(int argc, char **argv) {
   struct line out = line_of(here, publisher, "ttf/can/observation_can");
   dds_entity_t reader = dds_create_reader(subscriber, a.topic, NULL, NULL), waits = dds_create_waitset(here);
   dds_waitset_attach(waits, dds_create_readcondition(reader, DDS_ANY_STATE), 0);
-  for (int cycle = -1, number = 0;;) {  // counted from the drive's first, if it hears that one
+  for (int cycle = -1, number = 0;;) {  // counted from the drive's first, if it receives that one
     void *taken[1] = {NULL};
     dds_sample_info_t info;
     dds_waitset_wait(waits, NULL, 0, DDS_INFINITY);
@@ -102,7 +102,7 @@ int main(int argc, char **argv) {
     int count = info.valid_data && heard.kind == kOnSlot && heard.slot <= 34 ? heard.bytes._buffer[4] & 63 : -1;
     dds_return_loan(reader, taken, 1);
     int ahead = (count - cycle % 64 + 64) % 64;
-    if (count < 0 || (cycle >= 0 && (ahead == 0 || ahead > 32))) continue;  // one frame tells enough of its cycle
+    if (count < 0 || (cycle >= 0 && (ahead == 0 || ahead > 32))) continue;  // one frame states enough of its cycle
     cycle = cycle < 0 ? count : cycle + ahead;
     int64_t due = heard.sent - (heard.tells_late ? heard.late : 0);
     int64_t next = due + scale * (kCycle - (heard.slot - 1) * kSlot - kActionPoint);

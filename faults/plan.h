@@ -4,7 +4,7 @@
 //     - {kind: crash, node: camera_host, from: 800 ms, duration: 200 ms}
 //     - {kind: bit_flip_payload, node: fusion, flips: 3, probability: 0.1}
 //
-// and a campaign makes it in code. Nodes do not know the plan: sim/faults injects its faults into media, clocks
+// and a campaign makes it in code. Nodes do not have the plan: sim/faults injects its faults into media, clocks
 // and supplies. docs/reference/faults.md describes the effect of every kind and the checks that should detect it.
 #pragma once
 

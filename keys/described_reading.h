@@ -39,7 +39,7 @@ class DescribedReading final : public KeyAnswers {
   KeyValue answer(const KeyQuestion& question) override;
 
   const std::map<std::string, Map>& maps() const { return maps_; }  // by their path
-  const std::vector<std::string>& order() const { return order_; }  // the maps' order, as they were met
+  const std::vector<std::string>& order() const { return order_; }  // the maps' order, as they came
   // Only a reading with the usual numbers has any.
   const std::vector<Decision>& decisions() const { return decisions_; }
 

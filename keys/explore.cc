@@ -46,7 +46,7 @@ bool same_values(const KeyQuestion& a, const KeyQuestion& b) {
 }
 bool same_kind(const KeyQuestion& a, const KeyQuestion& b) { return same_values(a, b) && a.unit == b.unit; }
 
-// Whether two readings know the same keys of a mapping, except `apart`. A key whose value was not asked for matches any.
+// Whether two readings have the same keys of a mapping, except `apart`. A key whose value was not asked for matches any.
 bool same_keys(const DescribedReading::Map& a, const DescribedReading::Map& b, const std::string& apart) {
   if (std::set(a.known.begin(), a.known.end()) != std::set(b.known.begin(), b.known.end())) return false;
   return std::all_of(a.questions.begin(), a.questions.end(), [&](const KeyQuestion& question) {
@@ -163,7 +163,7 @@ class Explorer {
     return map == reading.maps().end() ? nullptr : find(map->second, key);
   }
 
-  // Skips the mappings `apart`. Their cases tell.
+  // Skips the mappings `apart`. Their cases decide.
   void note_changes(const DescribedReading& before, const DescribedReading& after, const std::string& cause,
                     const std::set<std::string>& apart = {}) {
     for (const auto& [path, map] : after.maps())

@@ -1,4 +1,4 @@
-// Finds every key that a loader knows: reads described files with every answer that may change the next questions.
+// Finds every key that a loader reads: reads described files with every answer that may change the next questions.
 //
 // The first run has the usual answers. Each decision that a run is the first to meet gets one more run for each other
 // answer; all else is answered as in the run that met it. If such an answer changes the keys of its own mapping, all

@@ -226,7 +226,7 @@ class Schema {
       if (std::find(needed.begin(), needed.end(), Json(key)) == needed.end()) needed.push_back(key);
     };
     for (const Condition& condition : one.conditions) {
-      if (condition.around) continue;  // the mapping around tells
+      if (condition.around) continue;  // the mapping around decides
       if (condition.of == Condition::Of::kPresence) {
         if (condition.values.size() != 1) continue;
         if (condition.values.front() == "true")

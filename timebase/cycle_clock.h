@@ -15,7 +15,7 @@
 
 namespace ttf::timebase {
 
-// The parameters of a clock; timebase knows no more of schedules.
+// The parameters of a clock; timebase has no more of schedules.
 struct CycleGeometry {
   int macro_per_cycle = 0;  // [MT]
   std::int64_t macrotick_ps = 0;
@@ -26,7 +26,7 @@ struct CycleGeometry {
 class CycleClock {
  public:
   // Cycle `first` starts at microtick `start` with the rate correction `rate` [uT per cycle]. A node that joins
-  // a running cluster knows its cycle only modulo gCycleCountMax + 1, and counts on from there.
+  // a running cluster has its cycle only modulo gCycleCountMax + 1, and counts on from there.
   CycleClock(CycleGeometry geometry, Microticks start, int rate, std::int64_t first = 0);
 
   std::int64_t cycle() const { return cycle_; }  // running number, never wraps

@@ -67,7 +67,7 @@ class Oscillator {
       const std::uint64_t ns = static_cast<std::uint64_t>(phase_ns_) + ticks * static_cast<std::uint64_t>(period_ns_) +
                                static_cast<std::uint64_t>(rest >> 64);
       // The exact rest is in [rest, rest + ticks + 1) / 2^64 and is rounded up. The sign is tested last: if the
-      // compiler knew it earlier, it would use a wider multiplication.
+      // compiler had it earlier, it would use a wider multiplication.
       if (static_cast<std::uint64_t>(rest) - 1 < ~ticks && k.value >= 0) return {static_cast<std::int64_t>(ns + 1)};
       return k.value < 0 ? time_before(k) : time_from({static_cast<std::int64_t>(ns)}, k);
     }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets everything up on a fresh Debian 12 and runs both of the paper's drives with all three strategies. Says first what 20
-# seeds of each can tell, then prints a comparison table of one seed. Leaves pictures, logs, an index page and reports in
+# seeds of each can decide, then prints a comparison table of one seed. Leaves pictures, logs, an index page and reports in
 # out/demo, or in the folder given.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 kept=tools/long_checks.passed
 
-plain_g++() { tools/plain_build.sh g++; }                              # everything, as those build it who know no presets
+plain_g++() { tools/plain_build.sh g++; }                              # everything, as a build without presets does
 plain_clang++() {                                                      # so, too; the presets' warnings are errors
   CXXFLAGS=$(grep -o ' -W[a-z=0-9-]*' CMakePresets.json | sort -u | tr -d '\n') tools/plain_build.sh clang++ all benchmarks slow_tests
 }

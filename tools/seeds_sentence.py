@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Says in a sentence which strategy sees best over the seeds of an experiment, or that they cannot tell.
+"""Says in a sentence which strategy sees best over the seeds of an experiment, or that they cannot decide.
 
     seeds_sentence.py ANSWER.json
 

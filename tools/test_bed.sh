@@ -39,7 +39,7 @@ build() {
   (cd "$work/$package" && busybox patch -p1) <"$changes"
   sed -E '/^(#|$)/d; s/^[^=]+$/&=y/; s/^/CONFIG_/' "$symbols" >"$work/fragment"
   make -C "$work/$package" O="$work/out" "${options[@]}" KCONFIG_ALLCONFIG="$work/fragment" allnoconfig
-  # A symbol that this kernel does not know, or not on these terms, is not silently left out.
+  # A symbol that this kernel does not have, or not on these terms, is not silently left out.
   if grep -vxFf "$work/out/.config" "$work/fragment"; then
     echo "these symbols are not what they should be" >&2
     return 1

@@ -140,7 +140,7 @@ Protocol::Brought Protocol::frame_bit(bool recessive) {
   return brought;
 }
 
-// A transmitter hears itself: what it sees is what it sent, or an error, or another's lower identifier.
+// A transmitter receives itself: what it sees is what it sent, or an error, or another's lower identifier.
 Protocol::Brought Protocol::transmitted(bool recessive, const Decoder::Taken& taken) {
   const FrameBit& sent = frame_[bit_];
   if (sent.acknowledgement) {

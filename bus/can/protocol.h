@@ -2,7 +2,7 @@
 // part B, chapters 3, 6 and 8). It sends and receives frames, error frames and overload frames. It keeps the
 // intermission, and it goes bus off and returns.
 //
-// A pure machine: at the end of each of its bits it is told the level that it saw, and says which level it drives in
+// A pure machine: at the end of each of its bits it takes the level that it saw, and says which level it drives in
 // the next. bus/can/line.h puts several on one line. A true level is recessive.
 #pragma once
 

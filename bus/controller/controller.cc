@@ -179,7 +179,7 @@ void FlexRayController::State::enter_cycle(const poc::StartupFramesSeen& ended, 
   events.cycle_started(clock->cycle(), at);
 }
 
-// Activity under way is not judged yet. It began at an unknown instant after all that was heard on the channel.
+// Activity under way is not judged yet. It began at an unknown instant after all that was received on the channel.
 void FlexRayController::State::note_what_goes_on() {
   for (const schedules::model::Channel channel : schedules::model::kBothChannels) {
     bool& goes_on = going_on[index_of(channel)];
@@ -212,7 +212,7 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
   }
 }
 
-// All static frames of the cycle have been heard: reports the missing ones, and computes the corrections in
+// All static frames of the cycle have been received: reports the missing ones, and computes the corrections in
 // odd cycles.
 void FlexRayController::State::close_static_segment(Microticks at) {
   const std::int64_t cycle = clock->cycle();

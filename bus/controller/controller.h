@@ -25,7 +25,7 @@
 // Activity that began outside every slot is reported under slot 0. Activity across slot boundaries violates
 // the boundary of every slot that it touches (bus/controller/slot_board.h). Activity that outlasts the static
 // segment is reported when the segment ends. It then violates the boundaries of the segment's last slot, and
-// of the silent slots before it in which a frame is expected, back to the last activity heard on the channel.
+// of the silent slots before it in which a frame is expected, back to the last activity received on the channel.
 // The report replaces "no frame" there. A node alone with its own sync frame misses no term of clock
 // correction. Cycle 0 of a leading coldstart node starts one macrotick after the end of its CAS.
 #pragma once
@@ -99,7 +99,7 @@ class ControllerEvents {
   // The static segment of a cycle is over: its slot problems have been reported, and slot_status() describes
   // it. Also called during start-up, when the host must judge it by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
-  // Returns whether the host wants frame_received() and list_arrived() for every frame, also for one that it knows.
+  // Returns whether the host wants frame_received() and list_arrived() for every frame, also for a known one.
   virtual bool wants_receptions() const { return true; }
   // A valid frame in the slot that its header states, also an unexpected one; not during start-up. `frame` is valid
   // only during the call.

@@ -7,7 +7,7 @@
 // but all nodes on a channel count alike.
 //
 // Interpretation: FlexRay has no rule for activity that lasts into the segment. Here it takes the first slot,
-// as if it had begun in minislot 1. No node sends during it, and a node that hears its end counts on from
+// as if it had begun in minislot 1. No node sends during it, and a node that receives its end counts on from
 // there, as after any transmission.
 //
 // clang-format off

@@ -8,7 +8,7 @@
 // Interpretation: on each channel the node waits for the partner of the first startup frame of an even cycle.
 // A pair more than pRateCorrectionOut away from pMicroPerCycle is refused, and listening begins anew. A failed
 // attempt leaves no trace: deriving begins "as soon as a valid startup frame has been received" (SPNU563A
-// 26.2.6.7.4, 26.2.6.7.5). So the same node may be tried again and again if it is heard first
+// 26.2.6.7.4, 26.2.6.7.5). So the same node may be tried again and again if it is received first
 // (docs/results/fault_findings.md shows the possible cost).
 #pragma once
 

@@ -2,7 +2,7 @@
 // begins at the coupler on a node's branch, by the guardian's own clock. Its memory is in
 // bus/guardian/startup_turns.h, its place in sim/medium/star_coupler.h.
 //
-// A coupler receives every signal and sends it on afresh, so it can inspect what it forwards. It knows a
+// A coupler receives every signal and sends it on afresh, so it can inspect what it forwards. It has a
 // frame's header before the first bit leaves (sim/medium/coupler.h says what that delay means). It cannot wait
 // for the frame CRC; a wrong one is wrong for all receivers.
 //

@@ -3,7 +3,7 @@
 //
 // Without a schedule the guardian has little to judge nodes by. But the pattern of a fault-free coldstart node
 // is known: a collision avoidance symbol, then one startup frame in every cycle. The other nodes follow a
-// faulty node that does likewise, and start the cluster with it or, once they have heard each other, without
+// faulty node that does likewise, and start the cluster with it or, once they have received each other, without
 // it. So any node may lead, but a failed lead is not soon repeated:
 //   S1  one node leads at a time: the first to send its collision avoidance symbol or its startup frame. No other node
 //       is forwarded until the guardian has a schedule from the leader, or the lead has failed
@@ -13,7 +13,7 @@
 //       kWaitCycles, and follows others meanwhile (bus/guardian/guardian.h G1, G8)
 //   S4  a leader that led correctly but stayed alone, with its symbol and the startup frames of cycles 0 to 4, waits
 //       only for the silent cycle that follows. Listening nodes would have joined it in cycle 4, and the others shall
-//       hear the next symbol. An earlier symbol could keep nodes that gave up the last attempt from ever hearing a
+//       receive the next symbol. An earlier symbol could keep nodes that gave up the last attempt from ever receiving a
 //       cycle 0
 //   S5  a wake-up pattern is forwarded on the node's wake-up channel, once in kWaitCycles for each node, and not during
 //       a lead

@@ -22,7 +22,7 @@ enum class PocEventKind : std::uint8_t {
   kFreeze,      // at once
   kFatalError,  // the controller's own: it found an error and cannot go on
 
-  // The receiver, on any attached channel unless stated otherwise. A controller does not hear itself.
+  // The receiver, on any attached channel unless stated otherwise. A controller does not receive itself.
   kChannelActive,  // activity on a channel while all were idle
   kChannelsIdle,   // all attached channels are idle (channel idle recognised)
   kCasReceived,
@@ -70,7 +70,7 @@ inline constexpr std::array kAllPocEventKinds = {
     PocEventKind::kCycleStarted,
 };
 
-// Startup frames of other nodes in the cycle that has ended. A node counts once, on whichever channels it was heard.
+// Startup frames of other nodes in the cycle that has ended. A node counts once, on whichever channels it was received.
 struct StartupFramesSeen {
   int frames = 0;                // in the cycle that has ended
   int pairs = 0;                 // in both cycles of the double cycle; valid only after an odd cycle

@@ -116,7 +116,7 @@ constexpr Rule kRules[] = {
     {K::kWakeupDetect, E::kListenTimeout, ends_wakeup<WakeupStatus::kCollisionUnknown, R::kCollisionUnexplained>},
 
     // The leading coldstart node. A CAS or a header is no noise: another node starts or runs the cluster. A
-    // leading node that hears one gives way, so that one leader remains.
+    // leading node that receives one gives way, so that one leader remains.
     {K::kColdstartListen, E::kStartupFrame, derive_schedule},
     {K::kColdstartListen, E::kListenTimeout, does<attempt_coldstart, R::kColdstartAfterSilence>},
     {K::kColdstartListen, E::kNoiseTimeout, does<attempt_coldstart, R::kColdstartAfterNoise>},

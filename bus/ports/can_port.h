@@ -1,6 +1,6 @@
 // The CAN port sends a node's frames to a private CAN.
 //   L1  every frame reaches every other controller on the bus exactly once, bytes unchanged
-//   L2  a controller does not hear itself
+//   L2  a controller does not receive itself
 //   L3  whenever the bus falls idle, the pending frame with the lowest identifier wins (ties: lower node)
 //   L4  frames of one identifier from one node keep their order
 //   L5  the medium keeps no reference to the data after send() returns

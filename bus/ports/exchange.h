@@ -3,9 +3,9 @@
 //
 //   L1  every message of a member reaches every other member exactly once, unchanged
 //   L2  messages of one member arrive in the order in which they were sent
-//   L3  a member does not hear itself
+//   L3  a member does not receive itself
 //   L4  receive() sleeps until there is a message; it never spins
-//   L5  all messages of a member are heard before it is reported gone, and none afterwards
+//   L5  all messages of a member are received before it is reported gone, and none afterwards
 #pragma once
 
 #include <cstddef>

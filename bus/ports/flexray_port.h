@@ -5,7 +5,7 @@
 // has bits, symbols and CRCs; the controller has slots, cycles and clocks. Instants are microticks of the node
 // that states them. The engine converts them to true time, or the runner to a machine's clock.
 //   L1  every transmission reaches every other controller on that channel exactly once, unchanged
-//   L2  a controller does not hear itself
+//   L2  a controller does not receive itself
 //   L3  receptions reach one controller in the order of their end; ties: channel (on one channel there are none: L6)
 //   L4  a signal is delivered at its end, never before it has left completely
 //   L5  the medium keeps no reference to the bytes after transmit() returns, the controller none after receive()

@@ -1,9 +1,9 @@
-// A listener hears the lines of a live medium without being a node: for judging nodes that are not the
+// A listener receives the lines of a live medium without being a node: for judging nodes that are not the
 // program's own. A medium (live_medium.h) hands over nothing that is malformed; a listener does, as far as its
 // identifier says whose frame it was to be.
 //   L1  hear() never blocks, and nothing throws after construction
 //   L2  the instants are those of LiveArrival::at
-//   L3  on one line, what was sent first is heard first
+//   L3  on one line, what was sent first is received first
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct Heard {
   CanFrame can;
 };
 
-// Identifiers by line; other frames are not heard.
+// Identifiers by line; other frames are not received.
 struct HeardIdentifiers {
   std::vector<int> slots;                       // on both channels
   std::vector<std::vector<std::uint32_t>> can;  // by Cluster::can_buses

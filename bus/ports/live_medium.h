@@ -5,8 +5,8 @@
 // The boundary is lower than that of flexray_port.h: the medium has bytes and instants of the machine's clock. The
 // runner decides slots, arrival windows and the node's own time.
 //   L1  a signal or CAN frame on a line reaches every other node on that line exactly once, bytes unchanged; otherwise
-//       the node that missed it counts it as lost (counts().lost) where the medium can know
-//   L2  a node does not hear itself
+//       the node that missed it counts it as lost (counts().lost) where the medium can detect it
+//   L2  a node does not receive itself
 //   L3  what one node sends on one line arrives in the order in which it was sent
 //   L4  LiveArrival::at, and LiveArrival::left if given, lie between the beginning of send() and LiveArrival::received,
 //       which is no later than the return of receive(): all by the receiver's machine
@@ -56,7 +56,7 @@ struct LiveSignal {
   int slot = 0;                      // a frame's: 1..2047
   Duration duration{};               // for all but frames: the time on the wire
   std::span<const std::byte> bytes;  // a frame's header, payload, trailer; 8..262
-  bool tells_late = false;           // a sync frame: receivers learn how late it left
+  bool tells_late = false;           // a sync frame: states to receivers how late it left
 };
 
 // A report of a CAN's controller about an error, or about its state of error confinement.
@@ -64,7 +64,7 @@ struct CanReport {
   recording::records::CanError error{};  // none: it is about the state only
   bool as_transmitter = false;
   std::optional<recording::records::CanState> state;      // it has this one
-  std::uint16_t transmit_errors = 0, receive_errors = 0;  // 0 where the carrier does not tell
+  std::uint16_t transmit_errors = 0, receive_errors = 0;  // 0 where the carrier does not state it
 };
 
 struct LiveArrival {
@@ -91,7 +91,7 @@ struct LiveArrival {
 struct LiveCounts {
   std::uint64_t sent = 0, received = 0;  // signals and CAN frames
   std::uint64_t not_sent = 0;            // no room
-  std::uint64_t lost = 0;                // known to the medium, but never heard
+  std::uint64_t lost = 0;                // known to the medium, but never received
   std::uint64_t foreign = 0;             // from other senders than ours
   std::uint64_t malformed = 0;           // in our form, but wrong
 };

@@ -1,5 +1,5 @@
-// Hears frames on CAN interfaces (bus/ports/listener.h). On a channel a frame is malformed if it has the
-// identifier of a heard slot and is not made as flexray_on_can.h says: classic CAN, a wrong header CRC, a length
+// Receives frames on CAN interfaces (bus/ports/listener.h). On a channel a frame is malformed if it has the
+// identifier of a received slot and is not made as flexray_on_can.h says: classic CAN, a wrong header CRC, a length
 // that the header contradicts, a displaced fragment. On a private CAN it is malformed if CAN FD has no such
 // length, or if it is a remote frame.
 #pragma once
@@ -17,7 +17,7 @@ namespace ttf::bus::socketcan {
 
 class SocketCanListener final : public ports::Listener {
  public:
-  // Interfaces of A and B, empty: not heard; of private CANs by Cluster::can_buses, each with CAN FD or not. Throws
+  // Interfaces of A and B, empty: not received; of private CANs by Cluster::can_buses, each with CAN FD or not. Throws
   // InputError if the kernel or an interface is unsuitable.
   struct Can {
     std::string interface;

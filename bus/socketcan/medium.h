@@ -10,8 +10,8 @@
 //              Other frames there are left to the CAN controller's judgement
 //   not_sent   also a follow-up without room; and a frame of which only some fragments had room
 //
-// A follow-up states a sync frame's lateness once the interface has confirmed the frame. The sender hears its
-// own frames come back, stamped by the kernel, and keeps them to itself. On vcan the echo is immediate: send()
+// A follow-up states a sync frame's lateness once the interface has confirmed the frame. The sender receives its
+// own frames back, stamped by the kernel, and keeps them to itself. On vcan the echo is immediate: send()
 // finds it and sends the follow-up, unless frames of others are to be received first. In that case receive()
 // sends it, as on real hardware, where the confirmation comes when the frame has left.
 //

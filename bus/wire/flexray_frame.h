@@ -62,7 +62,7 @@ struct DecodedFrame {
 // judges the sync and startup indicators and the cycle, which depend on the slot.
 DecodedFrame decode_frame(schedules::model::Channel channel, std::span<const std::byte> frame);
 
-// Splits a header into its fields without checking its CRC; only this function knows where they lie.
+// Splits a header into its fields without checking its CRC; only this function has their places.
 FrameHeader parse_header(std::span<const std::byte, kHeaderBytes> header);
 // Splits the header at the beginning of a frame; returns no value if the header is incomplete.
 std::optional<FrameHeader> header_of(std::span<const std::byte> frame);

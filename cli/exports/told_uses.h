@@ -1,4 +1,4 @@
-// Tells the ages and the errors of a drive's used images, while its records are read.
+// Reports the ages and the errors of a drive's used images, while its records are read.
 #pragma once
 
 #include <functional>

@@ -44,7 +44,7 @@ class LoggedCommands final : public recording::records::Sink {
   TrueTime start_;
 };
 
-// Nodes do not know the truth: it is computed at the instants of the nodes' records.
+// Nodes do not have the truth: it is computed at the instants of the nodes' records.
 void write_truth(const node_set::NodeSet& set, const sim::drives::Surroundings& around,
                  const recording::merge::MergedLogs& nodes, const std::string& path) {
   const auto log = drive::begin_log(path, nodes.manifest(), set.scenario, set.cluster);
@@ -153,7 +153,7 @@ std::optional<drive::StrategyResult> LiveLaunch::result(const std::vector<std::s
   if (all.empty()) return std::nullopt;
   const std::string truth = fmt::format("{}/{}", set_.folder, kTruthLog);
   const recording::merge::MergedLogs nodes(all);
-  // The launch has heard each command itself, even those of a killed process. If not, the logs have them.
+  // The launch has received each command itself, even those of a killed process. If not, the logs have them.
   if (vehicle_ && !vehicle_->counts().whole) {
     LoggedCommands logged(*around_.world->world().driven(), sim::drives::drive_start(set_.cluster));
     nodes.read(logged);

@@ -34,7 +34,7 @@ class LiveLaunch {
   // Returns how long the drive went on: less than its duration if it was stopped.
   Duration driven() const;
   // Returns the last reported states of the nodes' controllers, empty off FlexRay. An external node's is the one that was
-  // heard, empty if it was sending.
+  // received, empty if it was sending.
   std::vector<std::string> states_at_end(const supervision::HealthTable& health, const drive::StrategyResult*) const;
   // Returns the accounts of external nodes.
   std::vector<external::Account> accounts() const;
@@ -48,7 +48,7 @@ class LiveLaunch {
   const node_set::NodeSet& set_;
   std::optional<external::Hearing> hearing_;  // if there are external nodes
   sim::drives::Surroundings around_;
-  std::unique_ptr<nodes::runner::vehicle::Line> vehicle_;  // if commands drive it; it hears of all of them
+  std::unique_ptr<nodes::runner::vehicle::Line> vehicle_;  // if commands drive it; it receives all of them
   std::map<std::size_t, std::string> vehicle_problems_;    // by node, the last reported
   const std::size_t processes_;
   std::map<std::string, std::set<std::size_t>> not_granted_;  // nodes by sentence

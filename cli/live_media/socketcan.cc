@@ -28,7 +28,7 @@ std::vector<User> users_of(const std::vector<std::string>& channel_interfaces, c
   return users;
 }
 
-// The medium itself knows the errors of kernel and interfaces, and their remedies.
+// The medium itself reports the errors of kernel and interfaces, and their remedies.
 std::vector<supervision::PreflightItem> look_at_cans(const std::vector<std::string>& channel_interfaces,
                                                      const std::vector<PrivateCan>& cans) {
   std::vector<supervision::PreflightItem> items;

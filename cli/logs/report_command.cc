@@ -50,7 +50,7 @@ std::optional<double> told(const std::optional<Duration>& bound) {
 }
 
 // The latency by stage of a drive, from its log and the attached cluster. Returns nothing if the log has no sound cluster; a
-// warning tells of one that cannot be read.
+// warning names one that cannot be read.
 std::vector<ToldStages> told_stages(const recording::merge::MergedLogs& drive, std::vector<std::string>& warnings) {
   const Attached attached = attached_to(drive, "the latency by stage is left out", warnings);
   if (!attached.cluster || !schedules::check::check(*attached.cluster).empty()) return {};
@@ -85,7 +85,7 @@ struct ReportOptions {
 constexpr std::size_t kMostDrives = 10;                   // an experiment's with timing diagrams
 constexpr Duration kDrawn = Duration::milliseconds(960);  // all of them together, at most 160 ms each
 
-// Adds what the descriptions attached to the logs tell: the sensors' places, and the bounds of ages.
+// Adds what the descriptions attached to the logs state: the sensors' places, and the bounds of ages.
 void describe(std::vector<report::drive::Drive>& drives) {
   std::vector<std::string> warnings;
   for (report::drive::Drive& drive : drives) {
@@ -117,7 +117,7 @@ bool is_mcap(const std::string& path) {
   }
 }
 
-// A log's folder has all that a report tells of it.
+// A log's folder has all that a report shows of it.
 void refuse_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code none;

@@ -22,7 +22,7 @@ template <class Model> void place_emulated(const Model& model, ViewedSensor& sen
     sensor.field = ViewedField{model.half_field_rad, 0.0, model.max_range_m};
 }
 
-// A recorded sensor, as the fusion knows it.
+// A recorded sensor, as the fusion has it.
 void place_known(const fusion::sensors::KnownSensor& known, ViewedSensor& sensor) {
   sensor.mounting = Pose{known.mounting.position.x(), known.mounting.position.y(), known.mounting.yaw};
   if (known.field && known.field->max_range < fusion::sensors::Field::kUnbounded)

@@ -9,7 +9,7 @@
 
 namespace ttf::cli::logs {
 
-// Returns the sensors by SensorId. Places and fields are absent where the log has none; a warning tells of descriptions that
+// Returns the sensors by SensorId. Places and fields are absent where the log has none; a warning names descriptions that
 // cannot be read.
 std::vector<recording::scene::ViewedSensor> viewed_sensors(const recording::merge::MergedLogs& drive,
                                                            std::vector<std::string>& warnings);

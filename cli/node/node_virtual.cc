@@ -18,7 +18,7 @@
 
 namespace ttf::cli::node {
 
-// Waits for the others first, so that a ready node hears all of them.
+// Waits for the others first, so that a ready node receives all of them.
 int run_node_virtual(const NodeOptions& options) {
   const node_set::NodeSet& set = options.set;
   auto supervisor = supervision::ControlLine::from_environment();

@@ -1,4 +1,4 @@
-// The vehicle that commands drive, in real time: processes that need its state hear of the commands beside the bus.
+// The vehicle that commands drive, in real time: processes that need its state receive the commands beside the bus.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace ttf::cli::node_set {
 // `around` outlives the line.
 std::unique_ptr<nodes::runner::vehicle::Line> vehicle_line(const NodeSet& set, NodeId node,
                                                            const sim::drives::Surroundings& around);
-// Returns the line of a launch, which hears all nodes; null likewise.
+// Returns the line of a launch, which receives all nodes; null likewise.
 std::unique_ptr<nodes::runner::vehicle::Line> vehicle_line_of_launch(const NodeSet& set,
                                                                      const sim::drives::Surroundings& around);
 // For a process that joins a running drive: waits for the missed commands, and warns if they did not come.
@@ -26,7 +26,7 @@ nlohmann::ordered_json vehicle_json(const nodes::runner::vehicle::Counts& counts
 // Returns a sentence, without its subject, if the process saw the vehicle elsewhere than it was; else "". `json` is
 // from vehicle_json(), of any process.
 std::string vehicle_problem(const nlohmann::json& json);
-// Warns of that, and of a node that heard of no command at all, at the end of a node without a launch.
+// Warns of that, and of a node that received no command at all, at the end of a node without a launch.
 void warn_of_vehicle(const NodeSet& set, NodeId node, const nodes::runner::vehicle::Counts& counts);
 
 }  // namespace ttf::cli::node_set

@@ -49,7 +49,7 @@ std::optional<nlohmann::json> ControlLine::wait_for_start() {
     if (got <= 0) return std::nullopt;
     const auto json =
         nlohmann::json::parse(std::string_view(message).substr(0, static_cast<std::size_t>(got)), nullptr, false);
-    // An older node does not know every message of the supervisor.
+    // An older node does not support every message of the supervisor.
     if (json.is_object() && json.contains("start")) return json["start"];
   }
 }

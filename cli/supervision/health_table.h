@@ -27,7 +27,7 @@ struct NodeHealth {
   bool is_active = true, is_can_active = true;  // by these words; true before the first ones
 };
 
-// The state of an external node (cli/supervision/supervisor.h), as the launch hears it.
+// The state of an external node (cli/supervision/supervisor.h), as the launch receives it.
 struct ExternalHealth {
   bool heard = false;    // at least once
   bool sending = false;  // now

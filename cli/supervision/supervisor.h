@@ -11,8 +11,8 @@
 //   end       when no process is left: the health table, the manifest, the exit code
 //
 // An external node is a device that takes a node's place: no process of the launch. The hooks listen to it and
-// tell its state. It takes no part in the barrier, as it may have nothing to answer before the others have begun. A required one
-// that was not heard within heard_timeout, or by the end, fails the launch.
+// report its state. It takes no part in the barrier, as it may have nothing to answer before the others have begun. A required one
+// that was not received within heard_timeout, or by the end, fails the launch.
 //
 // A node fails by a code other than 0, by a signal, by ending before it was ready, or by owing its result. During a stop, neither
 // the stop's signals nor their codes (130, 143) count. After the last other node has ended well, optional
@@ -83,9 +83,9 @@ struct Hooks {
   std::function<void(std::size_t node, const ttf::cli::supervision::Ending& ending, bool comes_back)> on_gone;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_health;
   std::function<void(std::size_t node, const nlohmann::json& facts)> on_done;
-  // Takes in all that external nodes have sent, and all that nodes have told each other beside the bus.
+  // Takes in all that external nodes have sent, and all that nodes have sent each other beside the bus.
   std::function<void()> listen;
-  // Returns how an external node is. Without it: as never heard.
+  // Returns how an external node is. Without it: as never received.
   std::function<ExternalHealth(std::size_t node)> external;
   // Returns the launch's progress in a few words. Without it: "".
   std::function<std::string()> status;

@@ -102,7 +102,7 @@ DrivingAccount::DrivingAccount(const DrivingConfig& config, TrueTime from)
   if (config.lane) lane_.emplace(*config.lane);
 }
 
-// Nodes tell the truth at one instant of the cluster's time, each by its own clock, and in any order. The earliest one counts.
+// Nodes report the truth at one instant of the cluster's time, each by its own clock, and in any order. The earliest one counts.
 void DrivingAccount::on(const recording::records::EgoTruth& ego) {
   if (ego.at < from_) return;
   if (ego_ && ego.at - ego_->at < kOneMoment && ego_->at - ego.at < kOneMoment) {

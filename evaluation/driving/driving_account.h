@@ -6,7 +6,7 @@
 // object's outline is in the zone of that side.
 //
 // The truth is judged at the instants at which it is recorded, some hundred a second. Instants within 10 us of each other
-// are one: several nodes tell it by their clocks. The object ahead is the nearest one whose
+// are one: several nodes report it by their clocks. The object ahead is the nearest one whose
 // outline overlaps the vehicle's way, a circle of its speed and yaw rate. A drive is judged up to its first collision.
 #pragma once
 

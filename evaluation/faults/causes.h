@@ -1,7 +1,7 @@
 // Attributes a check's finding, or a node's harm, to the one fault of the plan that fits it, or to none.
 //
 //   its own       the slots of the nodes that the fault names (named_by()), these nodes' own reports, and, for a
-//                 fault of their hearing, all that they receive; from its beginning to its end, and on until they are
+//                 fault of their reception, all that they receive; from its beginning to its end, and on until they are
 //                 back. A fault-free node that it drove out of normal active is its own, too, until that node is back.
 //   a channel     every slot in which it acts with signals that are not due there: bursts, frames in others' slots. It
 //                 does not make silence.

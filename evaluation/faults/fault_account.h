@@ -78,7 +78,7 @@ struct FaultEffects {
 struct FaultSeen : FaultEffects, InjectedFault {};
 
 // The errors of one controller on a private CAN, from the first fault's begin on. A fault on the CAN is their cause, or
-// a node without supply; they are not told apart.
+// a node without supply; they are not distinguished.
 struct CanSeen {
   std::uint8_t bus = 0;
   NodeId node = kNoNode;

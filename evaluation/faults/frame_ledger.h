@@ -23,7 +23,7 @@ namespace ttf::evaluation::faults {
 
 class FrameLedger {
  public:
-  // `told` is called for every loss between fault-free nodes. `standings` must outlive this object.
+  // `on_loss` is called for every loss between fault-free nodes. `standings` must outlive this object.
   FrameLedger(const schedules::model::Cluster& cluster, const Standings& standings,
               std::function<void(const SlotLoss&)> told);
 

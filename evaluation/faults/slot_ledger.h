@@ -25,7 +25,7 @@ namespace ttf::evaluation::faults {
 
 class SlotLedger {
  public:
-  // `told` is called for every loss between nodes that count, both in the slot and when it is settled.
+  // `on_loss` is called for every loss between nodes that count, both in the slot and when it is settled.
   // `standings` must outlive this object.
   SlotLedger(const schedules::model::Cluster& cluster, const Standings& standings,
              std::function<void(const SlotLoss&)> told);

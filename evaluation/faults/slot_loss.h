@@ -23,7 +23,7 @@ struct SlotLoss {
 NodeId owner_of(const schedules::model::Cluster& cluster, int slot, schedules::model::Channel channel,
                 std::int64_t cycle);
 
-// Returns whether the receiver hears the frame's sender on this channel.
+// Returns whether the receiver receives the frame's sender on this channel.
 inline bool comes_on(const schedules::model::FrameSlot& frame, const schedules::model::Cluster& cluster,
                      NodeId receiver, schedules::model::Channel channel) {
   const auto& from = cluster.node(frame.sender).flexray;
@@ -32,7 +32,7 @@ inline bool comes_on(const schedules::model::FrameSlot& frame, const schedules::
          includes(to->pChannels, channel);
 }
 
-// Returns whether the frame, if its sender counts, is owed to the receiver: a fault-free, normal active node that hears the
+// Returns whether the frame, if its sender counts, is owed to the receiver: a fault-free, normal active node that receives the
 // sender.
 inline bool is_owed(const schedules::model::FrameSlot& frame, const schedules::model::Cluster& cluster,
                     const Standings& standings, NodeId receiver) {

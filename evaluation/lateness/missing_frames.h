@@ -1,4 +1,4 @@
-// Finds the reasons of missing frames. A receiver cannot tell lost frames from frames that were not sent; the
+// Finds the reasons of missing frames. A receiver cannot distinguish lost frames from frames that were not sent; the
 // senders' logs can.
 //
 // A record of `count` lost frames covers the last `count` turns of its slot before its cycle. Each of these is

@@ -1,4 +1,4 @@
-// Tells the distance to the nearest object of the image, and warns below 15 m. docs/media/own_code.md builds it.
+// Reports the distance to the nearest object of the image, and warns below 15 m. docs/media/own_code.md builds it.
 //
 // Ports: any input with signals x and y -> any output whose signals are the distance and the warning.
 #include <math.h>

@@ -28,7 +28,7 @@ struct Words {
   std::string_view frame_id = "slot";
   std::string_view unit_name;  // for the tables' times: "cycles"
   Duration unit{};
-  std::string_view unit_beside_ms;  // a story tells times in the unit, too, by this word; empty: it does not
+  std::string_view unit_beside_ms;  // a story states times in the unit, too, by this word; empty: it does not
 };
 
 // The faults that must not harm: at most so many do.

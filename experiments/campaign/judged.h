@@ -1,4 +1,4 @@
-// A judgement as a campaign counts and tells it, whatever its bus.
+// A judgement as a campaign counts and reports it, whatever its bus.
 #pragma once
 
 #include <algorithm>

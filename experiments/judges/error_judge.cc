@@ -30,7 +30,7 @@ ErrorJudge::ErrorJudge(const Plan& plan) {
   over_time_ = plan.error->over_time;
   densities_ = plan.error->process_noises;
   for (const PlannedChain& chain : plan.chains) {
-    // Odometry has none, and is not met.
+    // Odometry has none, and is left out.
     const double sigma = plan.error->sigmas_m[index_of(chain.from)].value_or(1.0);
     variances_.push_back(sigma * sigma);
   }

@@ -16,7 +16,7 @@ using schedules::synthesis::plan::Plan;
 
 namespace {
 
-// Returns by use of the chain the newest measurement that it knows.
+// Returns by use of the chain the newest measurement before it.
 CommandRound commands_of(const Meeting& meeting, std::size_t chain, Duration delay) {
   CommandRound round{meeting.round, {}, {}};
   for (const Met& one : meeting.met)

@@ -81,7 +81,7 @@ class PhaseSearch {
   }
 
   // Returns the least bound over the streams that are late: the smallest sets of them with which there are instants.
-  // With more late streams a filter knows less.
+  // With more late streams a filter has less data.
   double least_of(const Box& box) const {
     double least = kNone;
     std::vector<std::vector<bool>> sets{std::vector<bool>(box.sides.size(), false)}, found;

@@ -5,7 +5,7 @@
 //   P(t + dt) = F P F' + Q(dt),   Q = q dt, or q [dt^3/3, dt^2/2; dt^2/2, dt]
 //   P+ = P (I + M P)^-1,          M = H' H / R,   H = [1, 0]
 // (Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, 5.2.3 and 6.2.2). The
-// filter knows q and R. Every step has the form P -> h + a P (I + g P)^-1 a'. So has a round of steps, and two rounds.
+// filter has q and R. Every step has the form P -> h + a P (I + g P)^-1 a'. So has a round of steps, and two rounds.
 // Doubling the rounds ends at the periodic covariance, quadratically (Anderson: "Second-order convergent algorithms for
 // the steady-state Riccati equation", International Journal of Control 28, 1978).
 //

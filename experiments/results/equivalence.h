@@ -16,14 +16,14 @@ struct Margin {
   double around(double second) const { return share ? value * std::abs(second) : value; }
 };
 
-// kUndecided: the drives cannot tell.
+// kUndecided: the drives cannot decide.
 enum class Agreement : std::uint8_t { kWithin, kBeyond, kUndecided };
 
 // Two one-sided tests of paired values x and y with margin m (Schuirmann: "A comparison of the two one-sided tests
 // procedure and the power approach for assessing the equivalence of average bioavailability", 1987):
 //   within if x - y - m is below 0 and x - y + m above 0, both for certain,
 //   beyond if one of them is on its other side for certain.
-// A share is taken drive by drive, m = share |y|, so that both tests know how sure the margin itself is. Each test
+// A share is taken drive by drive, m = share |y|, so that both tests include how sure the margin itself is. Each test
 // errs with a probability of at most (1 - confidence) / 2. Fewer than two pairs are undecided.
 class EquivalenceTest {
  public:

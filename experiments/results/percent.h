@@ -10,7 +10,7 @@ namespace ttf::experiments::results {
 std::string plain_number(double value, int decimals, bool sign);
 
 // Returns a change in per cent with its interval, "-12 % (-16 to -7)"; without an interval "-12 %"; "-" without a value.
-// Decimals suffice to tell an end from 0. `sign` marks a difference.
+// Decimals suffice to separate an end from 0. `sign` marks a difference.
 std::string percent_words(double value, double low, double high, bool sign);
 
 // Says what the columns of a table of interactions are.

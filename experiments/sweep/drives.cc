@@ -46,7 +46,7 @@ std::string_view kind_words(std::string_view key) {
   return key == kScenarioFile ? "a scenario file" : key == kClusterFile ? "a cluster file" : "a file of faults";
 }
 
-// The recursion of expected errors knows no range rates.
+// The recursion of expected errors has no range rates.
 bool measures_positions_alone(const PreparedDrive& drive) {
   const auto& sensors = drive.cluster.sensors;
   return std::none_of(sensors.begin(), sensors.end(), [&](const schedules::model::Sensor& sensor) {

@@ -19,11 +19,11 @@ using sensors::kinds::SensorsOfKind;
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 constexpr double kWorldStep_s = 0.01;  // the world draws once per step (sim/world/world.h)
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
-// A prior that is nearer to the nominal size knows it [m].
+// A prior that is nearer to the nominal size has it [m].
 constexpr double kKnown_m = 0.02;
 // The share of a measured side's variance that repeats (fusion/tracks/body/extent.cc).
 constexpr double kRepeating = 0.8;
-// A picture of an object of a less certain heading tells no width [rad].
+// A picture of an object of a less certain heading shows no width [rad].
 constexpr double kWorstAspect = 0.3;
 
 // The tracker's density along the vehicle's x axis, and across it.

@@ -4,7 +4,7 @@
 //   face      The point that the track follows, the one that sensors see (fusion/tracks/body/anchor.h), by the recursion of
 //             expected_error.h. The scenario's process noise is assumed, and the world's is actual, with its memory.
 //   position  The centre, half of the hidden side behind it: half of the length, if a rear is in view. That side's error
-//             is the same in every image (expected_size.h). Sizes are as drawn, and the widths that sensors see tell of
+//             is the same in every image (expected_size.h). Sizes are as drawn, and the widths that sensors see correct
 //             lengths as far as the prior correlates both. The heading's error swings the centre about the face. The heading
 //             is that of course and measured axis, each by its certainty (expected_heading.h).
 //
@@ -38,7 +38,7 @@ class ExpectedError final : public recording::records::Sink {
  public:
   // Returns whether the scenario has one object and a tracker of constant velocity, to which sizes are constants. All
   // measurements are then positions in its plane. Besides, the object shows all sensors one face alone at the start, whatever
-  // size is drawn, or the tracker knows its nominal size.
+  // size is drawn, or the tracker has its nominal size.
   static bool is_defined(const sim::drives::Scenario& scenario);
   ExpectedError(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster);
 

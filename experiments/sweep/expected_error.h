@@ -10,7 +10,7 @@
 // Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, 5.2.3 and 5.3.1). BUFF, ADVA
 // and TT differ only in the lists fused by a use: a list fused late counts as if it had come in order.
 //
-// The true velocity may have a part u that forgets (sim/world/speed.h). The filter does not know that. Its error takes up
+// The true velocity may have a part u that forgets (sim/world/speed.h). The filter does not model that. Its error takes up
 // what u forgets. So P is that of (error, u). With the density D, the memory tau and f = exp(-dt / tau):
 //   u' = f u + w_u,   e_v' = e_v + (f - 1) u + w_u,   e_p' = e_p + dt e_v + (tau (1 - f) - dt) u + w_p,
 //   E w_u^2 = D tau / 2 (1 - f^2),   E w_p w_u = D tau^2 / 2 (1 - f)^2,
@@ -40,7 +40,7 @@ struct PointMotion {
   // expected square of the true velocity without the part that is forgotten [m^2/s^2].
   Eigen::Matrix2d assumed_velocity = Eigen::Matrix2d::Identity();
   Eigen::Matrix2d actual_velocity = Eigen::Matrix2d::Identity();
-  // A motion that the filter knows: both are the same.
+  // A motion that the filter models: both are the same.
   static PointMotion known(double density, double velocity_sigma);
 };
 

@@ -1,6 +1,6 @@
 // The expected error of an object's estimated length and width, without any draws.
 //
-// A tracker begins at its prior, of mean m and covariance A, and learns from the sensors. The object's size has the mean
+// A tracker begins at its prior, of mean m and covariance A, and is corrected by the sensors. The object's size has the mean
 // and the covariance S of its draw; a nominal size is certain. So the error e, estimate minus truth, begins with
 //   E e e' = S + (m - mean)(m - mean)'.
 // A sensor k sees the combination h' (length, width) with the error w + sqrt(c) u_k. Here w is white, of variance v. u_k has

@@ -1,4 +1,4 @@
-// Odometry tells how a vehicle drives: the speed of its rear axle's middle along its x axis, and its yaw rate. Its errors are
+// Odometry measures how a vehicle drives: the speed of its rear axle's middle along its x axis, and its yaw rate. Its errors are
 //   measured speed = (1 + speed_scale) speed + white noise,   measured yaw rate = yaw rate + yaw_rate_bias + white noise.
 // In a bend the rear axle drifts outwards. With linear tyres, the angle of slip is a constant times the lateral acceleration
 // v w, so that the axle's middle moves at -slip v^2 w to the left.
@@ -18,7 +18,7 @@ struct OdometrySample {
 struct OdometryErrors {
   double speed_sigma = 0.05;                     // [m/s], of the samples' noise, for the process noise of the tracks
   double yaw_rate_sigma = 0.002;                 // [rad/s]
-  Duration period = Duration::milliseconds(20);  // the samples'; a schedule tells it
+  Duration period = Duration::milliseconds(20);  // the samples'; a schedule states it
   // Known constant errors are subtracted. The rest has these sigmas, for worn tyres and a warm gyroscope.
   double speed_scale = 0.0, speed_scale_sigma = 0.005;
   double yaw_rate_bias = 0.0, yaw_rate_bias_sigma = 0.002;  // [rad/s]

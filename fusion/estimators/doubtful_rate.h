@@ -1,4 +1,4 @@
-// Range rates that a radar tells up to multiples of a span (fusion/sensors/range_bearing_rate.h).
+// Range rates that a radar measures up to multiples of a span (fusion/sensors/range_bearing_rate.h).
 //
 // The residual is the nearest of all that are possible. It is the right one if the prediction is certain enough. Otherwise the
 // rate says nothing: it would move the velocity to a value that may be any.

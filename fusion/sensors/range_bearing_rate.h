@@ -1,5 +1,5 @@
 // z = (range, bearing, range rate) [m, rad, m/s] of a radar. The range rate is the velocity relative to the
-// sensor along the line of sight, positive for a receding object. A radar may tell it up to multiples of a span: then the
+// sensor along the line of sight, positive for a receding object. A radar may measure it up to multiples of a span: then the
 // residual is the nearest of all.
 #pragma once
 

@@ -25,7 +25,7 @@
  * calls such as nanosleep() may return early with EINTR.
  *
  * Versions. ttf_step_abi() says for which version the library was built; the program refuses others. Within a version,
- * structs only grow at their ends, and struct_size tells how far this program knows one.
+ * structs only grow at their ends, and struct_size says how much of one this program has.
  */
 #ifndef TTFUSION_STEP_H
 #define TTFUSION_STEP_H
@@ -101,8 +101,8 @@ typedef struct ttf_step_output {
 /* One execution of the task. */
 typedef struct ttf_step_context {
   size_t struct_size;
-  int64_t start_ns;     /* the task's start, on the cluster's global time as this node knows it */
-  uint32_t global_time; /* 0 while the node knows no global time: then start_ns is of its own clock */
+  int64_t start_ns;     /* the task's start, on the cluster's global time as this node has it */
+  uint32_t global_time; /* 0 while the node has no global time: then start_ns is of its own clock */
   uint32_t activation;  /* earlier executions of the task */
   uint32_t input_count;
   const ttf_step_input* const* inputs;

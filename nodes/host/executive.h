@@ -7,7 +7,7 @@
 //
 // At one microtick the order is: arrivals (by the engine), ends of tasks, the bus controller, activations,
 // starts. So an output that becomes visible at a tick is still sent or read at that tick. A sleeping node does
-// nothing, and hears only a wake-up pattern.
+// nothing, and receives only a wake-up pattern.
 //   L1  after advance(t) and without further arrivals, next_event() is after t
 //   L2  nothing allocates or throws after construction; only the failing step of a library throws (nodes/foreign)
 #pragma once

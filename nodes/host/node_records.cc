@@ -7,7 +7,7 @@ namespace ttf::nodes::host {
 
 void NodeRecords::frame_sent(const bus::ports::Transmission& transmission, std::int64_t cycle, bool null_frame,
                              PduId pdu, std::uint32_t sequence, int fragment, bool last) {
-  // A frame ends in the cycle of its start, so the clock already knows the end.
+  // A frame ends in the cycle of its start, so the clock already has the end.
   const recording::records::Stamp end = time_.stamp(transmission.end);
   if (wants_frames_) {
     recording::records::SlotFrameSent sent;

@@ -1,5 +1,5 @@
 // A node's records: each event at its controllers and each step of its lists becomes a record, with all that
-// the node knows of it.
+// the node has of it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // An instant on all clocks of a node: the oscillator's microticks, local time, the cluster's global time where
-// the node knows it, and true time.
+// the node has it, and true time.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ttf::nodes::host {
 
-// The clock of an ideal observer. In virtual time events happen when they are due, so the oscillator knows true
+// The clock of an ideal observer. In virtual time events happen when they are due, so the oscillator has true
 // time; in real time they happen later.
 class TrueClock {
  public:

@@ -139,7 +139,7 @@ void SensorEnds::latch(SensorId sensor, std::uint32_t sequence, Microticks now) 
   // Without global time a measurement has no time: its strobe counts as not seen.
   const timebase::CycleClock* global = time_.global();
   if (global == nullptr) return;
-  // In real time the host may hear of a strobe after the cycle in which it came.
+  // In real time the host may receive a strobe after the cycle in which it came.
   const Microticks since = std::max(now, global->cycle_start());
   const Duration before{(since - now).value * time_.oscillator().nominal_period_ps() / 1000};
   strobes_[index_of(sensor)].strobe(sequence, global->global_time(since) - before);

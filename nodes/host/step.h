@@ -77,7 +77,7 @@ class StrobeLatch {
  public:
   void strobe(std::uint32_t sequence, GlobalTime at);
   // Returns the newest strobe whose number has these low `bits`; a list on the bus carries no others. After
-  // device or host has started anew, only one of them knows how often that field has wrapped.
+  // device or host has started anew, only one of them has counted how often that field has wrapped.
   std::optional<Strobe> find(std::uint32_t sequence, int bits) const;
 
  private:
@@ -96,7 +96,7 @@ struct Actuation {
 
 struct StepContext {
   recording::records::Stamp stamp;  // the task's start on all clocks; true time is for emulators and records
-  bool global_time = true;          // if false, the node knows none, and the stamp has its own clock's
+  bool global_time = true;          // if false, the node has none, and the stamp has its own clock's
   std::uint32_t activation = 0;     // number of earlier executions of the task
   std::uint32_t measurement = 0;    // for sensor devices: the sequence number of this measurement
   // The instant that a task with modes is executed for. Where a frame begins, the step may set the mode of this frame.

@@ -1,7 +1,7 @@
 // Moves lists within a node: from a medium to the tasks that read them, and from a task to the media.
 //
 // A task's inputs are filled at its start, and its outputs leave at its end. The node registers a medium for
-// each MediumId; the wiring knows it only as a ListMedium. Nothing allocates or throws after construction.
+// each MediumId; the wiring has it only as a ListMedium. Nothing allocates or throws after construction.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ namespace ttf::nodes::runner {
 
 class HealthTeller {
  public:
-  // `tell` is called on the other thread, with the instant of the handing over. It must not throw. The other
+  // `report` is called on the other thread, with the instant of the handing over. It must not throw. The other
   // thread inherits the maker's priority and processors, so make it before asking for real time.
   explicit HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell);
   ~HealthTeller();  // close()

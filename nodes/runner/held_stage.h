@@ -16,7 +16,7 @@ namespace ttf::nodes::runner {
 
 enum class HeldStage : std::uint8_t {
   kArrived,         // a frame that is placed when the node reaches the instant of its arrival
-  kAwaitsFollowUp,  // a sync frame of unknown lateness, until its follow-up tells it or no longer comes
+  kAwaitsFollowUp,  // a sync frame of unknown lateness, until its follow-up states it or no longer comes
   kAwaitsCycle,     // a frame of the next cycle, until that begins
   kPlaced,          // has a begin and an end on the node's clock, and waits for its end
   kHandedOver,      // its bytes are in use
@@ -26,7 +26,7 @@ inline constexpr std::array kAllHeldStages = {HeldStage::kArrived, HeldStage::kA
                                               HeldStage::kPlaced,  HeldStage::kHandedOver,     HeldStage::kRefused};
 
 enum class HeldEvent : std::uint8_t {
-  kFollowUp,  // it tells how late the frame left
+  kFollowUp,  // it states how late the frame left
 
   // Findings about a frame that is to be placed
   kLatenessUnknown,  // a sync frame whose lateness is still unknown; asked once

@@ -1,7 +1,7 @@
 // Finds the communication cycle in which a captured frame was sent, from its cycle counter and its stamp.
 //
 // The counter wraps after gCycleCountMax and may be wrong. The capture's clock drifts against the cluster's and
-// knows no start of a cycle. A frame's slot gives its offset in the cycle. Two frames' stamps thus give the
+// has no start of a cycle. A frame's slot gives its offset in the cycle. Two frames' stamps thus give the
 // number of cycles between them, to within the clocks' drift (0.15 % each) and the error of the stamps. If
 // counter and stamps agree, the counter counts; if not, the stamps count, and the counter is in error.
 #pragma once

@@ -8,7 +8,7 @@
 // - the step that writes the first image in which it is its sensor's newest, and that image's frames;
 // - the task that first uses the image, where the way ends.
 // The way of a measurement that was not fused ends where it was lost. No way is followed longer than kLongestWay.
-// An image's own way starts at the task that wrote it. Exact numbers tell lists apart, not nearness in time.
+// An image's own way starts at the task that wrote it. Exact numbers separate lists, not nearness in time.
 #pragma once
 
 #include <bitset>
@@ -98,11 +98,11 @@ class MeasurementWays {
     std::uint32_t image = 0;
     WayMark mark{};  // where the list was lost or refused; or the image's frame
     std::uint8_t channel = 0, fragment = 0;
-    NodeId writer = kNoNode;  // the used image's, if it was told; act() looks it up
+    NodeId writer = kNoNode;  // the used image's, if it was given; act() looks it up
   };
   void act(Act act);
 
-  // Advances to `now`. Calls `told(act, execution)` for every act whose task's execution is known, with the mark of
+  // Advances to `now`. Calls `on_act(act, execution)` for every act whose task's execution is known, with the mark of
   // the execution.
   template <class Told> void advance(TrueTime now, Told&& told) {
     while (!acts_.empty() && acts_.front().at + kExecutionIsTold < now) {

@@ -32,7 +32,7 @@ class LogWriter final : public records::Every<LogWriter> {
   // Opens `path` and writes manifest, schemas and channels. Throws std::runtime_error if the file cannot be
   // created.
   LogWriter(const std::string& path, const LogManifest& manifest, Writing writing = Writing::kAtOnce);
-  ~LogWriter() override;  // closes and ignores a failure; call close() to learn of it
+  ~LogWriter() override;  // closes and ignores a failure; call close() to get it
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 

@@ -55,7 +55,7 @@ struct TruthTrace {
   std::string hash;                   // content hash of the file
   std::string name;                   // the file's, for messages
   std::string type;                   // "GroundTruth" or "SensorView"
-  bool guessed = false;               // the type was told from the messages: the file does not name it
+  bool guessed = false;               // the type was found from the messages: the file does not name it
   std::vector<Duration> instants;     // since the first
   std::vector<TracedObject> objects;  // in the order of their coming, then of their ids
   std::optional<TracedHost> host;

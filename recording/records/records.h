@@ -174,7 +174,7 @@ struct PowerChanged {
   bool on = true;
 };
 
-// An activity of a fault of the fault plan. Only the injector knows it, no node does. A fault acts once or many
+// An activity of a fault of the fault plan. Only the injector has it, no node does. A fault acts once or many
 // times, between its begin and its end.
 enum class FaultAct : std::uint8_t { kBegins = 1, kActs = 2, kEnds = 3 };
 struct FaultActivity {
@@ -492,7 +492,7 @@ struct MediumCounts {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
   std::uint64_t not_sent = 0;   // no room
-  std::uint64_t lost = 0;       // never received, as the medium knows
+  std::uint64_t lost = 0;       // never received, as the medium detects
   std::uint64_t foreign = 0;    // not of this program
   std::uint64_t malformed = 0;  // in this program's form, but wrong
   std::uint64_t dropped = 0;    // no room in the process itself, inwards or outwards

@@ -70,7 +70,7 @@ NamedSigma sigma_of(SensorNoise& noise, std::string_view name);
 // Returns the names as in "must be position, range, ...".
 std::string sigma_names();
 
-// Keys missing for a sensor are as in `any`. `others` reads the top-level keys that the caller knows besides. Throws
+// Keys missing for a sensor are as in `any`. `others` reads the top-level keys that the caller reads besides. Throws
 // InputError.
 using OtherKeys = std::function<void(YamlMap&)>;
 ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any, const OtherKeys& others = {});

@@ -89,7 +89,7 @@ void carry(RecordedLists& recorded, std::vector<recording::rows::ObservationRow>
                               seconds_of(ego.last()))});
   };
   for (const recording::rows::ObservationRow& row : rows) check(GlobalTime{row.time_ns}, row.line);
-  if (findings.empty())  // else the rows have told it
+  if (findings.empty())  // else the rows have stated it
     for (const RecordedList& list : recorded.lists) check(list.measured, 0);
   findings.throw_if_any();
   for (recording::rows::ObservationRow& row : rows) {

@@ -23,7 +23,7 @@ bool measures_ranges(const RecordedLists& recorded, SensorId sensor);
 
 // Returns the timings by sensor. The worst delay is the configuration's, otherwise the longest in the recording.
 // Scheduled instants, for TT and for clones, need a period in the configuration or a regular recording. Throws
-// InputError if TT would know no sensor's instants, and so wait for none. Also throws it if the strategy cannot
+// InputError if TT would have no sensor's instants, and so wait for none. Also throws it if the strategy cannot
 // fuse late lists as configured (fusion::late_refusal()).
 std::vector<fusion::strategies::SensorTiming> sensor_timings(const RecordedLists& recorded, const ReplayConfig& config,
                                                              fusion::strategies::StrategyKind strategy);

@@ -1,5 +1,5 @@
-// The latency of measurements by stage, as the page tells it: what the schedule's analysis bounds, beside what was. The
-// program hands it over (cli/logs/report_command.cc), since the bounds are the cluster's, and this module knows logs alone.
+// The latency of measurements by stage, as the page shows it: what the schedule's analysis bounds, beside what was. The
+// program hands it over (cli/logs/report_command.cc), since the bounds are the cluster's, and this module reads logs alone.
 #pragma once
 
 #include <cstdint>

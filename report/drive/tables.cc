@@ -151,7 +151,7 @@ std::string remark_on(const Drive& drive) {
   return text.empty() ? "" : fmt::format("{}: {}.", drive.label, text);
 }
 
-// Returns whether a summary tells that nothing went wrong.
+// Returns whether a summary states that nothing went wrong.
 bool is_sound(const ToldDrive& told) {
   return std::ranges::all_of(measures(), [&](const Measure& row) {
     return row.shown.trouble.empty() || value_at(*told.drive, row.path) == 0.0;

@@ -22,7 +22,7 @@ struct Estimate {
 };
 
 // Returns "12.3 ± 0.4", or "0.02 (0.005 to 0.07)" if the interval is uneven. `runs`: more drives than have a value are
-// told, "12.3 ± 0.4 of 180".
+// marked, "12.3 ± 0.4 of 180".
 std::string interval_words(const experiments::results::Interval& interval, bool sign = false, std::uint64_t runs = 0);
 
 struct ExperimentPoint {

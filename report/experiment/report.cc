@@ -195,7 +195,7 @@ std::string mean_text(const ExperimentFolder& folder, std::size_t paradigm) {
 
 // Names the paradigms that have the least first measure for certain, with the number of points of each. A paradigm has it
 // at a point if its paired differences from all others stay certain among all pairs at all points, by Holm's method. The
-// drives in the store decide; without a store, and where the drives cannot tell, the sentence says so.
+// drives in the store decide; without a store, and where the drives cannot decide, the sentence says so.
 std::string smallest(const ExperimentFolder& folder, const Pairs& pairs) {
   const std::string& measure = folder.measures[0].name;
   const auto has_value = [](const ExperimentPoint& point) {
@@ -229,7 +229,7 @@ std::string smallest(const ExperimentFolder& folder, const Pairs& pairs) {
   return text + (told == points ? "." : fmt::format("; at {} the drives cannot tell.", points - told));
 }
 
-// `lead` is told already.
+// `lead` has been said already.
 std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& pairs, const std::string& lead) {
   std::vector<std::string> all;
   if (folder.asks_more() && folder.paradigms.size() > 1) all.push_back(smallest(folder, pairs));

@@ -3,7 +3,7 @@
 // shows the nodes that left and came back.
 //
 // A node that changed its state, was powered on or off, or sent has one lane. Labelled bars show its states;
-// hovering over a bar tells its cause. Below them are its transmissions on channel A and on channel B:
+// hovering over a bar shows its cause. Below them are its transmissions on channel A and on channel B:
 // startup frames, null frames, other frames, symbols. Planned faults within the window have lanes of their
 // own, above. The grid shows the communication cycles of the leading coldstart node, counted from its
 // collision avoidance symbol. Time is TrueTime.

@@ -17,7 +17,7 @@ std::int64_t rounded(std::int64_t a, std::int64_t b) {
 }
 
 // The statement of one frame: a cycle of its sender's count began at `start`.
-struct Told {
+struct Statement {
   std::int64_t cycle;
   TrueTime start;
   std::int64_t count;       // the sender's count at the window's begin
@@ -25,8 +25,8 @@ struct Told {
 };
 
 // Returns the statements in the order of the records.
-std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, int cycles, TrueTime from) {
-  std::vector<Told> all;
+std::vector<Statement> what_frames_tell(const TimingData& data, Duration cycle, int cycles, TrueTime from) {
+  std::vector<Statement> all;
   std::map<std::int64_t, std::size_t> frames;  // by count
   for (const auto& f : data.slot_frames) {
     if (!f.by_the_cluster) continue;
@@ -38,22 +38,22 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, int c
   const auto usual =
       std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   // Within a window clocks drift by far less than a cycle: a difference of whole rounds comes from the counts.
-  for (Told& told : all) told.rounds = rounded(told.count - usual->first, cycles);
+  for (Statement& one : all) one.rounds = rounded(one.count - usual->first, cycles);
   return all;
 }
 
 // Returns the oldest count that has the most cycles, or at least two.
-std::int64_t oldest_count(const std::vector<Told>& all) {
+std::int64_t oldest_count(const std::vector<Statement>& all) {
   std::map<std::int64_t, std::set<std::int64_t>> cycles;
   std::size_t most = 0;
-  for (const Told& told : all) {
-    auto& of_count = cycles[told.rounds];
-    of_count.insert(told.cycle);
+  for (const Statement& one : all) {
+    auto& of_count = cycles[one.rounds];
+    of_count.insert(one.cycle);
     most = std::max(most, of_count.size());
   }
   std::int64_t oldest = cycles.begin()->first;
-  for (const auto& [rounds, told] : cycles)
-    if (told.size() >= std::min<std::size_t>(most, 2)) oldest = rounds;
+  for (const auto& [rounds, numbers] : cycles)
+    if (numbers.size() >= std::min<std::size_t>(most, 2)) oldest = rounds;
   return oldest;
 }
 
@@ -63,12 +63,12 @@ std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration c
                                               TrueTime to) {
   std::map<std::int64_t, TrueTime> known, all;
   if (cycle.ns <= 0 || (to - from).ns / cycle.ns > drawing::kMostCycleLines) return all;
-  const std::vector<Told> told = what_frames_tell(data, cycle, cycles, from);
-  if (!told.empty()) {
-    const std::int64_t oldest = oldest_count(told);
+  const std::vector<Statement> statements = what_frames_tell(data, cycle, cycles, from);
+  if (!statements.empty()) {
+    const std::int64_t oldest = oldest_count(statements);
     // Frames of the same count come first: a frame of another count may be a mistake.
     for (const bool same : {true, false})
-      for (const Told& one : told)
+      for (const Statement& one : statements)
         if ((one.rounds == oldest) == same) known.try_emplace(one.cycle + (oldest - one.rounds) * cycles, one.start);
   }
   const auto [number, start] =

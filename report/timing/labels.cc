@@ -41,7 +41,7 @@ class LabelPainter {
       in_box(fmt::format("{}", s.step), box->start.true_time, box->end.true_time,
              canvas_.y({LaneKey::Kind::kTask, index_of(box->start.node), box->task}), "#c9d7e6");
     }
-    // A number alone does not tell its list. On a screen pointing at it does.
+    // A number alone does not name its list. On a screen pointing at it does.
     const bool brief_counts = !canvas_.tags.on() && !canvas_.sheet.on_paper();
     for (const Transfer& t : transfers) {
       if (!canvas_.visible(t.start, t.end)) continue;

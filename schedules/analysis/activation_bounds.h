@@ -18,7 +18,7 @@
 
 namespace ttf::schedules::analysis {
 
-// Whether the analysis knows that lists over FlexRay are written less often than they are sent.
+// Whether the analysis assumes that lists over FlexRay are written less often than they are sent.
 enum class WritersOfLists : bool { kUnknown, kKnown };
 
 // Bounds the activations of a task that messages or a sensor activate.

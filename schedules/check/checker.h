@@ -16,7 +16,7 @@
 //   loops        a sensor that follows its host does so in a closed loop (schedules/analysis/sensor_loop.h)
 //   modes        modes of tasks whose instants and lists meet no others (schedules/modes/detection_modes.h)
 //   flow         every reader has a writer and the reverse, sensors have their tasks, no list flows in a ring
-//   round        measurements are fused within a round of cycles, so that their stamps are told apart
+//   round        measurements are fused within a round of cycles, so that their stamps are distinct
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The checker's rule about the round of cycles: it is long enough to tell the stamps of measurements apart.
+// The checker's rule about the round of cycles: it is long enough to separate the stamps of measurements.
 //
 // Nodes agree on the cycle counter, and each counts its wraps itself. A stamp is thus known modulo a round, and a fusing task takes
 // it for an instant up to seven eighths of a round ago (nodes/host/step.h). With 64 cycles of some milliseconds that is more than

@@ -5,7 +5,7 @@
 // this one ends. So a frame may last any number of cycles, where a CycleInstant repeats after 1, 2, 4, ... or 64.
 //
 // An instant says what the execution that begins there is for: a camera's whole picture or its region of interest
-// (schedules/sequence/detections.h), and how long it takes. The host knows of instants and times alone.
+// (schedules/sequence/detections.h), and how long it takes. The host has instants and times alone.
 // schedules/file/load_modes.h reads them, and schedules/modes proves them sound.
 #pragma once
 

@@ -24,7 +24,7 @@ struct Effort {
 std::vector<int> bins_by_variant(const Instance& instance, const std::vector<Bin>& bins);
 
 // Packs the order behind `fixed`, and improves it until each variant has at most its bound of bins (one bound without
-// variants), or the steps are used up. `part` tells the streams of several parts apart.
+// variants), or the steps are used up. `part` separates the streams of several parts.
 Packed improved(const Instance& instance, Order order, Fit fit, const Packed& fixed, const std::vector<int>& bounds,
                 const Effort& effort, int part);
 

@@ -15,7 +15,7 @@
 
 namespace ttf::sensors::laser {
 
-// Tells segments that a vehicle fits from those that none fits (VehicleShape). A pole is thin only if both of its ends
+// Separates segments that a vehicle fits from those that none fits (VehicleShape). A pole is thin only if both of its ends
 // are seen: a car that is almost hidden is no pole.
 struct ShapeConfig {
   double thinnest_m = 0.5;   // 0: nothing is too thin

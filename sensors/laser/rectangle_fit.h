@@ -1,5 +1,5 @@
 // Says what was seen of a vehicle, from the returns of one object: its near end, its near side, the near corner of
-// both, or only a silhouette. Sizes are stated where they were measured; the rest is left to who knows the vehicles.
+// both, or only a silhouette. Sizes are stated where they were measured; the rest is left to the tracker.
 //
 // The likelihoods of both fits decide between one face and two (outline_fit.h). Twice the logarithm of their ratio is the
 // drop t of the squared range errors, in units of the range's variance. Take returns of one face, and one place of the
@@ -54,7 +54,7 @@ struct LaserObject : ttf::fusion::sensors::PlanePosition {
   double sigma_heading = 0, sigma_length = 0, sigma_width = 0;
   bool has_heading = false, has_length = false, has_width = false;
   int points = 0;
-  VehicleShape shape = VehicleShape::kVehicle;  // the preprocessor tells
+  VehicleShape shape = VehicleShape::kVehicle;  // the preprocessor says
   double residual_m = 0.0;  // root mean square of the range errors that the likelier of both outlines leaves
 };
 

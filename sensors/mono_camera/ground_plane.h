@@ -4,8 +4,8 @@
 // moves it by (x^2 + h^2) / h f / (f^2 + v^2), about x^2 / (f h): it grows with the square of the range. An error of the
 // pitch moves it by (x^2 + h^2) / h.
 //
-// The tracker knows silhouettes: the outline's mean distance, in the middle of its span (fusion/tracks/body/anchor.h). From the
-// nearest point to there it is up to half a car's length, as the car is turned. The box tells the turn by its width: of all
+// The tracker has silhouettes: the outline's mean distance, in the middle of its span (fusion/tracks/body/anchor.h). From the
+// nearest point to there it is up to half a car's length, as the car is turned. The box shows the turn by its width: of all
 // headings, a car of usual size has those whose silhouettes have this span. Their mean distance is added, and their
 // spread is part of the covariance. The usual size is that of the box's class.
 #pragma once

@@ -1,4 +1,4 @@
-// Tells lasting lane marks from those that a single picture shows.
+// Separates lasting lane marks from those that a single picture shows.
 //
 // A mark is the same as one of the list before if offset and heading have hardly changed. Its validity is the number of lists in
 // a row that show it, at most kLists, over kLists. A false one seldom comes again at its place.

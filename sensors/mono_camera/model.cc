@@ -41,7 +41,7 @@ std::optional<Projected> project(const ObjectState& state, const MonoCameraConfi
   return seen;
 }
 
-// The bottom must be in the picture: it tells the range.
+// The bottom must be in the picture: it gives the range.
 bool in_view(const MonoCameraConfig& config, const MonoBox& box, double bearing) {
   if (std::abs(bearing) > config.half_field_rad || config.device.blind.hold(bearing) ||
       std::abs(box.bottom) > config.half_height_px)

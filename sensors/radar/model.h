@@ -74,7 +74,7 @@ struct RadarReturn {
 // Returns SNR and P_d of a point, as above.
 double snr_of(const RadarConfig& config, double cross_section, double range, double azimuth);
 double detection_probability(const RadarConfig& config, double snr);
-// Returns the range rate as the radar tells it, in -span / 2 .. span / 2.
+// Returns the range rate as the radar measures it, in -span / 2 .. span / 2.
 double folded(double range_rate, double span);
 
 // The velocity of a mounted antenna over ground [m/s], in the sensor's axes.

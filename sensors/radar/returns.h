@@ -4,7 +4,7 @@
 // hold for pairs, so that a chain of returns is one object. Seen from a vehicle that drives past, the range rates of one object
 // differ by its velocity across the line of sight times the difference of azimuths. The gate of the range rate grows by
 // as much. An object is at the mean of its n returns, with the standard deviations of the sensor over sqrt(n). Where the
-// returns lie on the object is the tracker's matter, which knows its size and heading (fusion/tracks/body/returns.h).
+// returns lie on the object is the tracker's matter, which has its size and heading (fusion/tracks/body/returns.h).
 #pragma once
 
 #include <cstddef>

@@ -23,7 +23,7 @@ namespace ttf::sensors::recorded {
 bool is_recorded(const schedules::model::Cluster& cluster);
 
 // Standard deviations of a recorded sensor. The defaults are those of the laser and the radar of the public
-// recording that the loader knows.
+// recording that the loader reads.
 struct RecordedNoise {
   double position_m = 0.15;
   double range_m = 0.3;

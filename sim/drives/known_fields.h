@@ -1,4 +1,4 @@
-// The scenario's tracker in a cluster. It knows the fields of the emulated sensors, and the spans of radars, as far as the scenario says nothing
+// The scenario's tracker in a cluster. It has the fields of the emulated sensors, and the spans of radars, as far as the scenario says nothing
 // else under `tracker.sensors`. The same holds for a drive in one program, in processes and on a real bus.
 #pragma once
 

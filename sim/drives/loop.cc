@@ -30,7 +30,7 @@ Duration longest_in_true_time(const Task& task) {
   return task.worst_case + Duration{task.worst_case.ns / 16 + 1};
 }
 
-// The actuator tells a command from one a round later up to this age (past_time_stamp() of nodes/host/step.h).
+// The actuator distinguishes a command from one a round later up to this age (past_time_stamp() of nodes/host/step.h).
 Duration oldest_told(const Cluster& cluster) { return Duration{cluster.round().ns / 8 * 7}; }
 
 }  // namespace

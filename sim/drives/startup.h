@@ -9,7 +9,7 @@
 //
 // With `wake_up`, the named node sends a wake-up pattern on its wake-up channel before it starts up. Every other
 // node on that channel sleeps. Its supply is on from the start of the drive, but its controller and host are off
-// until it hears the pattern. Its power-on time counts from then. Nodes only on the other channel or off FlexRay
+// until it receives the pattern. Its power-on time counts from then. Nodes only on the other channel or off FlexRay
 // do not sleep: their power-on times count from the start of the drive.
 #pragma once
 

@@ -9,7 +9,7 @@
 
 namespace ttf::sim::engine {
 
-// A node that joined a running cluster knows its cycle only modulo gCycleCountMax + 1, and counts on from
+// A node that joined a running cluster has its cycle only modulo gCycleCountMax + 1, and counts on from
 // there. So two clocks that agree may differ by whole rounds of the cycle counter; only the rest counts.
 class ClockSpread {
  public:

@@ -1,5 +1,5 @@
 // The whole cluster in virtual time: one executive per node, the media between them, and true time, which only
-// this module knows. A drive is a pure function of its configuration (sim/engine/engine.h).
+// this module has. A drive is a pure function of its configuration (sim/engine/engine.h).
 //
 // A node that loses its supply loses everything: its executive is dropped, and power-on makes a new one with
 // new steps. Its frame on a CAN breaks off there (sim/medium/can_medium.h).
@@ -135,7 +135,7 @@ class ClusterSimulation final : public EngineOf<nodes::host::Executive>, private
   Duration precision_{};
   Duration precision_of_pair_{};
   std::int64_t reported_pair_ = 0;
-  TrueTime told_from_{};  // the beginning of the newest actuation that another process told of
+  TrueTime told_from_{};  // the beginning of the newest actuation that another process reported
   std::uint64_t frames_sent_ = 0;
 };
 

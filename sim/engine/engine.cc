@@ -213,7 +213,7 @@ inline bool Engine::arrives_alone(std::span<const medium::Leg> way, TrueTime sta
   return start == now_ && medium_.is_clear() && !way.empty() && end + way.back().delay <= until_;
 }
 
-// A signal that every receiver already knows need not arrive.
+// A signal known to every receiver need not arrive.
 void Engine::transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start,
                               TrueTime end) {
   const std::span<const medium::Leg> way = medium_.way_from(sender);

@@ -5,7 +5,7 @@
 // Single-threaded. All events are ordered by sim/medium/event_queue.h; a disturbance's own acts come after all
 // else of their instant. So a run is a pure function of its configuration.
 //
-// A node that is powered on while signals are on their way to it hears the rest of them as undecodable
+// A node that is powered on while signals are on their way to it receives the rest of them as undecodable
 // activity, from the instant of its power-on.
 #pragma once
 
@@ -48,7 +48,7 @@ class Engine : public Plant {
   bool powered(NodeId node) const final { return seats_[index_of(node)].powered; }
   const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].clock.oscillator(); }
   medium::FlexRayMedium& medium() { return medium_; }
-  // Transmits a node's frame on both channels at once, without bytes. It bypasses the medium if all receivers know it.
+  // Transmits a node's frame on both channels at once, without bytes. It bypasses the medium if it is known to all receivers.
   void transmit_on_both(NodeId sender, const bus::ports::Transmission& transmission, TrueTime start, TrueTime end);
   // Returns the guardian of a star's channel; null if the cluster has none.
   medium::StarCoupler* coupler(schedules::model::Channel channel) { return couplers_[index_of(channel)].get(); }

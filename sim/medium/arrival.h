@@ -37,7 +37,7 @@ struct Stopover {
   bool goes_on = false;
 };
 
-// The number by which an event in the queue knows its flight.
+// The number by which an event in the queue refers to its flight.
 using FlightNumber = std::uint32_t;
 
 // The parts of a flight's place in the queue.

@@ -212,7 +212,7 @@ void CanMedium::schedule_bits() {
   queue_.schedule(next, Phase::kArrival, 0, event);
 }
 
-// The first flag of an error frame tells its cause; the others only answer it.
+// The first flag of an error frame shows its cause; the others only answer it.
 void CanMedium::report_error(std::size_t member, const bus::can::Protocol::Brought& brought, TrueTime now) {
   if (error_frame_) return;
   error_frame_ = true;

@@ -1,5 +1,5 @@
 // Disturbances of the simulated private CANs, as their media see them: frames that their hosts do not hand over or do
-// not get, bits seen inverted, a line that is held. The nodes do not know of them. All instants are true times.
+// not get, bits seen inverted, a line that is held. The nodes cannot observe them. All instants are true times.
 #pragma once
 
 #include <cstddef>

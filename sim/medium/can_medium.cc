@@ -116,7 +116,7 @@ void CanMedium::send(NodeId sender, TrueTime now, const bus::ports::CanFrame& fr
   ++member.waiting;
   pending_.push_back({*m, next_order_++, frame.identifier, pool_.put(frame.data, 1)});
   if (arbitration_due_) return;
-  if (bits_ && (!is_idle(*m) || !line_.recessive())) return;  // the end of a bit will tell
+  if (bits_ && (!is_idle(*m) || !line_.recessive())) return;  // the end of a bit decides
   pass_others(now);
   arbitrate_at(std::max(now, idle_from_));
 }

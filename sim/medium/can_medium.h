@@ -49,7 +49,7 @@ class CanMedium {
   static std::size_t most_pending(const schedules::model::Cluster& cluster, std::size_t bus,
                                   std::span<const NodeId> nodes);
   // All nodes have their supply and are idle. `sink` gets each frame at its begin, as the wire carries it, and each
-  // error frame and change of a controller's state, all in true time; the node knows the rest. On the plain way a
+  // error frame and change of a controller's state, all in true time; the node has the rest. On the plain way a
   // frame's end is not known at its begin. At its acceptance the sender has an event (kCanSent). Seed and replication
   // draw the instant at which other traffic begins.
   CanMedium(const schedules::model::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,

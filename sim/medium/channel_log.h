@@ -46,7 +46,7 @@ class ChannelLog {
   // The node's signal breaks off at `at`, by the sender's instants.
   void breaks_off(NodeId sender, TrueTime at);
 
-  // The signal spreads to `receivers`. One of them cannot decode it, does not hear it, or has other bytes.
+  // The signal spreads to `receivers`. One of them cannot decode it, does not receive it, or has other bytes.
   void spreads(Id id, int receivers);
   void lost(Id id);
   void unheard(Id id);

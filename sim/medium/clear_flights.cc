@@ -71,7 +71,7 @@ ClearFlights::StopOnBoth ClearFlights::stop_on_both(const MediumEvent& event) {
   return stop;
 }
 
-// On both channels, the log hears of the end on A where that is, one stop before the end on B.
+// On both channels, the log receives the end on A where that is, one stop before the end on B.
 void ClearFlights::stopped_on_a(Flight& flight) {
   if (flight.receiving(flight.leg + 1) != flight.last) return;
   Arrival& left = flight.left[index_of(Channel::kA)];

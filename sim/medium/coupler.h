@@ -1,4 +1,4 @@
-// The middle of a star, one per channel: decides which signals go through. It hears a signal when its first bit
+// The middle of a star, one per channel: decides which signals go through. It receives a signal when its first bit
 // arrives there, and forwards it without delay. A coupler that inspects a frame's header first holds back all
 // signals for the same time. This delay would be part of gdMinPropagationDelay and gdMaxPropagationDelay.
 #pragma once

@@ -1,5 +1,5 @@
 // Disturbances of the simulated FlexRay, as its medium sees them: at the sender, towards one receiver, and out
-// of nothing. The nodes do not know of them. All instants are true times. Those of the private CANs are in
+// of nothing. The nodes cannot observe them. All instants are true times. Those of the private CANs are in
 // sim/medium/can_disturbance.h.
 #pragma once
 

@@ -54,7 +54,7 @@ class StarCoupler final : public Coupler {
   // Starts as if start-up were over: cycle 0 begins at `first`, and each cycle lasts `cycle`.
   void start_integrated(TrueTime first, Duration cycle);
   void fail(Failure failure) { failure_ = failure; }
-  // Calls `told` for each intervention; null: no calls. Interventions are counted in any case.
+  // Calls `report` for each intervention; null: no calls. Interventions are counted in any case.
   void on_intervention(std::function<void(const Intervention&)> told) { told_ = std::move(told); }
 
   bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) override;

@@ -1,10 +1,10 @@
 // The processes of one cluster go through virtual time together, one node in each. Only messages pass between
 // them: the schedule is the synchroniser.
 //
-// Every process simulates all media and its own node. It learns the acts of other nodes from their turns, and
+// Every process simulates all media and its own node. It receives the acts of other nodes by their turns, and
 // the instants of these turns from their promises. At each turn a node says its acts, until when it will be
-// silent, and how soon an arrival may make it speak (nodes/host/promise.h). All processes know all arrivals. So
-// each knows every node's next turn (Outlook), and goes on until there without waiting:
+// silent, and how soon an arrival may make it speak (nodes/host/promise.h). All processes have all arrivals. So
+// each computes every node's next turn (Outlook), and goes on until there without waiting:
 //
 //   T1  all processes see the same acts and turns in the same order, that of sim/medium/event_queue.h: a node's
 //       records are those of a simulation in one process

@@ -32,7 +32,7 @@ namespace ttf::sim::world {
 // over ground where the vehicle is an `ego`. Where it has an `own_speed`, the speed is relative to it, so that an object which
 // falls back has a negative one.
 // The acceleration contains the noise of its step. White noise has no value at an instant, only a density. An observer can
-// know `steady`: the segments' acceleration, and the return of a speed with a memory (speed.h).
+// have `steady`: the segments' acceleration, and the return of a speed with a memory (speed.h).
 struct ObjectState {
   ObjectId id{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;

@@ -1,5 +1,5 @@
 // The cost of the exchange over DDS: round trips between two processes and between two threads, and rounds of
-// six processes. In a round each process sends one message and hears one of each other. A pipe's round trip
+// six processes. In a round each process sends one message and receives one of each other. A pipe's round trip
 // between two processes in the same run gives the cost of the machine's scheduler, which passes the turn on
 // twice.
 #include <benchmark/benchmark.h>
@@ -40,7 +40,7 @@ bus::dds::common::Session session_of(const std::string& name, std::size_t member
   return session;
 }
 
-// One round: sends a message, and hears one of each other. Returns false when a member has gone.
+// One round: sends a message, and receives one of each other. Returns false when a member has gone.
 class RoundMember {
  public:
   RoundMember(const bus::dds::common::Session& session, NodeId self)
@@ -51,7 +51,7 @@ class RoundMember {
     exchange_.send(message_);
     return hear();
   }
-  // Answers: hears first.
+  // Answers: receives first.
   bool round_in_turn() {
     if (!hear()) return false;
     exchange_.send(message_);
@@ -78,7 +78,7 @@ class RoundMember {
 
   bus::dds::exchange::Exchange exchange_;
   std::size_t others_;
-  std::size_t ahead_ = 0;  // the member whose message of the next round has been heard
+  std::size_t ahead_ = 0;  // the member whose message of the next round has been received
   std::uint64_t round_ = 0;
   std::map<NodeId, std::uint64_t> count_;
   Message message_{};

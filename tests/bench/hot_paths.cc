@@ -29,7 +29,7 @@
 namespace ttf {
 namespace {
 
-// The counting tool knows it by name.
+// The counting tool finds it by name.
 extern "C" [[gnu::noinline]] void counted(const std::function<void()>& path) { path(); }
 
 // ---- one object

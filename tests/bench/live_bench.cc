@@ -1,7 +1,7 @@
 // The real-time medium over DDS under the load of a big cluster. Five processes each send 840 frames a second
-// on either channel, at their own instants, and hear those of the four others. The benchmark counts losses
+// on either channel, at their own instants, and receive those of the four others. The benchmark counts losses
 // and costs. It measures a frame's way from its sender's stamp to its receiver's thread, and the duration of
-// send(); also while a sixth process, which hears everything, is stopped. One iteration is a second of it.
+// send(); also while a sixth process, which receives everything, is stopped. One iteration is a second of it.
 //
 //   ttf_bench_live --benchmark_counters_tabular=true
 #include <benchmark/benchmark.h>
@@ -114,7 +114,7 @@ class Member {
     sends_.reserve(ways_.capacity());
     for (const bus::ports::Line line : {0, 1}) medium_.watch(line, true);
   }
-  // From `begin` on; hears for a while longer.
+  // From `begin` on; receives for a while longer.
   void work(bus::ports::MachineTime begin) {
     const std::int64_t cpu_before = cpu_us();
     const bool sends = index_of(job_.self) < kSenders;

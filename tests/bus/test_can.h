@@ -38,7 +38,7 @@ class TestCan {
     if (!sending_) return;
     const Frame frame = std::move(*sending_);
     sending_
-        .reset();  // the bus is idle before any node hears the frame, so an answer takes part in the next arbitration
+        .reset();  // the bus is idle before any node receives the frame, so an answer takes part in the next arbitration
     for (std::size_t c = 0; c < ports_.size(); ++c)
       if (c != frame.sender) hear_(c, {frame.identifier, frame.flexible_data_rate, frame.data});
   }

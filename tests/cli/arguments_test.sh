@@ -131,7 +131,7 @@ done
 other_kind 'a DBC file' 'a cluster' schedule check "$dbc"
 other_kind 'a DBC file' 'a FIBEX file' schedule export --format yaml "$dbc"
 expect 0 '^name: ' schedule export --format yaml "$cluster"
-# A log and a capture are told by their first bytes.
+# A log and a capture are recognised by their first bytes.
 log=$work/run/tt.mcap
 expect 0 '' run "$paper" --strategy tt --no-pictures --duration 1.6 --out "$work/run"
 expect 0 '' export "$log" --format pcapng -o "$work/run.pcapng"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# `ttfusion launch --external` over DDS: examples/real_node_dds.c, which knows the type of a sample alone, in
+# `ttfusion launch --external` over DDS: examples/real_node_dds.c, which has the type of a sample alone, in
 # camera_pre's place. An ordinary kernel's lateness is allowed for: a part of its frames may be late.
 #   launch_external_test.sh PROGRAM SOURCE_DIR REAL_NODE
 set -u

@@ -57,7 +57,7 @@ assert driving["readings"]["applied"] > 20, driving
 assert all(0 <= vehicle["actuator"]["told"] - vehicle[node]["heard"] <= 1 for node in ("laser", "camera")), vehicle'
 wait "$killed" || fail "a launch whose actuator comes back exits with $?: $(cat "$work/killed.err")"
 check "an actuator that comes back" "$work/killed" '
-# The new processes know the commands of the old ones.
+# The new processes have the commands of the old ones.
 assert vehicle["actuator"]["told"] > 0 and vehicle["actuator"]["heard"] > 0, vehicle
 assert vehicle["odometry"]["heard"] >= vehicle["actuator"]["heard"] + vehicle["actuator"]["told"] - 1, vehicle'
 for one in "${by_hand[@]}"; do wait "$one" || fail "a node that is started by hand exits with $?: $(cat "$work"/hand.*.err)"; done

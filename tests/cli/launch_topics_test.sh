@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A real-time launch's topics for ROS 2, as the shipped example listener hears them.
+# A real-time launch's topics for ROS 2, as the shipped example listener receives them.
 #   launch_topics_test.sh PROGRAM SOURCE_DIR ROS_LISTEN
 set -u
 program=$1
@@ -10,7 +10,7 @@ drive=$source/scenarios/paper_scenario1.yaml
 export CYCLONEDDS_URI=file://$source/bus/dds/loopback.xml
 export ROS_DOMAIN_ID=$((100 + $$ % 100))   # unlikely to be used by others on this machine
 
-# hear NAME LAUNCH_ARGS...: listens beside a launch.
+# receive NAME LAUNCH_ARGS...: listens beside a launch.
 hear() {
   local name=$1 listener
   shift

@@ -11,7 +11,7 @@ for trace in lane_change cut_in queue; do
 done
 drive=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt --no-pictures)
 
-# A world seen from the ground. Its ids are told, and the scenario's object is not there.
+# A world seen from the ground. Its ids are reported, and the scenario's object is not there.
 expect 0 'truth of .*/lane_change.osi, a trace of GroundTruth as its messages show: 1 object in 401 messages over 8 s, seen from the ground' \
   "${drive[@]}" --truth "$work/lane_change.osi" --duration 8 --out "$work/a"
 says "the scenario's object is not there" 'position RMSE' 'The world of .*/lane_change.osi, with the sensors and the tracker of paper_scenario2'

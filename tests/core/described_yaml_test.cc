@@ -1,4 +1,4 @@
-// A described mapping asks one question per getter, with all that the getter was told, and takes the answer.
+// A described mapping asks one question per getter, with all that the getter was given, and takes the answer.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Every link between the project's pages and files has a target: the file exists, and so does the heading. A page of docs/ that
-a source, a script, a message or an input file names exists. A source that a page names exists, unless the page tells how to add
+a source, a script, a message or an input file names exists. A source that a page names exists, unless the page says how to add
 it. A page of docs/ has at most 250 lines.
 
     links_test.py REPOSITORY      exit 1 and one line for every problem

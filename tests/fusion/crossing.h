@@ -28,7 +28,7 @@ struct Crossing {
     std::vector<OwnedList> lists;
   };
   Drive draw_drive(std::uint64_t seed) const;
-  config::TrackerConfig config() const;  // a configuration that knows all this
+  config::TrackerConfig config() const;  // a configuration that has all this
 };
 
 struct Followed {

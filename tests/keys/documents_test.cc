@@ -82,7 +82,7 @@ TEST(Documents, AKeyWithoutADefaultHasAnExample) {
     }
 }
 
-// core/file_kind.h tells kinds apart by keys; the loaders have the last word on them.
+// core/file_kind.h distinguishes kinds by keys; the loaders have the last word on them.
 TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
   const std::map<FileKind, std::string> kinds{{FileKind::kScenario, "scenario"},
                                               {FileKind::kCluster, "cluster"},
@@ -104,7 +104,7 @@ TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
   for (const auto& [key, of] : known) EXPECT_EQ(of_plans.contains(key), of.contains("cluster")) << key;
   std::set<FileKind> told;
   for (const auto& [key, of] : known) {
-    // Beside a key that no kind has, only a kind's own keys tell it.
+    // Beside a key that no kind has, only a kind's own keys identify it.
     const auto kind = kind_of(StrictYaml::parse(key + ": 1\nno_key: 1\n", "key.yaml"));
     if (!kind) continue;
     told.insert(*kind);

@@ -3,7 +3,7 @@
 //   class MyBench : public laws::ExchangeBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyExchange, ExchangeLaws, MyBench);     // in namespace ttf::laws
 //
-// A bench is at least two members, NodeId 0 and up, who all hear each other and have sent no message yet.
+// A bench is at least two members, NodeId 0 and up, who all receive each other and have sent no message yet.
 // Each law runs every member in its own thread.
 #pragma once
 
@@ -49,7 +49,7 @@ template <class Bench> class ExchangeLaws : public testing::Test {
   void send(std::size_t member, std::uint64_t number, test::Sizes sizes) {
     bench_.member(member).send(test::message(node(member), number, sizes));
   }
-  // Receives until it has heard `count` messages of every other member. Each must be its sender's next,
+  // Receives until it has received `count` messages of every other member. Each must be its sender's next,
   // without others in between.
   void hear(std::size_t member, std::uint64_t count, test::Sizes sizes) {
     std::map<std::size_t, std::uint64_t> next;
@@ -108,7 +108,7 @@ TYPED_TEST_P(ExchangeLaws, L2_InTheOrderInWhichTheyWereSentHoweverFarAhead) {
 }
 
 TYPED_TEST_P(ExchangeLaws, L3_AMemberDoesNotHearItself) {
-  static constexpr std::uint64_t kRounds = 200;  // in lockstep: each sends, then hears all others
+  static constexpr std::uint64_t kRounds = 200;  // in lockstep: each sends, then receives all others
   this->all([this](std::size_t member) {
     for (std::uint64_t round = 0; round < kRounds; ++round) {
       this->send(member, round, test::Sizes::kSmall);

@@ -138,7 +138,7 @@ TYPED_TEST_P(FlexRayPortLaws, L3_ReceptionsComeInTheOrderOfTheirEnd) {
   }
 }
 
-// Handed over as B before A, and by controller 2 before controller 0: heard as A before B.
+// Handed over as B before A, and by controller 2 before controller 0: received as A before B.
 TYPED_TEST_P(FlexRayPortLaws, L3_TiesGoByChannel) {
   this->transmit(2, Channel::kB, this->kFirst, this->frame(2, 3, 8, Channel::kB));
   this->transmit(0, Channel::kA, this->kFirst, this->frame(0, 3, 8, Channel::kA));
@@ -193,7 +193,7 @@ TYPED_TEST_P(FlexRayPortLaws, L6_SignalsThatOverlapArriveAsOneUndecodable) {
   EXPECT_EQ(mine[1].signal, bus::ports::Signal::kFrame);
   EXPECT_NEAR(static_cast<double>((mine[0].end - mine[0].start).value),
               static_cast<double>(second - this->kFirst + this->length(8)), 1.0);
-  // The senders hear the other's signal only. Whether they can decode it is their controllers' business.
+  // The senders receive the other's signal only. Whether they can decode it is their controllers' business.
   EXPECT_EQ(this->at(0).size(), 2u);
   EXPECT_EQ(this->at(0)[0].signal, bus::ports::Signal::kFrame);
 }

@@ -1,4 +1,4 @@
-// A member that sends and hears utterances (tests/laws/live_traffic.h) on a live medium, and notices errors
+// A member that sends and receives utterances (tests/laws/live_traffic.h) on a live medium, and notices errors
 // in the received ones.
 #pragma once
 
@@ -26,7 +26,7 @@ class LiveBench {
   virtual ~LiveBench() = default;
   // The reason why this machine lacks such a medium; empty: it has one.
   virtual std::string missing() const { return {}; }
-  // 2..16 members, who all hear each other already and have sent nothing yet. Each may have its own thread.
+  // 2..16 members, who all receive each other already and have sent nothing yet. Each may have its own thread.
   virtual std::size_t members() const = 0;
   virtual bus::ports::LiveMedium& member(std::size_t index) = 0;
   // For each CAN whether it carries CAN FD.
@@ -97,12 +97,12 @@ class LiveListener {
     return status == bus::ports::LiveStatus::kDone;
   }
 
-  // Hears the pending signals. `gaps`: some may be missing.
+  // Receives the pending signals. `gaps`: some may be missing.
   void hear(bool gaps = false) {
     while (const auto arrival = medium().receive()) take(*arrival, gaps);
   }
-  // Hears until `count` utterances of this member on this line have arrived with their lateness. `meanwhile`
-  // runs members without a thread; some media follow up when their sender hears that its frame has left.
+  // Receives until `count` utterances of this member on this line have arrived with their lateness. `meanwhile`
+  // runs members without a thread; some media follow up when their sender receives its frame's confirmation.
   void hear_until(
       bus::ports::Line line, std::size_t from, std::size_t count, bool gaps = false,
       const std::function<void()>& meanwhile = [] {}) {
@@ -115,7 +115,7 @@ class LiveListener {
       std::this_thread::sleep_for(kGlance);
     }
   }
-  // Hears until no signal comes any more.
+  // Receives until no signal comes any more.
   void hear_out(bool gaps = false) {
     for (std::uint64_t before = ~std::uint64_t{0}; before != received_;) {
       before = received_;
@@ -182,7 +182,7 @@ class LiveListener {
   LiveBench& bench_;
   std::size_t self_;
   Traffic traffic_;
-  std::vector<std::vector<std::size_t>> next_;  // by line and speaker: the number that is heard next
+  std::vector<std::vector<std::size_t>> next_;  // by line and speaker: the number that is received next
   std::vector<std::vector<std::size_t>> missed_;
   std::map<std::pair<bus::ports::Line, std::size_t>, std::deque<SyncFrame>> waiting_;  // for their follow-up
   std::vector<std::size_t> said_;                                                      // by line

@@ -36,7 +36,7 @@ inline std::string first_wrong(const std::vector<LiveListener>& members) {
   return {};
 }
 
-// Returns the next signal this member hears in time.
+// Returns the next signal this member receives in time.
 inline std::optional<bus::ports::LiveArrival> await(
     LiveBench& bench, std::size_t member, const std::function<void()>& meanwhile = [] {}) {
   const auto begin = std::chrono::steady_clock::now();
@@ -53,7 +53,7 @@ inline bool readable(bus::ports::LiveMedium& medium, bus::ports::Line line, std:
   return poll(&poller, 1, static_cast<int>(patience.count())) == 1 && (poller.revents & POLLIN) != 0;
 }
 
-// Checks that the medium counted all utterances sent and heard, without losses.
+// Checks that the medium counted all utterances sent and received, without losses.
 inline std::string check_counts(LiveBench& bench, const LiveListener& member) {
   std::uint64_t said = 0;
   for (bus::ports::Line line = 0; line < bench.lines(); ++line) said += member.said(line);
@@ -115,7 +115,7 @@ inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
   return wrong;
 }
 
-// L1 without listeners: missing signals are counted, arriving ones are whole and in order, and others hear
+// L1 without listeners: missing signals are counted, arriving ones are whole and in order, and others receive
 // everything.
 inline std::string missing_is_counted(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kFrames);
@@ -141,7 +141,7 @@ inline std::string missing_is_counted(LiveBench& bench) {
   return {};
 }
 
-// L2: a lone speaker hears nothing, on any line.
+// L2: a lone speaker receives nothing, on any line.
 inline std::string does_not_hear_itself(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kAll);
   for (LiveListener& speaker : members) {
@@ -262,7 +262,7 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
   return {};
 }
 
-// L7: on every line, and our own frames are still heard.
+// L7: on every line, and our own frames are still received.
 inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder what) {
   auto members = listeners(bench, Traffic::kAll);
   for (bus::ports::Line line = 0; line < bench.lines(); ++line) {
@@ -317,7 +317,7 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
       return complaint("is not readable where it came before it was watched");
     if (!await(bench, hearer)) return complaint("hears nothing");
     medium.watch(line, false);
-    for (std::size_t i = 0; i < bench.members(); ++i)  // the others have heard it too
+    for (std::size_t i = 0; i < bench.members(); ++i)  // the others have received it too
       while (bench.member(i).receive()) {
       }
   }

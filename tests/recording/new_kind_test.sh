@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The compiler refuses a kind of record that is only in the list, at every place that must know all kinds:
+# The compiler refuses a kind of record that is only in the list, at every place that must list all kinds:
 #   new_kind_test.sh COMPILER SOURCES [FLAGS...]
 set -euo pipefail
 sources=$2

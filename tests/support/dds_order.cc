@@ -1,4 +1,4 @@
-// Tells the thread sanitizer the order that Cyclone DDS guarantees, since DDS is not compiled for it (tools/tsan.supp):
+// Declares to the thread sanitizer the order that Cyclone DDS guarantees, since DDS is not compiled for it (tools/tsan.supp):
 //
 //   dds_create_listener  ->  first call of a reader's listener  ->  next call  ->  return of dds_delete(reader)
 //

@@ -29,7 +29,7 @@ namespace ttf::test {
 
 class MemoryExchange {
  public:
-  // Adds a member. Destroying an endpoint is not leaving: all its messages are heard, and only leave()
+  // Adds a member. Destroying an endpoint is not leaving: all its messages are received, and only leave()
   // announces it.
   std::unique_ptr<bus::ports::Exchange> join(NodeId node) { return std::make_unique<Endpoint>(hub_, node); }
 

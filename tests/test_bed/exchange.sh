@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Ten processes in ten slots of vcan0, 300 cycles, and one that only listens. Writes the frames that each
-# heard, with their instants, into a folder. In virtual time the result is the same each time, to the
+# received, with their instants, into a folder. In virtual time the result is the same each time, to the
 # nanosecond.
 #   exchange.sh VCAN_PEER FOLDER
 set -euo pipefail

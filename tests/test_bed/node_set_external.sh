@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A real node in camera_pre's place: examples/real_node.c, which knows SocketCAN alone. The gateway's steps are a library's.
+# A real node in camera_pre's place: examples/real_node.c, which has SocketCAN alone. The gateway's steps are a library's.
 #   node_set_external.sh TTFUSION      exit code 77, with the reason, outside the test bed and without a compiler for C
 set -euo pipefail
 source "$(dirname "$0")/node_set.bash"

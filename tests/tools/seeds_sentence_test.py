@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The demo's first sentence: a difference is certain, or the seeds cannot tell."""
+"""The demo's first sentence: a difference is certain, or the seeds cannot decide."""
 
 import pathlib
 import sys

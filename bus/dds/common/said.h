@@ -17,16 +17,16 @@ namespace ttf::bus::dds::common {
 
 enum class Kind : std::uint8_t {
   kHello,     // the first sample of every sender on either topic
-  kReady,     // control: the sender hears the hello of all others
+  kReady,     // control: the sender receives the hello of all others
   kMessage,   // data: `bytes`
   kBye,       // the last sample on either topic
-  kFence,     // control, supervisor: `about` is dead; it is not heard until kClose of this `round`
-  kReport,    // control, member, on kFence: the sender has heard the samples of `about` before number `end`
+  kFence,     // control, supervisor: `about` is dead; it is not received until kClose of this `round`
+  kReport,    // control, member, on kFence: the sender has received the samples of `about` before number `end`
   kClose,     // control, supervisor: `about` ends before number `end`; `holder`, if any, repeats it from `first` on
   kAgain,     // control, holder: sample `first` of `about`, whose kind is `inner`
   kAllAgain,  // control, holder: all of `about` has been repeated in this `round`
-  kClosed,    // control, member: the sender has heard all of `about` up to the end of this `round`
-  kHeard,     // control, member, now and then: its counts of samples heard (bus/dds/exchange/heard.h)
+  kClosed,    // control, member: the sender has received all of `about` up to the end of this `round`
+  kHeard,     // control, member, now and then: its counts of samples received (bus/dds/exchange/heard.h)
 };
 inline constexpr std::uint8_t kKinds = 11;
 
@@ -49,7 +49,7 @@ inline constexpr const char* kControlTopic = "ttf_exchange_control";
 // The supervisor is no node.
 inline constexpr NodeId kSupervisor = kNoNode;
 
-// A sample's bytes, kept until they are heard and need not be repeated.
+// A sample's bytes, kept until they are received and need not be repeated.
 using Bytes = std::shared_ptr<const std::vector<std::byte>>;
 
 struct Entry {

@@ -26,7 +26,7 @@ const Session& validate(const Session& session);
 // Some members were not ready in time.
 class NotReady : public std::runtime_error {
  public:
-  // `absent`: not heard. `deaf`: not hearing all others yet; empty if a member is absent. kNoNode stands for
+  // `absent`: not received. `deaf`: not receiving all others yet; empty if a member is absent. kNoNode stands for
   // the supervisor.
   NotReady(const Session& session, std::chrono::milliseconds waited, std::vector<NodeId> absent,
            std::vector<NodeId> deaf);

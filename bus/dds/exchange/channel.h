@@ -19,7 +19,7 @@ namespace ttf::bus::dds::exchange {
 
 class Channel {
  public:
-  // `topic`: its name; `session`: its partition. Other sessions are not heard.
+  // `topic`: its name; `session`: its partition. Other sessions are not received.
   Channel(const common::Participant& participant, const std::string& topic, const std::string& session);
   ~Channel();
   Channel(const Channel&) = delete;
@@ -35,9 +35,9 @@ class Channel {
   // Waits for at most `patience` until all readers have all samples sent so far; returns whether they have.
   bool acknowledged_within(std::chrono::nanoseconds patience) const;
 
-  // Returns whether the writers heard, or those that DDS counts as alive, may have changed since the last call.
+  // Returns whether the received writers, or those that DDS counts as alive, may have changed since the last call.
   bool connections_changed();
-  // Returns whether this sender was heard and DDS has lost it since: its lease ran out, or it ended.
+  // Returns whether this sender was received and DDS has lost it since: its lease ran out, or it ended.
   bool lost(NodeId sender) const;
 
   common::Handle reader() const { return reader_; }
@@ -49,7 +49,7 @@ class Channel {
   common::Handle reader_ = 0;
   common::Handle reading_ = 0;  // a condition: samples wait
   std::uint64_t next_number_ = 0;
-  std::array<std::uint64_t, 256> writers_{};  // by sender: DDS' number of the writer last heard; 0: none
+  std::array<std::uint64_t, 256> writers_{};  // by sender: DDS' number of the writer last received; 0: none
   bool changed_ = true;
 };
 

@@ -1,10 +1,10 @@
-// The supervisor's part of bus/dds/exchange/stream.h: brings all survivors of a member to have heard the same
+// The supervisor's part of bus/dds/exchange/stream.h: brings all survivors of a member to have received the same
 // of it. Pure: reports in, orders to all members out.
 //
 // A round is kFence, a report from every survivor, and kClose at the best report. The survivor that holds the
 // most repeats the samples that others lack. If it goes before all have them, another round begins. The end of
-// that round may be earlier, but never before a sample that a survivor has heard. Fenced streams do not go on,
-// and survivors report all samples they heard.
+// that round may be earlier, but never before a sample that a survivor has received. Fenced streams do not go on,
+// and survivors report all samples they received.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,9 @@ class EndAgreement {
   void closed(NodeId survivor, std::uint32_t round);
   std::optional<Order> without(NodeId survivor);  // the survivor has gone, too, or left
 
-  // Returns whether every survivor has heard all of its samples.
+  // Returns whether every survivor has received all of its samples.
   bool done() const { return closing_ && closed_.size() == survivors_.size(); }
-  // Returns the number of its samples that survivors have heard. Precondition: done().
+  // Returns the number of its samples that survivors have received. Precondition: done().
   std::uint64_t end() const { return end_; }
 
  private:

@@ -12,7 +12,7 @@ Exchange::~Exchange() {
   try {
     member_->leave();
   } catch (const std::exception&) {
-    // DDS is lost; the others learn that from DDS, or from the supervisor.
+    // DDS is lost; DDS or the supervisor reports that to the others.
   }
 }
 

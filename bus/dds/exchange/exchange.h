@@ -1,12 +1,12 @@
 // The exchange (bus/ports/exchange.h) over Cyclone DDS: between processes of one machine or of several.
 //
 //   dds::Exchange exchange({.name = "drive-17", .members = all}, self);
-//   exchange.wait_ready(30s);                 // all members hear each other
+//   exchange.wait_ready(30s);                 // all members receive each other
 //   exchange.send(...); exchange.receive();
-//   exchange.leave();                         // or the destructor: the others hear that it is gone
+//   exchange.leave();                         // or the destructor: the others are informed that it is gone
 //
 // L5 also holds for killed members. In a supervised session the supervisor announces them gone
-// (bus/dds/exchange/exchange_supervisor.h), and all survivors hear exactly the same messages of them. In a
+// (bus/dds/exchange/exchange_supervisor.h), and all survivors receive exactly the same messages of them. In a
 // session without supervisor only DDS notices an end. There a member that ends without leaving is an error for
 // all others. The error comes after its lease and as long again, in which it may come back.
 //
@@ -31,7 +31,7 @@ class Exchange final : public ports::Exchange {
   // Leaves, if that has not been done.
   ~Exchange() override;
 
-  // Returns once all members, and the supervisor, hear each other. It does not wait for members that have
+  // Returns once all members, and the supervisor, receive each other. It does not wait for members that have
   // gone; receive() reports those. Throws NotReady, naming the missing ones, after `patience`.
   void wait_ready(std::chrono::milliseconds patience);
 

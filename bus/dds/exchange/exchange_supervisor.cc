@@ -66,7 +66,7 @@ class ExchangeSupervisor::Watch {
   // The thread's data.
   Numbering numbers_;
   std::set<NodeId> hello_, left_, dead_, lost_;
-  std::map<NodeId, EndAgreement> agreements_;  // dead members that some survivors do not know to be gone
+  std::map<NodeId, EndAgreement> agreements_;  // dead members that some survivors have not found to be gone
 
   std::mutex mutex_;
   std::condition_variable happened_;

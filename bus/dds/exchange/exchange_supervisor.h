@@ -1,5 +1,5 @@
-// The exchange supervisor watches over an exchange (bus/dds/exchange/exchange.h). It knows the members that
-// have joined and left. It brings all survivors to hear the same of a member that died. It takes no part in
+// The exchange supervisor watches over an exchange (bus/dds/exchange/exchange.h). It has the members that
+// have joined and left. It brings all survivors to receive the same of a member that died. It takes no part in
 // the messages, and so costs them nothing.
 //
 // Its announcements are final: an announced member is gone, even if it still lives. The process that started the
@@ -22,25 +22,25 @@ class ExchangeSupervisor {
  public:
   enum class What : std::uint8_t {
     kJoined,  // it said hello
-    kReady,   // it hears all others
+    kReady,   // it receives all others
     kLeft,    // it said goodbye
-    kLost,    // DDS has heard nothing of it for its lease; it may be dead, stopped or cut off
-    kBack,    // DDS hears it again
-    kGone,    // every survivor has heard that it is gone
+    kLost,    // DDS has received nothing of it for its lease; it may be dead, stopped or cut off
+    kBack,    // DDS receives it again
+    kGone,    // every survivor has received its end
   };
   struct Event {
     What what{};
     NodeId node{};
-    // For kGone: the number of its samples that the survivors have heard, hello and goodbye included.
+    // For kGone: the number of its samples that the survivors have received, hello and goodbye included.
     std::uint64_t samples = 0;
   };
 
   // Precondition: session.supervised. Throws as dds::Exchange does.
   explicit ExchangeSupervisor(const common::Session& session);
-  // Remaining members hear that the supervisor has left, and stop.
+  // Remaining members receive the supervisor's goodbye, and stop.
   ~ExchangeSupervisor();
 
-  // Returns once all members that are not gone hear each other; throws as Exchange::wait_ready() does.
+  // Returns once all members that are not gone receive each other; throws as Exchange::wait_ready() does.
   void wait_ready(std::chrono::milliseconds patience);
   // Returns at once; kGone follows. A known end has no effect.
   void announce_gone(NodeId node);

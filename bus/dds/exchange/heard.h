@@ -1,6 +1,6 @@
-// Counts of samples heard, by member. Samples that all members have heard need not be kept for repetition.
+// Counts of samples received, by member. Samples that all members have received need not be kept for repetition.
 //
-// On the wire (Kind::kHeard) nine octets per node: its number, and the count of its samples heard, least octet first.
+// On the wire (Kind::kHeard) nine octets per node: its number, and the count of its samples received, least octet first.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,13 @@
 
 namespace ttf::bus::dds::exchange {
 
-using HeardCounts = std::map<NodeId, std::uint64_t>;  // samples heard, by their sender
+using HeardCounts = std::map<NodeId, std::uint64_t>;  // samples received, by their sender
 
 std::vector<std::byte> encode(const HeardCounts& heard);
 // Throws std::runtime_error on bytes that encode() does not make.
 HeardCounts decode(std::span<const std::byte> bytes);
 
-// The others' counts, as one member knows them.
+// The others' counts, as one member has them.
 class HeardTable {
  public:
   // `others`: all members except this one.
@@ -27,7 +27,7 @@ class HeardTable {
 
   void note(NodeId by, HeardCounts heard);  // counts never fall; a sender that `by` does not mention has count 0
   void without(NodeId gone);                // drops a member that needs no repetition any more
-  // Returns the number of samples of `sender` that all other remaining members have heard.
+  // Returns the number of samples of `sender` that all other remaining members have received.
   std::uint64_t by_all(NodeId sender) const;
 
  private:

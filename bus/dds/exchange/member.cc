@@ -126,7 +126,7 @@ void Exchange::Member::note_lost() {
     else
       lost_.erase(id);
   };
-  if (session_.supervised) return note(common::kSupervisor);  // it alone knows which others are gone
+  if (session_.supervised) return note(common::kSupervisor);  // it alone has the list of others that are gone
   for (const auto& entry : others_) note(entry.first);
 }
 

@@ -1,4 +1,4 @@
-// A member's reactions to the samples that it hears.
+// A member's reactions to the samples that it receives.
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -9,7 +9,7 @@
 namespace ttf::bus::dds::exchange {
 namespace {
 
-// The bytes heard between two kHeard, which let the others forget them.
+// The bytes received between two kHeard, which let the others forget them.
 constexpr std::size_t kTellEvery = 256 << 10;
 // The approximate memory of a kept sample beside its bytes.
 constexpr std::size_t kSampleBytes = 96;
@@ -26,7 +26,7 @@ bool Exchange::Member::take() {
   return data || control;
 }
 
-// Before the end of a member is agreed on, all its samples that DDS has brought count as heard.
+// Before the end of a member is agreed on, all its samples that DDS has brought count as received.
 void Exchange::Member::drain_data() {
   while (data_.take([this](const common::Said& said) { on_data(said); })) {
   }

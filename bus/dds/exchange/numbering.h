@@ -1,4 +1,4 @@
-// A numbering tracks the running numbers of a topic on which all senders are heard in order: it finds new,
+// A numbering tracks the running numbers of a topic on which all senders are received in order: it finds new,
 // repeated and lost samples.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace ttf::bus::dds::exchange {
 
 class Numbering {
  public:
-  // Returns whether this is the sender's next sample; false if it has been heard before. Throws
+  // Returns whether this is the sender's next sample; false if it has been received before. Throws
   // std::runtime_error if samples in between are lost.
   bool is_new(NodeId sender, std::uint64_t number) {
     std::uint64_t& next = next_[index_of(sender)];

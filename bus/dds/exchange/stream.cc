@@ -23,7 +23,7 @@ std::string lost(NodeId sender, std::uint64_t first, std::uint64_t end) {
 }  // namespace
 
 void Stream::accept(common::Entry entry, std::vector<common::Entry>& heard) {
-  if (closed() || entry.number < next_) return;  // heard before, or beyond the agreed end
+  if (closed() || entry.number < next_) return;  // received before, or beyond the agreed end
   switch (phase_) {
     case Phase::kOpen:
       if (entry.number > next_) throw std::runtime_error(lost(sender_, next_, entry.number));

@@ -1,10 +1,10 @@
 // A member's view of another: that one's samples in order, each once, up to the last. Pure;
 // bus/dds/exchange/exchange.h carries the samples.
 //
-// One survivor may have heard more of a dead member than another. So the survivors agree on its end: the
+// One survivor may have received more of a dead member than another. So the survivors agree on its end: the
 // supervisor has all of them fence the stream and report how far they got. It then closes the stream at the
 // best report, and the best informed survivor repeats the samples that others lack. A sample that no survivor
-// heard is lost to all.
+// received is lost to all.
 //
 //   open --fence()--> fenced --close()--> closing --(all there)--> closed
 //   open --kBye--> closed        fenced and closing may be fenced again, by a later round
@@ -28,14 +28,14 @@ class Stream {
   Stream(NodeId sender, std::size_t retain_bytes) : sender_(sender), retain_bytes_(retain_bytes) {}
 
   // Takes a sample from the sender itself, or a repeated one. Appends to `heard` the samples that can now be
-  // heard, in order; the last is of kind kBye. Throws std::runtime_error if the sender skipped a number:
+  // received, in order; the last is of kind kBye. Throws std::runtime_error if the sender skipped a number:
   // samples are lost.
   void accept(common::Entry entry, std::vector<common::Entry>& heard);
-  // Forgets the samples before number `settled`, which all members have heard.
+  // Forgets the samples before number `settled`, which all members have received.
   void settle(std::uint64_t settled);
-  // Stops hearing until close(). Returns the number of samples heard so far.
+  // Stops receiving until close(). Returns the number of samples received so far.
   std::uint64_t fence();
-  // Ends the stream before number `end`, which is never before a heard sample.
+  // Ends the stream before number `end`, which is never before a received sample.
   void close(std::uint64_t end, std::vector<common::Entry>& heard);
 
   std::uint64_t heard() const { return next_; }  // the number of samples
@@ -44,7 +44,7 @@ class Stream {
   bool wanting() const { return phase_ == Phase::kClosing; }
   // Returns the missing samples in words. Precondition: wanting().
   std::string missing() const;
-  // Returns the samples heard from number `first` on. Throws std::runtime_error if they are no longer kept.
+  // Returns the samples received from number `first` on. Throws std::runtime_error if they are no longer kept.
   std::vector<common::Entry> again(std::uint64_t first) const;
 
  private:
@@ -58,10 +58,10 @@ class Stream {
   NodeId sender_;
   std::size_t retain_bytes_;
   Phase phase_ = Phase::kOpen;
-  std::uint64_t next_ = 0;                          // the next number to hear
+  std::uint64_t next_ = 0;                          // the next number to receive
   std::uint64_t end_ = 0;                           // of kClosing
   std::map<std::uint64_t, common::Entry> waiting_;  // after the fence, or after a gap
-  std::deque<common::Entry> kept_;                  // the last heard, without a gap, up to next_
+  std::deque<common::Entry> kept_;                  // the last received, without a gap, up to next_
   std::size_t kept_bytes_ = 0;
 };
 

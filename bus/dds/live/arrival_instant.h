@@ -35,7 +35,7 @@ class ArrivalInstant {
   Host& find(std::uint64_t identity);
 
   std::size_t most_hosts_ = 0;
-  std::vector<Host> hosts_;                     // those heard so far
+  std::vector<Host> hosts_;                     // those received so far
   std::array<ports::MachineTime, 256> last_{};  // by sender
 };
 

@@ -51,7 +51,7 @@ class LiveLine {
   // Returns one sentence about the line's failure; empty without one. May allocate.
   std::string failure() const;
 
-  // Nodes on this line that this node awaits: those that it does not hear yet, or that do not hear it.
+  // Nodes on this line that this node awaits: those that it does not receive yet, or that do not receive it.
   std::vector<NodeId> unheard() const;
   std::vector<NodeId> deaf() const;
 

@@ -1,7 +1,7 @@
-// Hears frames on DDS topics (bus/ports/listener.h). It has readers only, and names no node: the members of the
-// session neither await it nor notice it. A sample is malformed if no member would use it, though it has a heard
+// Receives frames on DDS topics (bus/ports/listener.h). It has readers only, and names no node: the members of the
+// session neither await it nor notice it. A sample is malformed if no member would use it, though it has a received
 // slot or identifier: its fields contradict each other, its sender is not on the line, or its number was used
-// before. A sample that states its lateness is heard as a frame and its follow-up.
+// before. A sample that states its lateness is received as a frame and its follow-up.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace ttf::bus::dds::live {
 
 class DdsListener final : public ports::Listener {
  public:
-  // Uses the session's domain, name and lease. `lines`: each once, with all its nodes; lines without heard identifiers
+  // Uses the session's domain, name and lease. `lines`: each once, with all its nodes; lines without received identifiers
   // are left out. Throws InputError on an invalid session, std::runtime_error if DDS cannot.
   DdsListener(const common::Session& session, const std::vector<LiveLinePlan>& lines,
               const ports::HeardIdentifiers& identifiers);

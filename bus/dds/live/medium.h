@@ -3,7 +3,7 @@
 //
 // No node waits for another: a stopped or dead one does not hold up a sender, with either delivery
 // (docs/media/dds.md has their costs). Each sender numbers its samples on a line, so that missing ones are counted
-// once a later one is heard. A restarted process begins its count anew.
+// once a later one is received. A restarted process begins its count anew.
 //
 // A sender stamps each sample right before it hands it to DDS. On the same machine that stamp is
 // LiveArrival::at. On another, `at` is the stamp by the receiver's clock plus the least delay from there
@@ -35,7 +35,7 @@ class DdsMedium final : public ports::LiveMedium {
             Delivery delivery = Delivery::kBestEffort);
   ~DdsMedium() override;
 
-  // Returns once this node and all others on its lines hear each other. Throws NotReady after `patience`.
+  // Returns once this node and all others on its lines receive each other. Throws NotReady after `patience`.
   void wait_ready(std::chrono::milliseconds patience) const;
 
   ports::LiveStatus send(const ports::LiveSignal& signal, ports::MachineTime due) override;

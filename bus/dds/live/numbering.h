@@ -11,8 +11,8 @@ namespace ttf::bus::dds::live {
 
 class LiveNumbering {
  public:
-  // Returns the number of samples missing before this one; no value if this or a later one has been heard before.
-  // A restarted sender counts anew, and so does one heard for the first time: its earlier samples do not count.
+  // Returns the number of samples missing before this one; no value if this or a later one has been received before.
+  // A restarted sender counts anew, and so does one received for the first time: its earlier samples do not count.
   std::optional<std::uint64_t> missing_before(NodeId sender, std::uint64_t incarnation, std::uint64_t number) {
     Next& next = next_[index_of(sender)];
     const bool known = next.heard && next.incarnation == incarnation;

@@ -62,7 +62,7 @@ Reception::~Reception() { dds_delete(reader_); }
 void Reception::on_data(common::Handle reader, void* self) { static_cast<Reception*>(self)->take(reader); }
 
 // DDS calls this for one reader from one thread at a time, so the boxes and the filling end of the queue are
-// its own. The first call may come before the constructor knows the reader.
+// its own. The first call may come before the constructor has the reader.
 void Reception::take(common::Handle reader) {
   for (bool more = true; more;) {
     const auto count = dds_take(reader, boxes_->pointers.data(), boxes_->infos.data(), kBoxes, kBoxes);
@@ -113,7 +113,7 @@ void Reception::accept(std::size_t box, ports::MachineTime now) {
   queue_.push();
 }
 
-// Nodes never use such a sample; a listener is told.
+// Nodes never use such a sample; a listener reports it.
 void Reception::refuse(std::size_t box, ports::MachineTime now) {
   LiveItem* const item = setting_.only ? room_for(box) : nullptr;
   if (item == nullptr) return;
@@ -122,7 +122,7 @@ void Reception::refuse(std::size_t box, ports::MachineTime now) {
   queue_.push();
 }
 
-// Returns a place with the sample's identifier; null for one that is not heard, or without room.
+// Returns a place with the sample's identifier; null for one that is not received, or without room.
 LiveItem* Reception::room_for(std::size_t box) {
   const ttf_LiveSample& sample = boxes_->in[box];
   const std::uint32_t identifier = is_can(setting_.line) ? sample.identifier : sample.slot;

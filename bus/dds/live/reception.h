@@ -3,7 +3,7 @@
 // DDS' own threads take and stamp arrivals. A sample from the same machine (bus/dds/common/host_identity.h)
 // arrives when its sender hands it to DDS. The clock is the same, and the reader's late wake-up says nothing
 // about the sender's clock. A sample from another machine arrives at that instant by its sender's clock plus
-// the recent least delay from there (bus/dds/live/arrival_instant.h). If the machines cannot be told apart, it
+// the recent least delay from there (bus/dds/live/arrival_instant.h). If the machines cannot be distinguished, it
 // arrives when it is taken.
 #pragma once
 

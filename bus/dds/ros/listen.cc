@@ -1,4 +1,4 @@
-// An example: listens to a RosPublisher, as any program can that knows DDS and the types. It uses Cyclone DDS'
+// An example: listens to a RosPublisher, as any program can that has DDS and the types. It uses Cyclone DDS'
 // C API and idlc's output for the two files *.idl in this folder, and nothing else of this project.
 //
 //   CYCLONEDDS_URI=file:///path/to/bus/dds/loopback.xml ttf_ros_listen [DOMAIN]

@@ -16,7 +16,7 @@ struct Account {
   Counts counts;
   std::optional<Duration> first;              // the first frame, from the begin of the drive
   std::optional<Duration> silent;             // for how long, if for too long
-  std::vector<std::string> never_heard = {};  // lists and lines of a node that was heard
+  std::vector<std::string> never_heard = {};  // lists and lines of a node that was received
 };
 
 // Returns "waiting", "sending", "silent for 1.2 s".

@@ -76,7 +76,7 @@ void CycleGrid::take(std::int64_t cycle, MachineTime start) {
   if (!known()) reference_ = {cycle, start};
 }
 
-// The cycle that was being heard is over.
+// The cycle that was being received is over.
 void CycleGrid::settle() {
   std::ranges::sort(starts_);
   const Reference next{collecting_, starts_[(starts_.size() - 1) / 2]};

@@ -1,4 +1,4 @@
-// The cluster's cycles on the machine's clock, as they are heard on the bus. Pure: arrivals in, instants out.
+// The cluster's cycles on the machine's clock, as they are received on the bus. Pure: arrivals in, instants out.
 //
 // A drive that begins with its schedule has its first cycle at a known instant. From then on the cluster's clocks
 // count, which run at another rate. Each sync frame of a simulated node says how late it left (its follow-up): less
@@ -38,7 +38,7 @@ class CycleGrid {
   // Returns the cycle of an instant, and the cycle nearest to it with that count. Precondition: known().
   std::int64_t cycle_at(MachineTime at) const;
   std::int64_t nearest(MachineTime at, std::uint8_t cycle_counter) const;
-  // Returns the last cycle in which the cluster was heard, and when; no value before the first.
+  // Returns the last cycle in which the cluster was received, and when; no value before the first.
   std::optional<std::int64_t> last_heard_cycle() const { return last_cycle_; }
   std::optional<MachineTime> last_heard() const { return last_heard_; }
   // Returns the action point of a slot or another macrotick, from the begin of its cycle.
@@ -62,7 +62,7 @@ class CycleGrid {
   const Duration nominal_;
   Duration length_;  // the last measured one of a cycle
   std::optional<Reference> reference_;
-  bool measured_ = false;  // the reference was heard, not given
+  bool measured_ = false;  // the reference was received, not given
   std::optional<std::int64_t> last_cycle_;
   std::optional<MachineTime> last_heard_;
   std::int64_t collecting_ = 0;  // the cycle whose begins are in starts_

@@ -1,4 +1,4 @@
-// Brings frames into the order of their instants: a listener hears a line to its end before it hears the next one.
+// Brings frames into the order of their instants: a listener receives a line to its end before it receives the next one.
 #pragma once
 
 #include <algorithm>

@@ -250,7 +250,7 @@ void Judge::judge_list(const Heard& heard, CanFrames& frames, Node& node) {
   ++(early ? node.counts.early : node.counts.in_window);
 }
 
-// A trigger tells no cycle: it is that of the nearest instant.
+// A trigger states no cycle: it is that of the nearest instant.
 void Judge::judge_trigger(const Heard& heard, CanFrames& frames, Node& node) {
   const Duration offset = grid_.in_cycle(frames.at->offset);
   const std::int64_t here = grid_.cycle_at(heard.at), repetition = frames.at->repetition;

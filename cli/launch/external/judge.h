@@ -6,7 +6,7 @@
 //               the schedule allows, and never late: no instant is its own
 //   malformed   a receiver cannot use it, whenever it came
 //   missing     its cycle passed without it, behind that of the node's first frame of any kind, up to the last cycle of
-//               the cluster. Lists and strobes on a private CAN have no cycle: they may be never heard
+//               the cluster. Lists and strobes on a private CAN have no cycle: they may be never received
 // A frame on FlexRay counts on each channel. A frame before the cluster's first cycle counts as early.
 #pragma once
 
@@ -52,12 +52,12 @@ class Judge {
  public:
   using MachineTime = bus::ports::MachineTime;
 
-  // `nodes`: the real ones. `channels`: those that can be heard. The cluster must be fit for real time
+  // `nodes`: the real ones. `channels`: those that can be received. The cluster must be fit for real time
   // (schedules/check/real_time_rules.h).
   Judge(const schedules::model::Cluster& cluster, std::vector<NodeId> nodes, std::int64_t time_scale_ppm,
         schedules::model::Channels channels = schedules::model::Channels::kAB);
 
-  // Returns the frames to be heard: the real nodes', and the sync frames of the others.
+  // Returns the frames to be received: the real nodes', and the sync frames of the others.
   bus::ports::HeardIdentifiers identifiers() const;
   void begin(MachineTime cycle_0) { grid_.begin(cycle_0); }
   // The instants must be in order over all lines (in_order.h).
@@ -65,12 +65,12 @@ class Judge {
 
   // By the index in `nodes`.
   Counts counts(std::size_t node) const;
-  // Returns the lists and lines on private CANs that never came from a node that was heard: "camera_objects",
+  // Returns the lists and lines on private CANs that never came from a node that was received: "camera_objects",
   // "camera strobe". Scheduled triggers count as missing instead.
   std::vector<std::string> never_heard(std::size_t node) const;
   // Returns the longest time that the node may be silent: three of its longest periods, but half a second at least.
   Duration longest_silence(std::size_t node) const { return nodes_[node].longest_silence; }
-  // Returns when the other nodes were last heard.
+  // Returns when the other nodes were last received.
   std::optional<MachineTime> cluster_heard() const { return grid_.last_heard(); }
 
  private:
@@ -85,7 +85,7 @@ class Judge {
     std::size_t node = 0;
     const schedules::model::FrameSlot* frame = nullptr;
     schedules::model::Channel channel{};
-    std::optional<std::int64_t> last;  // the last cycle that it was heard in
+    std::optional<std::int64_t> last;  // the last cycle that it was received in
   };
   struct CanFrames {
     std::size_t node = 0, can_bus = 0;
@@ -117,7 +117,7 @@ class Judge {
   bool is_of(const schedules::model::FrameSlot& slot, const bus::wire::FrameHeader& header) const;
   std::optional<Malformed> fault_of(const schedules::model::FrameSlot& slot, const bus::wire::DecodedFrame& frame);
   static std::optional<Malformed> fault_of(bus::cni::ArrivalEffect effect);
-  // `last`: no value for a frame that was not heard yet.
+  // `last`: no value for a frame that was not received yet.
   static std::uint64_t missed(const Node& node, int base_cycle, int repetition, std::optional<std::int64_t> last,
                               std::int64_t next);
   // Returns null for a slot that no real node has, in that cycle or in any.

@@ -23,7 +23,7 @@ struct Setting {
   std::size_t bus = 0;
 };
 
-// Is told what the hosts get from their controllers.
+// Receives what the hosts get from their controllers.
 class Witness {
  public:
   virtual ~Witness() = default;

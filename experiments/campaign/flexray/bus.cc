@@ -17,7 +17,7 @@
 namespace ttf::experiments::campaign::flexray {
 namespace {
 
-// Tells the events of a FlexRay trial in words: the fault's acts, the guardians' interventions, the nodes' changes of
+// Reports the events of a FlexRay trial in words: the fault's acts, the guardians' interventions, the nodes' changes of
 // state with their causes, and the checks.
 class StoryInWords final : public TrialStory {
  public:

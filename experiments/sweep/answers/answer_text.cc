@@ -160,7 +160,7 @@ std::string measure_table(const SweepFile& sweep, const SweepAnswer& answer) {
     for (std::size_t i = 0; i < answer.points.size(); ++i) {
       const results::Interval& mean = answer.points[i].means[p].front();
       means.cells.push_back(interval_text(mean, false));
-      // Drives without a value are told apart.
+      // Drives without a value are distinguished.
       if (mean.count > 0 && mean.count < most_runs[i]) means.cells.back() += fmt::format(" of {}", mean.count);
     }
   }

@@ -106,9 +106,9 @@ std::string_view unit_of(const SweepFile& sweep, std::size_t measure, bool by_ra
 std::string sentence_at_one(const SweepFile& sweep, const Compared& of) {
   const Interval& difference = of.points[0]->differences[of.paradigm].front();
   const Ratio& ratio = of.points[0]->ratios[of.paradigm].front();
-  const bool told = difference.below(0.0) || difference.above(0.0);
+  const bool certain = difference.below(0.0) || difference.above(0.0);
   const std::string plain = with_unit(sweep, 0, interval_text(difference, true));
-  if (!told) {
+  if (!certain) {
     const std::string size = std::isnan(ratio.low) ? plain : percent_text(ratio);
     return fmt::format("There is no difference of {} {} that these drives can tell{}.\n", sweep.measures.front(),
                        of.between, size == "-" ? "" : ": " + size);
@@ -187,7 +187,7 @@ std::string interaction_at_one(const SweepFile& sweep, const Interaction& of, co
                      change_effect(sweep, of, here.second), beside(sweep, of, here, told));
 }
 
-// Points at which an interaction is told alike, and the first paradigm's change has the same sign.
+// Points at which an interaction is reported alike, and the first paradigm's change has the same sign.
 struct Alike {
   Told told = Told::kNothing;
   bool lowers = false;

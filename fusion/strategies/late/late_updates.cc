@@ -24,7 +24,7 @@ int note(std::uint64_t& counted, int since, bool counts) {
 
 double widened(double sigma, double variance) { return std::sqrt(sigma * sigma + variance); }
 
-// The heading that a track had, as far as its turn rate tells.
+// The heading that a track had, as far as its turn rate gives it.
 tracks::body::Heading heading_before(const tracks::body::Heading& heading, double age) {
   tracks::body::Heading then = heading;
   then.value -= age * heading.rate;

@@ -46,7 +46,7 @@ class Pasts {
   virtual estimators::Estimate newest(std::size_t slot, GlobalTime time) const = 0;
 };
 
-// Makes the pasts for straight motion and config.late; `ranges` tells whether a sensor measures ranges. fusion/strategies/late/late_updates.h lists the memory of
+// Makes the pasts for straight motion and config.late; `ranges` says whether a sensor measures ranges. fusion/strategies/late/late_updates.h lists the memory of
 // a slot.
 std::unique_ptr<Pasts> make_pasts(const config::TrackerConfig& config, std::size_t slots, bool ranges = false);
 // Make the pasts of one motion, each in its own source file: these templates compile slowly.

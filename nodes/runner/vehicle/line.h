@@ -43,7 +43,7 @@ class Line {
   // For a process that begins later: waits until the record is whole, at most for `patience`. Returns whether it is.
   bool catch_up(std::chrono::milliseconds patience);
 
-  // Adds an actuation of this process to the record, and tells all others. It is in the drive's time.
+  // Adds an actuation of this process to the record, and reports it to all others. It is in the drive's time.
   void tell(const host::Actuation& actuation);
   // Takes in the messages that have come, and answers them.
   void take_in();

@@ -1,5 +1,5 @@
 // The record of a vehicle that commands drive. In real time each process that needs the vehicle's state has one. The
-// vehicle's way is a pure function of its actuations (sim/world/vehicle/driven.h). So processes tell each other
+// vehicle's way is a pure function of its actuations (sim/world/vehicle/driven.h). So processes send each other
 // actuations, not states. They travel beside the bus (nodes/runner/vehicle/line.h).
 //
 // An actuation is known a dead time before it begins. A message may take that long.
@@ -23,7 +23,7 @@ namespace ttf::nodes::runner::vehicle {
 
 struct Counts {
   std::uint64_t told = 0, heard = 0;  // actuations: of this process; of others, each once
-  std::uint64_t late = 0;             // among those heard
+  std::uint64_t late = 0;             // among those received
   std::uint64_t gaps = 0;             // times that the record was found not to be whole
   std::uint64_t malformed = 0;        // messages
   bool whole = true;                  // now

@@ -281,7 +281,7 @@ class Explainer {
     return feasible(plan).found;
   }
 
-  // The search knows gaps and ages alone. The check has more rules, as that a task ends before its next activation.
+  // The search uses gaps and ages alone. The check has more rules, as that a task ends before its next activation.
   bool passes_at(const Dial& dial, std::int64_t value) const {
     Plan plan = plan_;
     dial.set(plan, value);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kCorrectionRoom = 100;  // macroticks behind gOffsetCorrectionStart
 
-// A list of the layout is told apart by its header, and is no longer than records can number.
+// A list of the layout is distinguished by its header, and is no longer than records can number.
 bool is_numbered(const model::PduLayout& layout, const model::PduLayout& with_signals) {
   const auto found = find_signal(with_signals.header, "fragment");
   return found && layout.max_fragments() <= model::kMostFragments &&

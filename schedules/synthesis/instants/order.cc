@@ -33,7 +33,7 @@ std::optional<Chain> part_of(const Chain& chain, std::size_t first, std::size_t 
 }
 
 // Counts the beginnings of measurements and fusions in one count of ticks over all rounds. Returns false if no chain
-// tells how.
+// says how.
 bool unwrap(const Reading& reading, std::vector<Ticks>& at) {
   for (const Fused& one : reading.fused) {
     bool known = false;

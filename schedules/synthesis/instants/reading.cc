@@ -143,7 +143,7 @@ class Reader {
     }
   }
 
-  // Returns the activity of a place, if the plan knows its instant or chooses it.
+  // Returns the activity of a place, if the plan gives its instant or chooses it.
   std::optional<std::size_t> activity_of(const left_out::SchedulePlace& place) const {
     switch (place.kind) {
       case left_out::SchedulePlace::Kind::kMeasurement: return made_.sensors[index_of(place.sensor)];

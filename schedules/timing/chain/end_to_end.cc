@@ -38,7 +38,7 @@ std::vector<Link> links_of(std::span<const Stage> chain, std::size_t first) {
   return links;
 }
 
-// A part of a chain whose stages know each other's phases: exact walks over its hyperperiod.
+// A part of a chain whose stages have known phases: exact walks over its hyperperiod.
 class Segment {
  public:
   explicit Segment(Link first) : hyperperiod_(first.jobs.cycle()) { links_.push_back(std::move(first)); }

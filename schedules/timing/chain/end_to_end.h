@@ -1,6 +1,6 @@
 // Reaction time and data age of a chain of cause and effect, each also reduced.
 //
-//   reaction time (MRT)            from an event outside to the first output that knows of it. The event may just have
+//   reaction time (MRT)            from an event outside to the first output that rests on it. The event may just have
 //                                  missed a reading.
 //   reduced reaction time (MRRT)   from the reading that takes the event in, to the same output
 //   data age (MDA)                 from a reading to the last instant at which an output that rests on it is in force

@@ -32,7 +32,7 @@ struct Stage {
   // an earlier one.
   Duration cycle{};
   std::vector<Job> jobs;
-  // Stages of one origin know each other's phase: their cycles begin together at the origin's zero. None: any phase.
+  // Stages of one origin have known phases: their cycles begin together at the origin's zero. None: any phase.
   std::optional<std::size_t> origin;
   // Each job reaches its instants, whatever other jobs and stages do.
   bool exact = false;

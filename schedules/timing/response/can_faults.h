@@ -7,7 +7,7 @@
 // and p_K is the probability that K faults, and no more, hit it:
 //   p_K = P(K, lambda S_K) - sum_{i<K} p_i P(K - i, lambda (S_K - S_i)),   S_K = R_K - J,   P(n, x) = x^n e^-x / n!
 // B' is the longest frame of the message itself and of lower priorities. With it the equation holds for every
-// instance whose predecessor was in time (Davis et al. 2007, section 3.4), which the paper of 2002 did not yet know.
+// instance whose predecessor was in time (Davis et al. 2007, section 3.4), which the paper of 2002 did not yet have.
 #pragma once
 
 #include <cstdint>

@@ -45,7 +45,7 @@ struct TaskTimes {
 // hyperperiod has not too many jobs (offsets.h). Otherwise it is a bound.
 std::vector<Response> preemptive(std::span<const TaskTimes> by_priority);
 
-// Exact if no task has an offset; a bound otherwise. Ignores TaskTimes::blocking, since lower priorities tell it.
+// Exact if no task has an offset; a bound otherwise. Ignores TaskTimes::blocking, since lower priorities give it.
 std::vector<Response> non_preemptive(std::span<const TaskTimes> by_priority);
 
 // The same for one task, given the tasks of higher priority in any order, and the longest work of a lower priority

@@ -15,7 +15,7 @@ inline constexpr std::int64_t kLongestResponse = std::int64_t{1} << 62;
 enum class Quality : std::uint8_t {
   kExact,      // the model has a case that reaches it, or comes as near to it as one likes
   kBound,      // no case exceeds it; perhaps no case reaches it
-  kUnbounded,  // the resource is overloaded, or so near to it (2^-60) that it cannot be told apart
+  kUnbounded,  // the resource is overloaded, or so near to it (2^-60) that it cannot be distinguished
 };
 
 // The longest time from an arrival to the end of its work. The arrival is the nominal one, before its jitter.

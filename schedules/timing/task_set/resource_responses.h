@@ -3,7 +3,7 @@
 // The analyses are those of schedules/timing/response. An answer is exact if the set has a case that reaches it. It is
 // a bound at most
 //   * where an activated task takes part: the activators' worst cases may never come together
-//   * with known offsets on a CAN, whose analysis knows none
+//   * with known offsets on a CAN, whose analysis has none
 //   * behind periodic messages of a dynamic segment: the search has them come later than their period, too
 // With errors at random on a CAN no response has a bound. The answers then are those without errors, and
 // miss_probabilities() says how much they are worth.

@@ -75,7 +75,7 @@ Inserted Driven::insert(const Actuation& actuation) {
   const auto place = std::ranges::lower_bound(actuations_, actuation.from, {}, &Actuation::from);
   if (place != actuations_.end() && place->from == actuation.from) return Inserted::kKnown;
   actuations_.insert(place, actuation);
-  // States up to its instant do not know it yet, so they stay.
+  // States up to its instant do not include it yet, so they stay.
   while (grid_.back().at > from) grid_.pop_back();
   return from > looked_at_ ? Inserted::kNew : Inserted::kLate;
 }

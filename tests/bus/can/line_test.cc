@@ -81,7 +81,7 @@ TEST(CanLine, AFrameIsAcknowledgedAcceptedAndSent) {
   bench.start(0, frame());
   EXPECT_EQ(bench.until_idle(0), 57u);
   EXPECT_EQ(bench.levels, kFrame + joined("0 1 1111111") + kIntermission);
-  // The receivers accept at the last but one bit of the end of frame, the transmitter knows a bit later.
+  // The receivers accept at the last but one bit of the end of frame, the transmitter accepts a bit later.
   EXPECT_EQ(bench.done, (std::vector<Done>{{"accepted", 1, 52}, {"accepted", 2, 52}, {"sent", 0, 53}}));
   const std::vector<std::byte> data{std::byte{0x55}};
   EXPECT_EQ(bench.now - TrueTime{}, wire::can_frame_duration(classic(), 0x555, data));

@@ -49,7 +49,7 @@ struct Arrived {
   bool on_a = true, on_b = true;
 };
 
-// Node 1: it hears the list of node 0 and sends in slots 2 and 9.
+// Node 1: it receives the list of node 0 and sends in slots 2 and 9.
 struct Seat {
   NoPort port;
   Told told;

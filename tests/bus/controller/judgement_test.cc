@@ -119,7 +119,7 @@ TEST(ControllerJudges, AnUnexpectedSyncFrameEntersClockSynchronisation) {
   EXPECT_EQ(node.heard.corrected[0].offset.value, 30);  // half way between its own and the other
 }
 
-// The segment's report is out when its last frame ends. The frame is told by itself.
+// The segment's report is out when its last frame ends. The frame is reported by itself.
 TEST(ControllerJudges, AnUnexpectedFrameAtTheSegmentsEndIsTold) {
   Alone node;
   Frame last = Frame::status(10, 0);

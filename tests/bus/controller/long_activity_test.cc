@@ -12,7 +12,7 @@ namespace {
 constexpr SlotStatus kFound = kSyntaxError | kBoundaryViolation;  // where it began; elsewhere the boundary alone
 using Statuses = std::map<int, SlotStatus>;
 
-// Node 1 hears slots 1 and 3..8, sends in slot 2 and, in odd cycles, in slot 9. Slot 10 is unassigned.
+// Node 1 receives slots 1 and 3..8, sends in slot 2 and, in odd cycles, in slot 9. Slot 10 is unassigned.
 struct Listener : Alone {
   Listener() : Alone(1) {}
 

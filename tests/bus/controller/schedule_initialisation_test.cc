@@ -97,7 +97,7 @@ TEST_F(ScheduleInitialisationTest, AClockTooFarOffIsRefusedAndListeningBeginsAne
 TEST_F(ScheduleInitialisationTest, TheChannelsAreListenedToIndependently) {
   ScheduleInitialisation initialisation(flexray, node);
   initialisation.hear(frame(1, 4, Channel::kA));
-  EXPECT_FALSE(initialisation.hear(frame(1, 5, Channel::kB)));  // B has heard no even frame
+  EXPECT_FALSE(initialisation.hear(frame(1, 5, Channel::kB)));  // B has received no even frame
   initialisation.hear(frame(5, 6, Channel::kB));
   EXPECT_TRUE(initialisation.hear(frame(5, 7, Channel::kB)));
 }

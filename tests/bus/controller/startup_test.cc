@@ -114,7 +114,7 @@ TEST(Startup, ALateNodeIntegratesIntoTheRunningCluster) {
     rig.run_until(at_ms(140));
     ASSERT_EQ(rig.controller(2).state().kind, poc::PocKind::kNormalActive) << coldstart;
     EXPECT_LT(rig.heard(2).changed.back().at, Microticks{40'000 * 120});
-    // Its cycle counter is the cluster's; how often that has wrapped it cannot know.
+    // Its cycle counter is the cluster's; how often that has wrapped it cannot count.
     EXPECT_EQ(rig.controller(2).clock()->cycle() % 64, rig.controller(0).clock()->cycle() % 64);
     for (std::size_t n = 0; n < 3; ++n)
       EXPECT_TRUE(std::all_of(rig.heard(n).problems.begin(), rig.heard(n).problems.end(),

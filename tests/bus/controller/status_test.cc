@@ -22,7 +22,8 @@ TEST(SlotSeen, AValidFrameIsSeenOnItsChannelOnly) {
   EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kValid);
   EXPECT_EQ(node.controller.slot_status(2, Channel::kB), kNothing);
   EXPECT_EQ(node.controller.slot_status(3, Channel::kA), kNothing);  // missing
-  EXPECT_EQ(node.controller.slot_status(1, Channel::kA), kNothing);  // the own slot: a controller does not hear itself
+  EXPECT_EQ(node.controller.slot_status(1, Channel::kA),
+            kNothing);  // the own slot: a controller does not receive itself
 }
 
 // The exact instants of publication, and of replacement.
@@ -155,7 +156,7 @@ TEST(SyncStatus, CountsBeyondWhatIsUsedUpTo15) {
   EXPECT_EQ(collector.valid(Channel::kB), 1);
 }
 
-// A node without a sync frame of its own hears one other node in every second cycle.
+// A node without a sync frame of its own receives one other node in every second cycle.
 TEST(SyncStatus, MissingTermsAndTheirCount) {
   schedules::model::Cluster cluster = small_cluster(4);
   cluster.nodes[0].flexray->pKeySlotUsedForSync = cluster.nodes[0].flexray->pKeySlotUsedForStartup = false;

@@ -155,7 +155,7 @@ TEST(SymbolWindow, AMediaTestSymbolIsValidWhereItIsHeard) {
   EXPECT_EQ(rig.controller(1).symbol_window_status(Channel::kB), SymbolWindowSeen{});
 }
 
-// The two senders hear each other while they send; the third hears one symbol.
+// The two senders receive each other while they send; the third receives one symbol.
 TEST(SymbolWindow, TwoSendersConflict) {
   Rig rig(windowed(small_cluster(3)), {0, 0, 0}, Duration{500});
   rig.run_cycles(4);

@@ -40,7 +40,7 @@ struct Waking {
     controller.advance({10'000});
     controller.receive({Channel::kA, ports::Signal::kWakeup, {10'000 - 1'920}, {10'000}, {}});
   }
-  // Noise into the pattern: a collision, heard until the end of that noise.
+  // Noise into the pattern: a collision, received until the end of that noise.
   Microticks collide() {
     controller.advance(timeout());
     EXPECT_EQ(kind(), poc::PocKind::kWakeupSend);

@@ -371,7 +371,7 @@ TEST(GuardianStartupTurns, S1_OneLeadsAtATime) {
   EXPECT_EQ(s.pass(s.symbol(kSecond, 1.5, ports::Signal::kWakeup)), GuardianReason::kNoWakeup);
   EXPECT_EQ(s.pass(s.startup_frame(kFirst, 1.02)), GuardianReason::kForwarded);
   EXPECT_EQ(s.turns[0].leader(), kFirst);
-  // The leader is not heard for more than a cycle.
+  // The leader is not received for more than a cycle.
   EXPECT_EQ(s.pass(s.startup_frame(kSecond, 2.0)), GuardianReason::kOtherLeads);
   EXPECT_EQ(s.pass(s.startup_frame(kSecond, 2.1)), GuardianReason::kForwarded);
   EXPECT_EQ(s.turns[0].leader(), kSecond);

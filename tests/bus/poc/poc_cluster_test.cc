@@ -247,7 +247,7 @@ TEST(PocCluster, ASecondColdstartNodeWithinAndBeyondTheAttemptsWindow) {
   constexpr int kListen = 2 * kSlots + 1;
   constexpr int kAttempt = 1 + 6 * kSlots;  // CAS, four cycles of resolution, one of check, one of gap
   constexpr int kLastSymbol = kListen + 3 * kAttempt;
-  // To send in cycle 4 of an attempt, a node must hear the startup frame of cycle 0: the leader's slot is the
+  // To send in cycle 4 of an attempt, a node must receive the startup frame of cycle 0: the leader's slot is the
   // first one.
   constexpr int kLastFrame = kLastSymbol + 1;
   for (int late = 0; late <= kLastFrame + 2 * kAttempt; ++late) {

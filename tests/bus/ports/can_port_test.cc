@@ -55,7 +55,7 @@ TEST(CanControllers, ListsThatInterleaveArriveWhole) {
   cluster.can_buses = {bus};
 
   std::vector<std::unique_ptr<cni::CanController>> nodes;
-  std::vector<PduId> order;  // the frames that node 2 hears
+  std::vector<PduId> order;  // the frames that node 2 receives
   TestCan can(3, [&](std::size_t node, const CanFrame& frame) {
     const auto arrival = nodes[node]->receive(frame);
     if (node == 2) order.push_back(arrival.value().pdu);

@@ -88,7 +88,7 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
     ASSERT_EQ(arrival->kind, LiveArrival::Kind::kFlexRay);
     EXPECT_FALSE(arrival->late);
     const MachineTime at = arrival->at;
-    EXPECT_FALSE(sender.receive());  // at the latest it hears now that its frame has left
+    EXPECT_FALSE(sender.receive());  // at the latest now its frame's confirmation is there
     const auto told = next(receiver);
     ASSERT_TRUE(told && told->late);
     EXPECT_EQ(told->kind, LiveArrival::Kind::kFollowUp);
@@ -137,7 +137,7 @@ TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
   EXPECT_FALSE(sender.receive());  // its own it keeps to itself
   const auto told = next(receiver);
   ASSERT_TRUE(told && told->late);
-  EXPECT_LE(*told->late, left - due);  // when it left, not when that was heard of
+  EXPECT_LE(*told->late, left - due);  // when it left, not when that was reported
 }
 
 TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
@@ -146,7 +146,7 @@ TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
   ASSERT_EQ(sender.send(signal(frame, 9, false), {}), LiveStatus::kDone);
   ASSERT_EQ(sender.send({.channel = Channel::kA, .signal = ports::Signal::kCas, .duration = {5'700}, .bytes = {}}, {}),
             LiveStatus::kDone);
-  const MachineTime long_ago = ports::host_now() - Duration::milliseconds(3'000);  // too late to be told
+  const MachineTime long_ago = ports::host_now() - Duration::milliseconds(3'000);  // too late for a follow-up
   ASSERT_EQ(sender.send(signal(frame, 9, true), long_ago), LiveStatus::kDone);
   for (int i = 0; i < 3; ++i) {
     const auto arrival = next(receiver);

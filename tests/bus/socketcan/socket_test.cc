@@ -35,7 +35,7 @@ std::int64_t now_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-// The next thing to hear, if it comes within a second.
+// The next thing to receive, if it comes within a second.
 Status next(Socket& socket, Received& received) {
   Status status = socket.receive(received);
   if (status != Status::kNothing) return status;
@@ -73,7 +73,7 @@ TEST_F(SocketOnVcan, EveryFlexRayFrameReachesTheOthersOnceInOrderUnchanged) {
     EXPECT_EQ(receiver->lost(), 0u);
   }
   Received own;
-  EXPECT_EQ(sender.receive(own), Status::kNothing);  // a sender does not hear itself
+  EXPECT_EQ(sender.receive(own), Status::kNothing);  // a sender does not receive itself
 }
 
 TEST_F(SocketOnVcan, StampsAreWhenTheFrameWasThere) {

@@ -43,7 +43,7 @@ TEST(DriveEnd, SaysWhatEachWas) {
             "never started (d); no state reported (e)");
 }
 
-// A real node has no process, and is in operation while it is heard.
+// A real node has no process, and is in operation while it is received.
 TEST(DriveEnd, JudgesRealNodesByWhatIsHeard) {
   const DriveEnd end = drive_end({{"fusion", true, kWell, kActive, false},
                                   {"heard", true, std::nullopt, "", true},

@@ -56,7 +56,7 @@ TEST_F(Supervising, ANodeSetFromStartToEnd) {
   EXPECT_EQ(health_[0]["process"], "exit 0");
 }
 
-// A device in place of a node: the others do not wait for it, and the hooks tell of it.
+// A device in place of a node: the others do not wait for it, and the hooks report it.
 TEST_F(Supervising, AnExternalNodeIsListenedTo) {
   Hooks hooks;
   int heard = 0;
@@ -328,7 +328,7 @@ TEST_F(Supervising, AThrowingHookEndsTheLaunch) {
 }
 
 // On a capable terminal: colours, and the table in place while the nodes run, not only at the end.
-// A child that lives until three statuses have told its health, however slow the machine is.
+// A child that lives until three statuses have reported its health, however slow the machine is.
 class Shown : public Supervising {
  protected:
   SupervisorConfig lingering() const {

@@ -129,7 +129,7 @@ TEST(DrivingAccount, AnObjectMayFallBelowTheSpeedBesideTheWay) {
   EXPECT_EQ(*found.reaction, Duration::milliseconds(150));
 }
 
-// Two nodes tell the truth some nanoseconds apart, in either order.
+// Two nodes report the truth some nanoseconds apart, in either order.
 TEST(DrivingAccount, TheOrderOfNodesMakesNoDifference) {
   const auto judged = [](bool swapped) {
     Drive drive;
@@ -310,7 +310,7 @@ TEST(DrivingAccount, ADeadServiceWarnsNoLonger) {
   }
 }
 
-// The node is back before the silence counts. It knows nothing of the warning, so it never takes it back.
+// The node is back before the silence counts. It has nothing of the warning, so it never takes it back.
 TEST(DrivingAccount, ANodeThatLosesItsSupplyForgetsItsWarning) {
   Drive drive;
   for (const std::int64_t hazard : {1000, 5000}) {

@@ -103,7 +103,7 @@ TEST(FaultAccount, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-// The feature service hears no frame of the gateway for 20 cycles. On one channel it is reported, on both it
+// The feature service receives no frame of the gateway for 20 cycles. On one channel it is reported, on both it
 // is harm. The made-up cause is a fault on the channel.
 TEST(FaultAccount, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
   for (const bool both : {false, true}) {

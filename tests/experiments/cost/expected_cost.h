@@ -28,7 +28,7 @@ Delays uniform_delay(int least, int most);  // [grains], both included
 Delays with_loss(Delays delays, double loss);
 
 struct Stage {
-  // By the grains since the beginning of the period. The last one holds for later grains, too. So a controller may know the
+  // By the grains since the beginning of the period. The last one holds for later grains, too. So a controller may have the
   // age of its measurement.
   std::vector<Jump> jumps;
   Delays next;  // until the next stage; unused in the last one

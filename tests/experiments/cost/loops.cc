@@ -55,7 +55,7 @@ ExpectedCost servo(double h, int total, ServoDelays delays, double loss) {
   loop.add_cost(kActuator, 1.0);
   std::vector<Jump> control{loop.executes({kController})};
   const double grain = h / 40.0;
-  // The controller knows the age of its measurement. It expects half of the longest delay behind it. Without age it has the
+  // The controller has the age of its measurement. It expects half of the longest delay behind it. Without age it has the
   // usual gains, as in distributed.m.
   if (delays == ServoDelays::kCompensated)
     for (int age = 1; age <= total / 2; ++age)

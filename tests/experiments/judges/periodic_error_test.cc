@@ -93,7 +93,7 @@ Round drawn_round(RandomStream& draws) {
   return round;
 }
 
-// The recursion of experiments/sweep fuses all lists that a use knows, one by one, from a poor beginning on. Lists of
+// The recursion of experiments/sweep fuses all lists that a use rests on, one by one, from a poor beginning on. Lists of
 // many rounds ago do not matter any more.
 TEST(PeriodicError, IsThatOfAllListsThatTheUseKnows) {
   RandomStream draws({11});
@@ -118,7 +118,7 @@ TEST(PeriodicError, IsThatOfAllListsThatTheUseKnows) {
   }
 }
 
-// Over a time that ends before the next use: Simpson's rule over three uses that know the same.
+// Over a time that ends before the next use: Simpson's rule over three uses that rest on the same.
 TEST(PeriodicError, OverTimeIsTheMeanOfPredictions) {
   RandomStream draws({13});
   for (int draw = 0; draw < 50; ++draw) {
@@ -127,7 +127,7 @@ TEST(PeriodicError, OverTimeIsTheMeanOfPredictions) {
     Round held = round;
     held.held = {draws.integer(1, round.length.ns)};
     for (const Motion motion : {Motion::kRandomWalk, Motion::kConstantVelocity}) {
-      // The later uses know nothing new: each measurement is known as much later.
+      // The later uses have nothing new: each measurement is known as much later.
       double sum = 0.0;
       for (const auto& [share, weight] : {std::pair{0, 1.0}, std::pair{1, 4.0}, std::pair{2, 1.0}}) {
         Round later = round;
@@ -141,7 +141,7 @@ TEST(PeriodicError, OverTimeIsTheMeanOfPredictions) {
   }
 }
 
-// A filter that knows more has no larger error: earlier knowledge, a smaller variance, a further sensor.
+// A filter that has more has no larger error: earlier knowledge, a smaller variance, a further sensor.
 TEST(PeriodicError, DoesNotGrowWithKnowledge) {
   RandomStream draws({12});
   for (int draw = 0; draw < 200; ++draw) {

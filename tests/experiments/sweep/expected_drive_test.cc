@@ -208,7 +208,7 @@ TEST(ExpectedDrive, TheFacesErrorIsThatOfTheRecursion) {
   EXPECT_NEAR(hand.expected.face_mse(), sum, 1e-9 * sum);
 }
 
-// The nominal length is 0.01 m less than the prior's. The heading swings half of the assumed length. A laser tells it, or the
+// The nominal length is 0.01 m less than the prior's. The heading swings half of the assumed length. A laser measures it, or the
 // velocity across it.
 TEST(ExpectedDrive, TheHeadingSwingsTheCentre) {
   const sim::drives::Scenario scenario = scenario_with({{"  speed_memory: 500 ms\n", ""}});
@@ -248,7 +248,7 @@ TEST(ExpectedDrive, ObservationsArePairedByTheOutline) {
   EXPECT_EQ(crowded.expected.face_mse(), clear.expected.face_mse());
 }
 
-// A length shifts the centre by half of its error. Seen widths tell it. A car of known size has the heading's part alone.
+// A length shifts the centre by half of its error. Seen widths correct it. A car of known size has the heading's part alone.
 TEST(ExpectedDrive, ADrawnLengthShiftsTheCentre) {
   const auto position = [](const std::string& draw, const std::string& correlation) {
     ByHand hand(scenario_with({{"draw: nominal", "draw: " + draw},
@@ -268,7 +268,7 @@ TEST(ExpectedDrive, ADrawnLengthShiftsTheCentre) {
   const double quarter = 0.25 * 0.37 * 0.37;
   EXPECT_NEAR(added("normal", "0"), quarter, 1e-3 * quarter);
   EXPECT_NEAR(added("uniform", "0"), 0.25 * (1.22 * 1.22 / 12.0 + 0.25 * 0.25), 1e-9) << "the prior is off by 0.25 m";
-  // Thirty widths of 0.05 m tell 96 % or more of an exact one.
+  // Thirty widths of 0.05 m give 96 % or more of an exact one.
   const double told = added("normal", "0.82");
   EXPECT_GT(told, (1.0 - 0.82 * 0.82) * quarter);
   EXPECT_LT(told, (1.0 - 0.96 * 0.82 * 0.82) * quarter);

@@ -56,7 +56,7 @@ struct Use {
   GlobalTime known{}, at{};
 };
 // One for every use; both are in order of their instants. `fused[i]` is the instant at which looks[i] is
-// fused. Does not throw. Looks must not be newer than the uses that know them, and every use must know one.
+// fused. Does not throw. Looks must not be newer than the uses that rest on them, and every use must rest on one.
 inline std::vector<Eigen::Matrix4d> expected_errors(const PointMotion& motion, std::span<const Look> looks,
                                                     std::span<const GlobalTime> fused, std::span<const Use> uses) {
   TTF_CHECK(looks.size() == fused.size(), "{} looks, {} instants", looks.size(), fused.size());

@@ -190,7 +190,7 @@ sim::drives::Scenario behind_a_car(const std::string& size, const std::string& s
   return sim::drives::parse_scenario(std::move(text), file);
 }
 
-// Both are within 10 % of the sampled ones. Widths tell of lengths, or they do not. The centre's error is mostly one draw a
+// Both are within 10 % of the sampled ones. Widths correct lengths, or they do not. The centre's error is mostly one draw a
 // drive. So many drives are needed.
 TEST(ShippedSweeps, TheErrorsOfFaceAndCentreOfDrawnCarsAreTheExpectedOnes) {
   SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");

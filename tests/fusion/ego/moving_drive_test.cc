@@ -158,7 +158,7 @@ TEST(MovingDrive, ExactMethodsEqualRewinding) {
   }
 }
 
-// Mean NEES of (x, y, vx, vy) of the images from 1.5 s on, predicted by 40 ms; 4 where the covariance tells the truth.
+// Mean NEES of (x, y, vx, vy) of the images from 1.5 s on, predicted by 40 ms; 4 where the covariance is right.
 struct Judged {
   double nees = 0.0;
   int images = 0, objects = 0;

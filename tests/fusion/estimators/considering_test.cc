@@ -148,7 +148,7 @@ TEST(Considering, ABirthIsAnUpdateOfAlmostNothing) {
       for (sensors::KnownSensor& one : sensors) {
         one.errors.axes = axes;
         if (axes == sensors::ErrorAxes::kCartesian) one.errors.sigma << 0.3, 0.2, 0.0, 0.0;
-        // The stamp's error has second-order effects here, and a radar does not know the cross velocity.
+        // The stamp's error has second-order effects here, and a radar does not measure the cross velocity.
         one.errors.sigma(3) = 0.0;
       }
       const config::TrackerConfig config = config_with(kConsidered, sensors);

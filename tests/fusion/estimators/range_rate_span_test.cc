@@ -1,4 +1,4 @@
-// Range rates that a radar tells up to multiples of a span.
+// Range rates that a radar measures up to multiples of a span.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ TEST(RangeRateSpan, TheGateRefusesOtherRates) {
   EXPECT_GT(estimator->distance_squared(estimate, seen(60.0, 5.0, 40.0, 40.0)).value(), 50.0);
 }
 
-// 45 m/s are told as 15 m/s away. The first lists' positions say which it is.
+// 45 m/s are measured as 15 m/s away. The first lists' positions say which it is.
 TEST(RangeRateSpan, AFastObjectFindsItsSpeed) {
   config::TrackerConfig config = config_of(kStraight, 1.0);
   config.initial_velocity_sigma = 20.0;

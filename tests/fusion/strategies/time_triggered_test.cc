@@ -1,4 +1,4 @@
-// TT knows all instants and waits only for older lists. Timelines: x measured, > arrives at the fusion node;
+// TT has all instants and waits only for older lists. Timelines: x measured, > arrives at the fusion node;
 // fusion every 10 ms.
 #include <gtest/gtest.h>
 

@@ -35,7 +35,7 @@ TEST(R157, CompetentDriver) {
   EXPECT_DOUBLE_EQ(deceleration_at(driver.braking(), 9.0), 0.774 * kGravity);
 }
 
-// The way of Euler's midpoint steps, which know no formula for it.
+// The way of Euler's midpoint steps, which use no formula for it.
 double driven_to_standstill(const Braking& braking, double speed) {
   constexpr double dt = 1e-4;
   double way = 0.0;

@@ -116,7 +116,7 @@ struct Recorded final : recording::records::Sink {
   recording::records::MediumCounts medium;                       // the last
 };
 
-// Hears nothing at first.
+// Receives nothing at first.
 class Deaf final : public bus::ports::LiveMedium {
  public:
   Deaf(std::unique_ptr<bus::ports::LiveMedium> medium, bus::ports::MachineTime until,

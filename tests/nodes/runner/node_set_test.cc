@@ -197,7 +197,7 @@ TEST_F(TurnedNodeSet, AClusterStartsUp) {
   }
 }
 
-// The nodes cannot hear each other until all coldstart attempts are exhausted. Only the hosts can help then:
+// The nodes cannot receive each other until all coldstart attempts are exhausted. Only the hosts can help then:
 // a cluster of listeners stays silent for good.
 TEST_F(TurnedNodeSet, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
   cluster_.flexray.gColdStartAttempts = 2;
@@ -242,7 +242,7 @@ TEST_F(TurnedNodeSet, ANodeThatWasStoppedForShortIsBackInTime) {
   EXPECT_EQ(of("feature").fresh, 15);
 }
 
-// Twenty cycles, with room for the frames of five: it hears no others when it catches up, and its clock goes
+// Twenty cycles, with room for the frames of five: it receives no others when it catches up, and its clock goes
 // astray. It halts, as FlexRay specifies, and integrates anew. Until then it hardly disturbs the others.
 TEST_F(TurnedNodeSet, ANodeThatWasStoppedForLongIntegratesAnew) {
   drive({.lasts = ms(600), .room = 64}, only("camera_pre", stopped(at(ms(200)), at(ms(300)))));

@@ -201,7 +201,7 @@ TEST_F(RunnerTest, FramesLeaveAsACanWouldCarryThem) {
   }
 }
 
-// The interface of a private CAN reports errors and states. Each change of state is told once.
+// The interface of a private CAN reports errors and states. Each change of state is reported once.
 TEST_F(RunnerTest, ReportsOfItsInterfaceAreRecords) {
   using namespace recording::records;
   Alone laser(*this, "laser", {.lasts = ms(20)});
@@ -291,7 +291,7 @@ TEST_F(RunnerTest, AHaltedControllerIsStartedAnew) {
     EXPECT_EQ(gateway.out.changes[i].local, gateway.out.changes[halted].local) << states[i];
 }
 
-// Noise delays a coldstart, unless the node had no power to hear it.
+// Noise delays a coldstart, unless the node had no power to receive it.
 TEST_F(RunnerTest, ANodeWithoutPowerReceivesNothing) {
   const auto begins_cluster = [&](std::optional<Duration> noise) {
     Alone gateway(*this, "gateway", {.lasts = ms(60), .power_on = [](NodeId) {

@@ -302,7 +302,7 @@ TEST(TrackReplay, DuplicatesAndWhatIsTooOldAreCounted) {
   std::vector<recording::rows::ObservationRow> rows;
   for (std::int64_t ms = 0; ms < 1000; ms += 50) {
     rows.push_back(position_row("a", ms, ms, 10.0, 0.0));
-    if (ms == 500) rows.push_back(position_row("a", ms, ms + 20, 10.0, 0.0));  // heard twice
+    if (ms == 500) rows.push_back(position_row("a", ms, ms + 20, 10.0, 0.0));  // received twice
   }
   rows.push_back(position_row("b", 100, 900, 10.0, 0.0));  // older than the history
   const RecordedLists arrivals = recorded_lists_of_rows(rows, config);

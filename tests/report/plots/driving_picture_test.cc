@@ -18,7 +18,7 @@ std::size_t count(const std::string& text, const std::string& word) {
   return found;
 }
 
-// Tells the truth from `from` to `to`, a hundred times a second. The object ahead is `gap` ahead of the front and comes nearer.
+// Reports the truth from `from` to `to`, a hundred times a second. The object ahead is `gap` ahead of the front and comes nearer.
 void tell(DrivingPicture& picture, double from, double to, double gap, double closing) {
   for (int i = 0; i < static_cast<int>((to - from) * 100.0); ++i) {
     const TrueTime at{static_cast<std::int64_t>((from + 0.01 * i) * 1e9)};

@@ -49,7 +49,7 @@ TEST(Round, AWrongCountIsSaidOnce) {
   }
 }
 
-// Eight cycles of 5 ms tell stamps of up to 35 ms apart, ten cycles of up to 43.75 ms.
+// Eight cycles of 5 ms separate stamps of up to 35 ms, ten cycles of up to 43.75 ms.
 TEST(Round, IsLongEnoughForTheStampsOfMeasurements) {
   for (const auto& [execution_ms, last, fits] :
        {std::tuple{20, 7, true}, {36, 7, false}, {30, 9, true}, {45, 9, false}, {300, 63, true}}) {

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 model::Cluster shipped() { return file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_dynamic.yaml"); }
 
-// The part of a cluster that another tool knows.
+// The part of a cluster that another tool has.
 model::Cluster bus_of(model::Cluster cluster) {
   for (model::Node& node : cluster.nodes) node.tasks.clear();
   cluster.sensors.clear();

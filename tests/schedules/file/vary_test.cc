@@ -40,7 +40,7 @@ TEST(Vary, DerivedValuesFollowVariedOnes) {
   EXPECT_EQ(parse_cluster(text).flexray.gdNIT, 386 + 2 * 84);
 }
 
-// A line of its own moves the lines behind it, and these still know their files.
+// A line of its own moves the lines behind it, and these still have their files.
 TEST(Vary, LinesKeepTheirOrigins) {
   ClusterText text = paper_lacking("gdNIT");
   text.origins = TextOrigins({"base.yaml"});

@@ -1,4 +1,4 @@
-// A processor or a bus that serves jobs by priority, event by event: an oracle for analyses. It knows no theory.
+// A processor or a bus that serves jobs by priority, event by event: an oracle for analyses. It uses no theory.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@
 namespace ttf::sensors::mono_camera {
 namespace {
 
-// The camera's box of a car, and its silhouette as the tracker knows it.
+// The camera's box of a car, and its silhouette as the tracker has it.
 struct Look {
   PictureBox box;
   Eigen::Vector2d silhouette = Eigen::Vector2d::Zero();

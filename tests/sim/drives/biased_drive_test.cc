@@ -102,7 +102,7 @@ struct LastPrediction final : recording::records::Sink {
 };
 
 // Draws the car's sizes from the tracker's prior: half a length's error is the centre's. Judges only the position. The car
-// stands still, which the tracker does not assume, so it knows the velocity better than stated. Each drive is judged once,
+// stands still, which the tracker does not assume, so it estimates the velocity better than stated. Each drive is judged once,
 // at its end.
 TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   constexpr std::uint64_t kDrives = 150;

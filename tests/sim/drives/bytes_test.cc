@@ -1,4 +1,4 @@
-// Only bytes travel: a receiver knows only the frame's content.
+// Only bytes travel: a receiver has only the frame's content.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::vector<std::byte> forged(std::span<const std::byte> frame, schedules::model
   return bytes;
 }
 
-// A controller of the feature node that hears the fusion node's image frames, original or forged.
+// A controller of the feature node that receives the fusion node's image frames, original or forged.
 struct Receiver final : bus::controller::ControllerEvents, bus::ports::FlexRayPort {
   const schedules::model::Cluster& cluster;
   bus::controller::FlexRayController controller;

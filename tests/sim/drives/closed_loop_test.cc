@@ -1,4 +1,4 @@
-// Drives whose commands drive the vehicle: the same every time, without allocations, and told apart from others.
+// Drives whose commands drive the vehicle: the same every time, without allocations, and distinguished from others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The tracker knows what each sensor sees, in whole clusters: cars that one sensor alone sees, and one that a lorry hides.
+// The tracker has the field of each sensor, in whole clusters: cars that one sensor alone sees, and one that a lorry hides.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -49,7 +49,7 @@ TEST(LateMethod, AdvaWithOthersIsNearlyRewinding) {
   }
 }
 
-// The schedule knows the sensors' instants. The camera measures 25 ms later than in the shipped cluster, so
+// The schedule has the sensors' instants. The camera measures 25 ms later than in the shipped cluster, so
 // that its lists overtake the laser's.
 TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
   Drive drive = straight_drive(kScenario, StrategyKind::kTt);

@@ -85,7 +85,7 @@ TEST_P(TwoLasers, NoiseAndPreprocessingAreItsOwn) {
   EXPECT_EQ(noisy.of[kLeft], before.of[kLeft]);
   laser(kRight).preprocessing->rectangle.range_noise_m = 0.4;
   const Sightings known = sightings();
-  // One that does not know its noise takes some of these cars for something rough.
+  // One without its own noise takes some of these cars for something rough.
   EXPECT_GT(known.of[kRight].size(), noisy.of[kRight].size());
   // A fit that leaves more than the stated noise says so by itself, so both exceed that of the quiet laser.
   EXPECT_NE(known.of[kRight], noisy.of[kRight]);

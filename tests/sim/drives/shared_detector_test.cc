@@ -1,4 +1,4 @@
-// Cameras that share a detector: the same every time, without allocations, within the schedule's ages, and told apart
+// Cameras that share a detector: the same every time, without allocations, within the schedule's ages, and distinguished
 // from others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -60,7 +60,7 @@ TEST(GuardianFaults, ABabblingIdiotIsHeardByNobody) {
   }
 }
 
-// All acts of start-up spoilers, in a running cluster: a lone coldstart node that hears nothing, wake-up
+// All acts of start-up spoilers, in a running cluster: a lone coldstart node that receives nothing, wake-up
 // patterns, ...
 TEST(GuardianFaults, NobodyStartsAClusterThatRuns) {
   for (const auto plan : StartSpoiler::kPlans)

@@ -73,7 +73,7 @@ TEST(Plant, NodesMayBeginIntegrated) {
   }
 }
 
-// In the middle of its frame the sender loses its supply. The others hear an undecodable signal, and then
+// In the middle of its frame the sender loses its supply. The others receive an undecodable signal, and then
 // silence.
 TEST(Plant, AFrameWhoseSenderLosesItsSupplyIsCutOff) {
   Plant4 plant(1);

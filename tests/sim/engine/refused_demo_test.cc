@@ -118,7 +118,7 @@ TEST(RefusedDemo, WithCompensationsOfFiveMicrosecondsNoColdStartSucceeds) {
 }
 
 // Node 0 comes back in the network idle time of a running cluster, while the bus is silent. 1,284 microticks are 32.1 us.
-// With the right timeout it hears the cluster instead.
+// With the right timeout it receives the cluster instead.
 TEST(RefusedDemo, AfterAShortListenTimeoutACasGoesIntoTheRunningCluster) {
   const schedules::model::Cluster hasty = demo("pdListenTimeout", "1284"), shipped = demo("", "");
   EXPECT_TRUE(is_refused(hasty, "pdListenTimeout"));

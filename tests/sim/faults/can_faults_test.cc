@@ -114,7 +114,7 @@ TEST(CanFaults, AnErrorOfOneReceiverIsOneOfAll) {
   EXPECT_EQ(faulty.can.arrived, 2u);
 }
 
-// A bit drawn anywhere in the frame: each attempt fails, and 32 of them take the node off the bus. The others hear
+// A bit drawn anywhere in the frame: each attempt fails, and 32 of them take the node off the bus. The others receive
 // nothing of it any more, until it has recovered.
 TEST(CanFaults, CorruptionTakesTheSenderOffTheBus) {
   FaultyCan faulty(fault_at(FaultKind::kCanCorruption, 0, 2, 8));

@@ -97,7 +97,7 @@ TEST(Injector, L2WhatAFaultDrawsDoesNotDependOnTheOthers) {
   ASSERT_GT(alone.acts(), 0U);
   ASSERT_GT(beside.acts(1), 0U);
   const auto at = [](const FaultBus& bus) {
-    // By cycles: clock corrections depend on the heard nodes.
+    // By cycles: clock corrections depend on the received nodes.
     std::vector<std::int64_t> cycles;
     for (const FaultBus::Activity& activity : bus.activities())
       if (activity.fault == 0) cycles.push_back((activity.at.ns + kCycleNs / 4) / kCycleNs);
@@ -305,7 +305,7 @@ TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
   EXPECT_EQ(signal.end - signal.start, Duration{26'300});
 }
 
-// A transient begins in the middle of a frame. A receiver becomes deaf before it begins to hear a frame that
+// A transient begins in the middle of a frame. A receiver becomes deaf before it begins to receive a frame that
 // has left. Both are known when the frame leaves, and reported when the fault begins.
 TEST(Injector, NothingIsToldBeforeItIsSo) {
   const TrueTime slot_three{1'000'000 + 10 * kCycleNs + 2 * 43'000 + 7'000};

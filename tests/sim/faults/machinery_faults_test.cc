@@ -138,7 +138,7 @@ int started(FaultBusConfig config, int latest) {
 }
 
 TEST(MachineryFaults, ANodeThatKeepsSendingCasKeepsTheOthersFromStarting) {
-  // Its controller's frames do not leave it. It would lead, since it does not hear itself.
+  // Its controller's frames do not leave it. It would lead, since it does not receive itself.
   ttf::faults::Fault fault = fault_of(FaultKind::kDuplicateColdstart, 3, 0, 60);
   fault.interval = Duration::milliseconds(3);
   const ttf::faults::Fault mute = fault_of(FaultKind::kOmission, 3, 0);
@@ -161,7 +161,7 @@ TEST(MachineryFaults, RogueStartupFramesDisturbStartUp) {
   config.cold = true;
   FaultBus bus(std::move(config));
   bus.run(40);
-  // They hear a startup frame before any node has begun, and take its schedule.
+  // They receive a startup frame before any node has begun, and take its schedule.
   EXPECT_TRUE(was_in(bus.said(0), PocKind::kInitialiseSchedule));
   EXPECT_FALSE(was_in(bus.said(0), PocKind::kColdstartCollisionResolution));
   EXPECT_EQ(bus.acts(), 2U * 8);

@@ -271,7 +271,7 @@ TEST(CanWays, PowerOnEndsErrorStates) {
 }
 
 // A frame of 8 bytes without another node. An attempt takes at most 98 bits to the acknowledgement, and 17 behind it.
-// From the seventeenth on there are 8 more. It goes on until another node is there, which hears it once.
+// From the seventeenth on there are 8 more. It goes on until another node is there, which receives it once.
 TEST(CanWays, AFrameIsSentAgainUntilItIsAcknowledged) {
   Can can(can_cluster(false, 0.0, 1'000'000));
   for (const int node : {1, 2}) can.medium.power_off(static_cast<NodeId>(node), can.time);

@@ -35,7 +35,7 @@ class SimulatedFlexRayBench final : public SimulatedFlexRay {
   SimulatedFlexRayBench() : SimulatedFlexRay(on_flexray()) {}
 };
 
-// Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are still
+// Node 1 is on no CAN. The schedule has two of the identifiers; frames too short for their PDU are still
 // delivered.
 schedules::model::Cluster on_can(bool flexible_data_rate) {
   schedules::model::Cluster cluster;
@@ -52,7 +52,7 @@ schedules::model::Cluster on_can(bool flexible_data_rate) {
   return cluster;
 }
 
-// The medium's reports agree with its acts: frames one after the other. Each tells its begin; it is accepted at its
+// The medium's reports agree with its acts: frames one after the other. Each reports its begin; it is accepted at its
 // sender's event, and the bus is busy for four more bits of 1 us. The frame's sender gives its meaning
 // (nodes/host/executive.h).
 struct Reported final : recording::records::Sink {

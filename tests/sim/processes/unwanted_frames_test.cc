@@ -63,7 +63,7 @@ TEST(UnwantedFrames, OfEveryClusterLeaveAllOtherRecordsAsTheyAre) {
   compare({"scenarios/crowd_25.yaml", fusion::strategies::StrategyKind::kTt});
 }
 
-// Nodes powered on later hear some of the frames under way, and all frames that are new to them.
+// Nodes powered on later receive some of the frames under way, and all frames that are new to them.
 TEST(UnwantedFrames, BelongToStartupLikeOthers) {
   compare({"scenarios/cold_start.yaml", fusion::strategies::StrategyKind::kAdva});
 }

@@ -92,8 +92,8 @@ TEST(EndAgreement, WithoutSurvivorsThereIsNothingToAgreeUpon) {
   EXPECT_TRUE(last.done());
 }
 
-// Survivors of one dead member: each heard it up to a drawn sample. They receive all messages late, in a
-// drawn order. Some die in between, and with them their repetitions. All remaining survivors must have heard
+// Survivors of one dead member: each received it up to a drawn sample. They receive all messages late, in a
+// drawn order. Some die in between, and with them their repetitions. All remaining survivors must have received
 // the same.
 class DrawnAgreement {
  public:

@@ -2,11 +2,11 @@
 //
 //   dds_member DOMAIN SESSION SELF MEMBERS LEASE_MS supervised|alone MODE COUNT small|all [ENDLESS...]
 //
-//   MODE     talk: sends COUNT messages as fast as it can, then hears the others
-//            rounds: COUNT times, sends one, then hears one of each other member that is still there
+//   MODE     talk: sends COUNT messages as fast as it can, then receives the others
+//            rounds: COUNT times, sends one, then receives one of each other member that is still there
 //   ENDLESS  nodes that do not stop at COUNT
 //
-// Prints "ready" once all members hear each other. Ends when every other member has sent COUNT messages, or
+// Prints "ready" once all members receive each other. Ends when every other member has sent COUNT messages, or
 // is gone if it is endless. Prints one line for each other member: its number, the count of its messages,
 // their hash, and whether it went. If the exchange fails, prints "error: ..." and exits with 1.
 #include <fmt/format.h>

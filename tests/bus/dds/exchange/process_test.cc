@@ -38,7 +38,7 @@ class Launch {
     EXPECT_EQ(member(index).wait(), -SIGKILL);
   }
   // Waits for all members that were not killed. Expects `count` messages of members not in `dead`. Members in
-  // `dead` must be gone, and all must have heard the same beginning of their messages. Announces every end,
+  // `dead` must be gone, and all must have received the same beginning of their messages. Announces every end,
   // as a launch does.
   void expect_all_heard(const std::set<std::size_t>& dead = {}) {
     std::map<std::size_t, std::optional<MemberProcess::HeardOf>> of_dead;

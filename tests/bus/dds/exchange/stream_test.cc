@@ -1,5 +1,5 @@
 // A member's stream of another, sample by sample (bus/dds/exchange/stream.h), and the messages that all have
-// heard (bus/dds/exchange/heard.h).
+// received (bus/dds/exchange/heard.h).
 #include "bus/dds/exchange/stream.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ common::Entry said(std::uint64_t number, common::Kind kind = common::Kind::kMess
   return {number, kind, std::make_shared<const std::vector<std::byte>>(size)};
 }
 
-// The heard messages as text: "0 1 2 bye".
+// The received messages as text: "0 1 2 bye".
 class StreamTest : public testing::Test {
  protected:
   void accept(std::uint64_t number, common::Kind kind = common::Kind::kMessage) {
@@ -74,7 +74,7 @@ TEST_F(StreamTest, BehindTheFenceNothingIsHeardUntilItIsClosed) {
   accept(2);
   EXPECT_EQ(heard(), "0");
   close(2);
-  EXPECT_EQ(heard(), "0 1 bye");  // 2 was heard by no survivor when they reported
+  EXPECT_EQ(heard(), "0 1 bye");  // 2 was received by no survivor when they reported
   accept(2);
   accept(3);
   EXPECT_EQ(heard(), "0 1 bye");

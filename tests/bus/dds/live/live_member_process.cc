@@ -6,8 +6,8 @@
 //   SPOILT   members that are killed, stopped or restarted: their messages are counted, not checked. Messages of the
 //            others must be complete. A member that is itself spoilt sends endlessly, and may miss some.
 //
-// Prints "ready" once it hears all others and they hear it, and begins at the first line on stdin. Ends when
-// it has sent and heard all messages; a spoilt member ends at the second line. Then prints "lost N longest_us
+// Prints "ready" once it receives all others and they receive it, and begins at the first line on stdin. Ends when
+// it has sent and received all messages; a spoilt member ends at the second line. Then prints "lost N longest_us
 // N wrong TEXT", with the longest send(), and one line for each other member: "NODE HEARD".
 #include <fmt/format.h>
 #include <poll.h>

@@ -61,7 +61,7 @@ class LiveProcesses {
     EXPECT_EQ(members_[spoilt]->wait(), 0) << members_[spoilt]->said();
     return report_of(*members_[spoilt], members_.size());
   }
-  // All others have heard each other's messages completely, without waiting. There are no losses, or only of
+  // All others have received each other's messages completely, without waiting. There are no losses, or only of
   // spoilt members' messages.
   enum class Lost { kNothing, kButOfSpoilt };
   std::vector<LiveReport> expect_undisturbed(Lost lost = Lost::kNothing) {
@@ -128,7 +128,7 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
   for (const std::size_t i : {0, 1, 3}) EXPECT_GT(reports[i].heard[2], 2 * 1000u) << i;
 }
 
-// Stopped within its lease: it knows its losses.
+// Stopped within its lease: it counts its losses.
 TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
   LiveProcesses processes(common::session(4), 4500, {1}, GetParam());
   std::this_thread::sleep_for(300ms);

@@ -91,7 +91,7 @@ using DdsLiveBenches = testing::Types<
     DdsLiveBench<2, bus::dds::live::Delivery::kReliable>, DdsLiveBench<5, bus::dds::live::Delivery::kReliable>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Dds, LiveMediumLaws, DdsLiveBenches);
 
-// Each malformed sample is counted and never handed over; sound ones in between are heard.
+// Each malformed sample is counted and never handed over; sound ones in between are received.
 TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   const auto plans = bus::dds::live::live_lines(2);
@@ -183,7 +183,7 @@ TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
   EXPECT_EQ(heard, all.size());
 }
 
-// A listener hears the identifiers it was given, of a stranger that names no node; malformed frames, too.
+// A listener receives the identifiers it was given, of a stranger that names no node; malformed frames, too.
 TEST(DdsListener, HearsWhatNodesWouldAndWhatTheyRefuse) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   auto plans = bus::dds::live::live_lines(2);
@@ -214,7 +214,7 @@ TEST(DdsListener, HearsWhatNodesWouldAndWhatTheyRefuse) {
   };
   using Sample = ttf_LiveSample;
   on_a.say(said([](Sample& s) { s.number = 0; }), 8);
-  on_a.say(said([](Sample& s) { s.number = 1, s.slot = 4; }), 8);  // not heard
+  on_a.say(said([](Sample& s) { s.number = 1, s.slot = 4; }), 8);  // not received
   on_a.say(said([](Sample& s) { s.number = 2, s.slot = 3, s.tells_late = 1, s.late = 77; }), 8);
   on_a.say(said([](Sample& s) { s.number = 3, s.kind = 1, s.duration = 9; }), 0);  // a symbol
   on_a.say(said([](Sample& s) { s.number = 2; }), 8);                              // a number again
@@ -222,7 +222,7 @@ TEST(DdsListener, HearsWhatNodesWouldAndWhatTheyRefuse) {
   on_a.say(said([](Sample& s) { s.number = 4; }), 7);                              // too short
   on_a.say(said([](Sample& s) { s.number = 4, s.slot = 3; }), 8);
   next(7);
-  on_can.say(said([](Sample& s) { s.number = 0, s.kind = 5, s.identifier = 0x51; }), 8);  // not heard
+  on_can.say(said([](Sample& s) { s.number = 0, s.kind = 5, s.identifier = 0x51; }), 8);  // not received
   on_can.say(said([](Sample& s) { s.number = 1, s.kind = 5; }), 9);                       // no length of CAN FD
   on_can.say(said([](Sample& s) { s.number = 1, s.kind = 5; }), 12);
   next(2);

@@ -72,7 +72,7 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
     ++sequence;
     return DrawnImage(1'000'000 * std::int64_t{sequence}, sequence, 64);
   };
-  ASSERT_TRUE(soon([&] {  // until it hears us
+  ASSERT_TRUE(soon([&] {  // until it receives us
     publisher.on(next_image().record);
     return listener.find([&](const nlohmann::json& line) { return is_sample_of(line, topic); }, 0ms).has_value();
   }));
@@ -95,7 +95,7 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
   })) << "the writing thread stood still, too";
   EXPECT_EQ(publisher.counts().images.refused, 0u);
 
-  listener.signal(SIGCONT);  // and it hears the newest
+  listener.signal(SIGCONT);  // and it receives the newest
   const std::uint32_t newest = sequence;
   EXPECT_TRUE(listener
                   .find(

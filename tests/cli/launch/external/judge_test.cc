@@ -78,7 +78,7 @@ struct Judging : testing::Test {
     in_order.hand_over([&](const Heard& heard) { judge.hear(heard); });
   }
 
-  // The others' sync frames of a cycle, each late by another time, which its follow-up tells.
+  // The others' sync frames of a cycle, each late by another time, which its follow-up states.
   void others(std::int64_t cycle, Duration out_of_step = {}, Channel channel = Channel::kA) {
     for (const int slot : {1, 3, 4, 5}) {
       const Duration late = us(70 * slot);
@@ -192,7 +192,7 @@ TEST_F(Judging, FramesNeverSentAreMissing) {
   EXPECT_EQ(counts().missing, 594u + 74u);  // it begins now
 }
 
-// A listener hears 20 cycles of channel A, and then those of B. One long cycle puts the cycle 18 before it 36 us off,
+// A listener receives 20 cycles of channel A, and then those of B. One long cycle puts the cycle 18 before it 36 us off,
 // and the node's frames come 20 us before their window ends.
 TEST_F(Judging, ChannelsMayComeOneAfterTheOther) {
   judge.begin(kBegin);

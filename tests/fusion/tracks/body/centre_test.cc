@@ -56,7 +56,7 @@ Heading known_heading(double value, double rate, double sigma_rate) {
 const Anchor kOnCircle[] = {
     {SeenPoint::kEnd, -1, 0}, {SeenPoint::kEnd, 1, 0}, {SeenPoint::kSide, 0, 1}, {SeenPoint::kCorner, -1, -1}};
 
-// The motion knows its turn rate: as of CTRV, CTRA and constant acceleration.
+// The motion has its turn rate: as of CTRV, CTRA and constant acceleration.
 TEST(TurningCentre, FollowsFromAnExactAnchorOnACircle) {
   const Circling car;
   for (const Anchor& anchor : kOnCircle) {
@@ -66,7 +66,7 @@ TEST(TurningCentre, FollowsFromAnExactAnchorOnACircle) {
   }
 }
 
-// Straight motion knows no turn rate. The heading has one. The acceleration stays unknown.
+// Straight motion has no turn rate. The heading has one. The acceleration stays unknown.
 TEST(TurningCentre, FollowsFromTheHeadingsRateInStraightMotion) {
   Circling car;
   car.accelerates = false;

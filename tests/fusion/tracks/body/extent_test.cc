@@ -51,7 +51,7 @@ TEST(Subtended, NothingWhereTheOutlineReachesBehindTheSensor) { EXPECT_EQ(subten
 Aspect seen(double range, double angle, double sigma_angle) { return {range, 0.05, angle, sigma_angle}; }
 double span_of(double range, double angle) { return subtended(range, angle, {4.4, 1.8}).angle; }
 
-// A prior that leaves much to learn.
+// A prior that leaves much to estimate.
 Extent wide() { return Extent(config::Sizes{.length = 4.5, .length_sigma = 2.0, .width = 1.8, .width_sigma = 0.5}); }
 
 // 20 m ahead, from behind and from the side: the visible side becomes known, the other does not.

@@ -1,4 +1,4 @@
-// Headings that turn: exact steps, rates that are learned, and axes that come late.
+// Headings that turn: exact steps, rates that are estimated, and axes that come late.
 #include "fusion/tracks/body/heading.h"
 
 #include <gtest/gtest.h>

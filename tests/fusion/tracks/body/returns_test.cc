@@ -108,7 +108,7 @@ TEST(Spreads, AreComputedOnceForABodyAndASensor) {
   EXPECT_EQ(spreads.of(1, body, *estimator, front), spread_of(body, *estimator, front)) << "of the next list";
 }
 
-// A car drives off, and a radar alone tells of one to four of its points. Its tracks are as certain as they say.
+// A car drives off, and a radar alone measures one to four of its points. Its tracks are as certain as they say.
 TEST(Returns, OfACarThatDrivesAheadMakeAConsistentTrack) {
   config::TrackerConfig config = config_of(config::MotionModel::kConstantVelocity, 1.0);
   config.sensors.resize(1);

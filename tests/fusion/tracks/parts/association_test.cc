@@ -221,7 +221,7 @@ TEST(Association, CrossingInClutterIsConsistentWithJpdaOnly) {
   EXPECT_LT(nearest.switches, 30u);
 }
 
-// M of N counts observations, and clutter has enough of them. Existence knows how many to expect.
+// M of N counts observations, and clutter has enough of them. Existence says how many to expect.
 TEST(Association, CrossingInClutterExistenceBelievesLittleOfIt) {
   for (const config::Association association : {config::Association::kNearest, config::Association::kJpda}) {
     const Followed counted = follow_by(association, config::Birth::kMOfN, 0.01, 20);

@@ -115,7 +115,7 @@ void expect_consistent(const Errors& e) {
   EXPECT_LT(e.nees_length, 1.25);
 }
 
-// Two points of an object were seen. Position or size learns, not both at a time. So both are better than they say.
+// Two points of an object were seen. Position or size is corrected, not both at a time. So both are better than they say.
 void expect_careful(const Errors& e) {
   EXPECT_GT(e.nees_centre, 1.3);
   EXPECT_LT(e.nees_centre, 2.35);
@@ -123,7 +123,7 @@ void expect_careful(const Errors& e) {
   EXPECT_LT(e.nees_length, 1.25);
 }
 
-// A rear alone tells nothing of the length, however often it is seen.
+// A rear alone measures nothing of the length, however often it is seen.
 TEST(Anchoring, ARearSeenTwoHundredTimesLeavesTheLengthUnknown) {
   const config::TrackerConfig config = calm();
   const Errors e = follow(
@@ -180,7 +180,7 @@ TEST(Anchoring, CornersTellBothSides) {
   EXPECT_LT(e.nees_centre, 2.5);
 }
 
-// Two sensors face each other. One sees the rear, one the front, and the positions tell the length.
+// Two sensors face each other. One sees the rear, one the front, and the positions give the length.
 TEST(Anchoring, TheOtherEndTeachesTheLength) {
   sensors::KnownSensor behind, before;
   before.mounting.position = {120.0, 4.0};
@@ -193,7 +193,7 @@ TEST(Anchoring, TheOtherEndTeachesTheLength) {
   EXPECT_LT(e.sigma_length, 0.1);
 }
 
-// First the rear is seen, then only the side. The anchor moves. The side tells the length.
+// First the rear is seen, then only the side. The anchor moves. The side gives the length.
 TEST(Anchoring, TheAnchorFollowsWhatIsSeen) {
   const Errors e = follow(
       calm(), 80,

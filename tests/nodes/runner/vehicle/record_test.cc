@@ -171,7 +171,7 @@ TEST(VehicleRecord, AProcessThatBeginsLaterReceivesAll) {
   expect_same_way(late, actuator, 26'000);
 }
 
-// A new actuator's process knows none of the old one's commands, and all others go on.
+// A new actuator's process has none of the old one's commands, and all others go on.
 TEST(VehicleRecord, AnActuatorThatBeginsAnewGoesOn) {
   Process first, sensor, second;
   for (std::int64_t k = 1; k <= 20; ++k) (void)sensor.record->take(first.record->tell(command(k)));

@@ -278,7 +278,7 @@ TEST(FoxgloveExport, AgesAndErrorsAreNumbers) {
   EXPECT_TRUE(std::isnan(found[1].second.position_m()));
 }
 
-// Errors are known when the next use comes, observations when they are fused: both tell of an earlier instant.
+// Errors are known when the next use comes, observations when they are fused: both are about an earlier instant.
 TEST(FoxgloveExport, StampsNeverGoBack) {
   Scene scene(two_sensors());
   scene.image(10 * kMs, 50 * kMs, {});

@@ -71,7 +71,7 @@ std::vector<std::string> ecus_of(const std::string& xml) {
   return ecus;
 }
 
-// The import knows neither nodes off FlexRay nor who reads a list. The ECUs are the same all the same, in their order.
+// The import has neither nodes off FlexRay nor who reads a list. The ECUs are the same all the same, in their order.
 TEST_P(FibexShipped, KeepsItsEcusWhenItIsExportedAgain) {
   const auto without_inputs = [](model::Cluster cluster) {
     for (model::Node& node : cluster.nodes) node.tasks.clear();

@@ -82,9 +82,9 @@ TEST(Judged, MeasurementsMoveToWhereTheJudgeWantsThem) {
     const Synthesis made = synthesize(plan, {{Goal::kError, &judge}});
     ASSERT_TRUE(made.found);
     EXPECT_TRUE(check::check(made.cluster).empty());
-    const auto met = meetings(plan, made.cluster);
-    EXPECT_NEAR(1e-3 * static_cast<double>((age_of(met, 1) - age_of(met, 0)).ns), apart, 1.0);
-    EXPECT_EQ(made.reached[0].value, judge.of(met, {1.0}));
+    const auto ends = meetings(plan, made.cluster);
+    EXPECT_NEAR(1e-3 * static_cast<double>((age_of(ends, 1) - age_of(ends, 0)).ns), apart, 1.0);
+    EXPECT_EQ(made.reached[0].value, judge.of(ends, {1.0}));
     EXPECT_LE(made.reached[0].bound, made.reached[0].value);
   }
 }
@@ -109,8 +109,8 @@ TEST(Judged, RegretLiesBetweenTheWishes) {
     const WantsApart alone({i == 0 ? 1'000.0 : 5'000.0});
     EXPECT_NEAR(1.0 / weights[i], synthesize(plan, {{Goal::kError, &alone}}).reached[0].value, 0.01);
   }
-  const auto met = meetings(plan, made.cluster);
-  EXPECT_NEAR(1e-3 * static_cast<double>((age_of(met, 1) - age_of(met, 0)).ns), 3'000.0, 25.0);
+  const auto ends = meetings(plan, made.cluster);
+  EXPECT_NEAR(1e-3 * static_cast<double>((age_of(ends, 1) - age_of(ends, 0)).ns), 3'000.0, 25.0);
 }
 
 TEST(Judged, LaterObjectivesKeepTheValue) {
@@ -183,9 +183,9 @@ TEST(Meetings, AreThoseOfThePayloadThatWasChosen) {
       if (!found.best) continue;
       ++placed;
       const model::Cluster cluster = with_instants(plan, read->timed, read->reading, found.best->solution);
-      const std::vector<Meeting> met = meetings(plan, cluster);
-      ASSERT_EQ(met.size(), 1u);
-      for (const Met& one : met[0].met)
+      const std::vector<Meeting> ends = meetings(plan, cluster);
+      ASSERT_EQ(ends.size(), 1u);
+      for (const Met& one : ends[0].met)
         EXPECT_EQ((one.used - one.measured).ns, found.best->ages[one.chain] * 1'000) << candidate.payload << " bytes";
     }
   }

@@ -189,7 +189,7 @@ TEST(SynthesizePaper, FurtherSensorsFit) {
   EXPECT_GT(made.reached[0].value, 90.5);
 }
 
-// Lists are fused in the order of their measurements, as far as clocks can tell.
+// Lists are fused in the order of their measurements, as far as clocks can resolve it.
 TEST(SynthesizePaper, ListsAreFusedInTheOrderOfTheirMeasurements) {
   const Synthesis made = synthesize(plan::load_plan(plan_path("paper_two_lasers_radar")));
   struct Fused {

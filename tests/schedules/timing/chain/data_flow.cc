@@ -40,7 +40,7 @@ FlowTimes DataFlow::times() const {
     found.reduced_age = std::max(found.reduced_age, outputs_[o].at - outputs_[o].sample);
     found.age = std::max(found.age, outputs_[o + 1].at - outputs_[o].sample);
   }
-  std::size_t first = 0, next = 0;  // the outputs that know of a sample, and of the one behind it
+  std::size_t first = 0, next = 0;  // the outputs that rest on a sample, and of the one behind it
   for (std::size_t k = 0; k + 1 < samples_.size(); ++k) {
     if (samples_[k] < from_ || samples_[k] >= to_) continue;
     while (outputs_.at(first).sample < samples_[k]) ++first;

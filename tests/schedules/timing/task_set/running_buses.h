@@ -1,4 +1,4 @@
-// Second opinions on buses and slots, event by event: they know no theory. Times are nanoseconds.
+// Second opinions on buses and slots, event by event: they use no theory. Times are nanoseconds.
 #pragma once
 
 #include <algorithm>
