@@ -6,8 +6,8 @@ add_library(ttf_options INTERFACE)
 # joins a*b-c*d, a*b+c*d into vfmaddsub all the same, and Eigen's packets must round as its scalars do. The presets
 # (CMakePresets.json) choose the instruction set and which warnings are errors; kept hashes are those of x86-64-v3.
 include(CheckCXXCompilerFlag)
-check_cxx_compiler_flag(-mno-fma TTF_KNOWS_NO_FMA)   # of x86 alone
-target_compile_options(ttf_options INTERFACE $<$<BOOL:${TTF_KNOWS_NO_FMA}>:-mno-fma> -ffp-contract=off -pthread)
+check_cxx_compiler_flag(-mno-fma TTF_HAS_NO_FMA_OPTION)   # of x86 alone
+target_compile_options(ttf_options INTERFACE $<$<BOOL:${TTF_HAS_NO_FMA_OPTION}>:-mno-fma> -ffp-contract=off -pthread)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 # Eigen aligns by the instruction set that it is compiled for, and types with its members have another layout for each. So the
 # alignment is that of x86-64-v3 everywhere. ttf_fusion hands it on.

@@ -77,13 +77,13 @@ int main(int argc, char **argv) {
   }
   int a = can_socket(argv[1]), b = can_socket(argv[2]), camera = can_socket(argv[3]), out = can_socket(argv[4]);
   for (int cycle = -1, number = 0;;) {  // counted from the drive's first, if it receives that one
-    struct canfd_frame heard;
-    int64_t at = receive(a, &heard);
-    if (heard.can_id == 0 || heard.can_id > 34) continue;  // a follow-up
-    int ahead = ((heard.data[4] & 63) - cycle % 64 + 64) % 64;
+    struct canfd_frame received;
+    int64_t at = receive(a, &received);
+    if (received.can_id == 0 || received.can_id > 34) continue;  // a follow-up
+    int ahead = ((received.data[4] & 63) - cycle % 64 + 64) % 64;
     if (cycle >= 0 && (ahead == 0 || ahead > 32)) continue;  // one frame states enough of its cycle
-    cycle = cycle < 0 ? heard.data[4] & 63 : cycle + ahead;
-    int64_t next = at - (heard.can_id - 1) * kSlot - kActionPoint + kCycle;
+    cycle = cycle < 0 ? received.data[4] & 63 : cycle + ahead;
+    int64_t next = at - (received.can_id - 1) * kSlot - kActionPoint + kCycle;
     const char *fault = argc > 5 ? argv[5 + cycle % (argc - 5)] : "0";
     sleep_until(next + (kOwn - 1) * kSlot + kActionPoint + atoi(fault) * 1000);
     send_status(a, 0xFEDCBA, cycle + 1, *fault == 's');

@@ -98,14 +98,14 @@ int main(int argc, char **argv) {
     dds_sample_info_t info;
     dds_waitset_wait(waits, NULL, 0, DDS_INFINITY);
     if (dds_take(reader, taken, &info, 1, 1) < 1) continue;
-    ttf_LiveSample heard = *(ttf_LiveSample *)taken[0];
-    int count = info.valid_data && heard.kind == kOnSlot && heard.slot <= 34 ? heard.bytes._buffer[4] & 63 : -1;
+    ttf_LiveSample received = *(ttf_LiveSample *)taken[0];
+    int count = info.valid_data && received.kind == kOnSlot && received.slot <= 34 ? received.bytes._buffer[4] & 63 : -1;
     dds_return_loan(reader, taken, 1);
     int ahead = (count - cycle % 64 + 64) % 64;
     if (count < 0 || (cycle >= 0 && (ahead == 0 || ahead > 32))) continue;  // one frame states enough of its cycle
     cycle = cycle < 0 ? count : cycle + ahead;
-    int64_t due = heard.sent - (heard.tells_late ? heard.late : 0);
-    int64_t next = due + scale * (kCycle - (heard.slot - 1) * kSlot - kActionPoint);
+    int64_t due = received.sent - (received.tells_late ? received.late : 0);
+    int64_t next = due + scale * (kCycle - (received.slot - 1) * kSlot - kActionPoint);
     const char *fault = argc > 3 ? argv[3 + cycle % (argc - 3)] : "0";
     sleep_until(next + scale * ((kOwn - 1) * kSlot + kActionPoint) + atoi(fault) * 1000);
     send_status(&a, 0xFEDCBA, cycle + 1, *fault == 's');

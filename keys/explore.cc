@@ -117,7 +117,7 @@ class Explorer {
     for (const Decision& decision : run.usual().decisions()) {
       if (is_number(decision.question.type) || run.answers.contains(decision.name)) continue;
       const bool anew = run.changes_keys && decision.question.map == run.changed->question.map;
-      if (run.changed && !anew && has_met(found_.runs[run.parent], decision)) continue;
+      if (run.changed && !anew && has_decided(found_.runs[run.parent], decision)) continue;
       for (const KeyValue& answer : other_answers(decision)) {
         Run next;
         next.answers = run.answers;
@@ -129,7 +129,7 @@ class Explorer {
     }
   }
 
-  static bool has_met(const Run& run, const Decision& decision) {
+  static bool has_decided(const Run& run, const Decision& decision) {
     const auto& decisions = run.usual().decisions();
     return std::any_of(decisions.begin(), decisions.end(), [&](const Decision& other) {
       return other.name == decision.name && other.question.words == decision.question.words;

@@ -29,7 +29,7 @@ Occlusion::Occlusion(std::size_t most_objects)
     : most_(most_objects), leaves_(std::bit_ceil(std::max<std::size_t>(most_objects, 1))) {
   for (std::vector<Mark>* marks : {&by_distance_, &by_low_, &by_high_, &by_bearing_}) marks->reserve(most_);
   place_.resize(most_);
-  met_.resize(2 * leaves_);
+  crossed_.resize(2 * leaves_);
   hidden_.resize(most_);
 }
 
@@ -40,11 +40,11 @@ std::span<const char> Occlusion::hidden(std::span<const ObjectState> objects, st
   tried_ = 0;
   std::fill_n(hidden_.begin(), objects.size(), 0);
   mark(objects, sights);
-  std::fill(met_.begin(), met_.end(), 0);
+  std::fill(crossed_.begin(), crossed_.end(), 0);
   auto low = by_low_.begin(), high = by_high_.begin();
   for (const Mark& line : by_bearing_) {
-    for (; low != by_low_.end() && low->at <= line.at; ++low) set_met(place_[low->object], true);
-    for (; high != by_high_.end() && high->at < line.at; ++high) set_met(place_[high->object], false);
+    for (; low != by_low_.end() && low->at <= line.at; ++low) set_crossed(place_[low->object], true);
+    for (; high != by_high_.end() && high->at < line.at; ++high) set_crossed(place_[high->object], false);
     hidden_[line.object] = is_hidden(objects, line.object, sights[line.object], shadow) ? 1 : 0;
   }
   return {hidden_.data(), objects.size()};
@@ -77,22 +77,22 @@ void Occlusion::mark(std::span<const ObjectState> objects, std::span<const Sight
   for (std::size_t place = 0; place < by_distance_.size(); ++place) place_[by_distance_[place].object] = place;
 }
 
-void Occlusion::set_met(std::size_t place, bool met) {
+void Occlusion::set_crossed(std::size_t place, bool crossed) {
   std::size_t node = leaves_ + place;
-  met_[node] = met ? 1 : 0;
-  for (node /= 2; node > 0; node /= 2) met_[node] = met_[2 * node] | met_[2 * node + 1];
+  crossed_[node] = crossed ? 1 : 0;
+  for (node /= 2; node > 0; node /= 2) crossed_[node] = crossed_[2 * node] | crossed_[2 * node + 1];
 }
 
 // Returns the first such place from `from` on, or the number of leaves.
-std::size_t Occlusion::next_met(std::size_t from) const {
+std::size_t Occlusion::next_crossed(std::size_t from) const {
   if (from >= leaves_) return leaves_;
   std::size_t node = leaves_ + from;
-  while (!met_[node]) {
+  while (!crossed_[node]) {
     while (node % 2 == 1) node /= 2;  // a right child: what follows is further up
     if (node == 0) return leaves_;
     ++node;
   }
-  while (node < leaves_) node = met_[2 * node] ? 2 * node : 2 * node + 1;
+  while (node < leaves_) node = crossed_[2 * node] ? 2 * node : 2 * node + 1;
   return node - leaves_;
 }
 
@@ -101,8 +101,8 @@ bool Occlusion::is_hidden(std::span<const ObjectState> objects, std::size_t obje
   const double from = sight.range / (1.0 + shadow) - reach_ - kMargin_m, to = sight.range + reach_ + kMargin_m;
   const auto first =
       std::partition_point(by_distance_.begin(), by_distance_.end(), [&](const Mark& mark) { return mark.at < from; });
-  for (auto place = next_met(static_cast<std::size_t>(first - by_distance_.begin()));
-       place < by_distance_.size() && by_distance_[place].at <= to; place = next_met(place + 1)) {
+  for (auto place = next_crossed(static_cast<std::size_t>(first - by_distance_.begin()));
+       place < by_distance_.size() && by_distance_[place].at <= to; place = next_crossed(place + 1)) {
     const ObjectState& other = objects[by_distance_[place].object];
     if (other.id == objects[object].id) continue;
     ++tried_;

@@ -43,8 +43,8 @@ class Occlusion {
   };
   static void sort(std::vector<Mark>& marks);
   void mark(std::span<const ObjectState> objects, std::span<const Sight> sights);
-  void set_met(std::size_t place, bool met);
-  std::size_t next_met(std::size_t from) const;
+  void set_crossed(std::size_t place, bool crossed);
+  std::size_t next_crossed(std::size_t from) const;
   bool is_hidden(std::span<const ObjectState> objects, std::size_t object, const Sight& sight, double shadow);
 
   std::size_t most_, leaves_;
@@ -52,7 +52,7 @@ class Occlusion {
   std::vector<Mark> by_distance_, by_low_, by_high_, by_bearing_;
   std::vector<std::size_t> place_;  // by object: its index in by_distance_
   // A binary tree over the places: whether the present line can meet any object below a node. Its root is node 1.
-  std::vector<char> met_;
+  std::vector<char> crossed_;
   std::vector<char> hidden_;
   std::uint64_t tried_ = 0;
 };

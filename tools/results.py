@@ -181,7 +181,7 @@ def contradictions(page, today, answer, replications):
     return found
 
 
-def tell(page, found):
+def report(page, found):
     """Prints what a page's drives contradict, and returns whether they do."""
     cells = sum(len(printed_cells(text)) for _, text in page.tables)
     print(f"{page.path.name}: {len(page.tables)} tables, {cells} rows: {len(found)} contradictions", flush=True)
@@ -203,7 +203,7 @@ def check(pages, replications, jobs):
             answer = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
             today = first_replications(folder, measures_of(page), replications)
             found = contradictions(page, today, answer, replications)
-            failed = tell(page, found) or failed
+            failed = report(page, found) or failed
     return failed
 
 

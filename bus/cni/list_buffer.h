@@ -69,7 +69,7 @@ class IncomingList {
   ArrivalEffect arrive(std::span<const std::byte> payload, std::optional<int> fragment = std::nullopt);
   // Returns whether a repetition of that fragment would be kDuplicate and change nothing. The test compares it with
   // arrive() on drawn fragments (tests/bus/cni/list_buffer_test.cc).
-  bool knows(std::span<const std::byte> payload, int fragment) const {
+  bool is_known(std::span<const std::byte> payload, int fragment) const {
     return stale_lists_ == 0 && repeats(payload, fragment);
   }
   // Returns the newest complete list, no value before the first. It stays until a newer one is complete.

@@ -29,7 +29,7 @@ FlexRayController::State::State(const schedules::model::Cluster& c, NodeId n, po
     : cluster(c), g(c.flexray), p(parameters(c, n)), node(n), port(medium), by_content(medium.by_content()),
       events(host), poc_parameters(poc::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
       minislots(c.flexray), geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
-      told_of_receptions(host.wants_receptions()), nominal_slot(controller::nominal_slot(g, p)),
+      wants_receptions(host.wants_receptions()), nominal_slot(controller::nominal_slot(g, p)),
       static_frame(bits(schedules::model::frame_bits(g, g.gPayloadLengthStatic))), longest_cas(bits(g.gdCASRxLowMax)),
       pattern_wakes(wire::wakes(g)), poc(poc_power_on(poc_parameters)), cni(c, n),
       network_management(c.flexray.gNetworkManagementVectorLength), sync(c.flexray.gSyncNodeMax),
@@ -43,7 +43,7 @@ Microticks FlexRayController::State::bits(int count) const {
 
 // ---- protocol operation control
 
-void FlexRayController::State::tell(const poc::PocEvent& event, Microticks at) {
+void FlexRayController::State::apply(const poc::PocEvent& event, Microticks at) {
   const poc::PocKind from = poc.kind;
   const poc::PocStep step = poc_step(poc_parameters, poc, event);
   poc = step.next;
@@ -62,7 +62,7 @@ void FlexRayController::State::act(const poc::PocActions& actions, Microticks at
   if (actions.has(poc::PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
   if (actions.has(poc::PocAction::kSendCas)) send_cas(at);
   if (actions.has(poc::PocAction::kDeriveSchedule))
-    initialisation.reset();  // hear() passes on the frame that caused this
+    initialisation.reset();  // receive_startup_frame() passes on the frame that caused this
 }
 
 void FlexRayController::State::drop_schedule() {
@@ -124,22 +124,22 @@ void FlexRayController::State::handle(Microticks at) {
   };
   if (noise_timer == at) {
     noise_timer = kNever<Microticks>;
-    return tell({poc::PocEventKind::kNoiseTimeout}, at);
+    return apply({poc::PocEventKind::kNoiseTimeout}, at);
   }
   if (listen_timer == at) {
     listen_timer = kNever<Microticks>;
     // Arriving activity may have stopped the timer, which restarts when the channels are idle again.
     const bool stopped = poc::listen_timer_follows_channels(poc.kind) && busy();
-    return tell({stopped ? poc::PocEventKind::kChannelActive : poc::PocEventKind::kListenTimeout}, at);
+    return apply({stopped ? poc::PocEventKind::kChannelActive : poc::PocEventKind::kListenTimeout}, at);
   }
   if (wakeup_sent == at) {
     wakeup_sent = kNever<Microticks>;
-    return tell({poc::PocEventKind::kWakeupSent}, at);
+    return apply({poc::PocEventKind::kWakeupSent}, at);
   }
   if (partner_overdue == at) {
     initialisation.reset();
     partner_overdue = kNever<Microticks>;
-    return tell({poc::PocEventKind::kScheduleNotDerived}, at);
+    return apply({poc::PocEventKind::kScheduleNotDerived}, at);
   }
   switch (segment) {
     case Segment::kBefore: return enter_cycle({}, at);
@@ -173,7 +173,7 @@ void FlexRayController::State::start_cycle() {
 
 // `ended`: the startup frames received in the cycle before.
 void FlexRayController::State::enter_cycle(const poc::StartupFramesSeen& ended, Microticks at) {
-  tell(poc::PocEvent::cycle_started(counter, ended), at);
+  apply(poc::PocEvent::cycle_started(counter, ended), at);
   if (!clock || clock->cycle_start() != at) return;  // dropped, or begun anew by a CAS
   start_cycle();
   events.cycle_started(clock->cycle(), at);
@@ -188,13 +188,13 @@ void FlexRayController::State::note_what_goes_on() {
     if (!goes_on) continue;
     const int last = board.slots();
     if (whole_cycle) board.crossed(channel, 1, last);
-    for (int slot = board.last_heard(channel) + 1; slot < last; ++slot)
+    for (int slot = board.last_received(channel) + 1; slot < last; ++slot)
       if (slots.expected(slot, counter, channel) != nullptr) board.crossed(channel, slot, slot);
     board.crossed(channel, last, last);
   }
 }
 
-void FlexRayController::State::tell_slot_problems(Microticks at) {
+void FlexRayController::State::report_slot_problems(Microticks at) {
   const int now = counter;
   if (board.are_pairs(slots.pairs(now))) return;
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
@@ -217,7 +217,7 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
 void FlexRayController::State::close_static_segment(Microticks at) {
   const std::int64_t cycle = clock->cycle();
   note_what_goes_on();
-  if (!poc::in_startup(poc.kind)) tell_slot_problems(at);
+  if (!poc::in_startup(poc.kind)) report_slot_problems(at);
   board.end_segment();
   const int valid_a = sync.valid(schedules::model::Channel::kA), valid_b = sync.valid(schedules::model::Channel::kB);
   (cycle % 2 == 0 ? sync_status.VSAE : sync_status.VSAO) = valid_a;
@@ -245,7 +245,7 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   sync_status.OCLR = offset.limit_reached;
   sync_status.RCLR = rate.limit_reached;
   events.clock_corrected(cycle, offset, rate, at);
-  tell(poc::PocEvent::clock_corrected(offset.missing || rate.missing, offset.limit_reached || rate.limit_reached), at);
+  apply(poc::PocEvent::clock_corrected(offset.missing || rate.missing, offset.limit_reached || rate.limit_reached), at);
 }
 
 // ---- the public interface
@@ -267,18 +267,18 @@ void FlexRayController::start_integrated(const InitialClock& clock) {
 
 void FlexRayController::start_cold(Microticks now) {
   State& s = *state_;
-  s.tell({poc::PocEventKind::kPowerOn}, now);
-  s.tell({poc::PocEventKind::kConfig}, now);
-  s.tell({poc::PocEventKind::kConfigComplete}, now);
-  if (s.p.pKeySlotUsedForStartup) s.tell({poc::PocEventKind::kAllowColdstart}, now);
-  s.tell({poc::PocEventKind::kRun}, now);
+  s.apply({poc::PocEventKind::kPowerOn}, now);
+  s.apply({poc::PocEventKind::kConfig}, now);
+  s.apply({poc::PocEventKind::kConfigComplete}, now);
+  if (s.p.pKeySlotUsedForStartup) s.apply({poc::PocEventKind::kAllowColdstart}, now);
+  s.apply({poc::PocEventKind::kRun}, now);
   s.due = s.next_event();
 }
 
 void FlexRayController::command(poc::PocEventKind command, Microticks now) {
   TTF_CHECK(command >= poc::PocEventKind::kConfig && command <= poc::PocEventKind::kFreeze, "{} is no command",
             to_text(command));
-  state_->tell({command}, now);
+  state_->apply({command}, now);
   state_->due = state_->next_event();
 }
 
@@ -301,8 +301,8 @@ void FlexRayController::receive(const ports::Reception& reception) { state_->rec
 bool FlexRayController::receive_on_both(const ports::Reception& reception) {
   return state_->receive_on_both(reception);
 }
-bool FlexRayController::knows(const ports::Reception& reception) { return state_->knows(reception); }
-void FlexRayController::hear_known(const ports::Reception& reception) { state_->hear_known(reception); }
+bool FlexRayController::is_known(const ports::Reception& reception) { return state_->is_known(reception); }
+void FlexRayController::receive_known(const ports::Reception& reception) { state_->receive_known(reception); }
 
 SlotSeen FlexRayController::slot_status(int slot, schedules::model::Channel channel) const {
   const State& s = *state_;

@@ -164,14 +164,14 @@ class FlexRayController {
   void receive(const ports::Reception& reception);
   // Receives one frame on both channels at the same instants, as most frames arrive; `reception` says channel
   // A. The same as receive() for A, then for B. Returns whether next_event() or the state's kind has changed.
-  // The test compares this, knows() and hear_known() with receive() on drawn receptions
+  // The test compares this, is_known() and receive_known() with receive() on drawn receptions
   // (tests/bus/controller/fast_ways_test.cc).
   bool receive_on_both(const ports::Reception& reception);
   // Returns whether `reception`, still on its way on both channels, will change only its slot's status and the
   // sync deviations. Nothing else may reach this node before it. True of null frames and of known fragments, that
-  // is of most frames. Right after true, hear_known() may take the reception in before it arrives.
-  bool knows(const ports::Reception& reception);
-  void hear_known(const ports::Reception& reception);
+  // is of most frames. Right after true, receive_known() may take the reception in before it arrives.
+  bool is_known(const ports::Reception& reception);
+  void receive_known(const ports::Reception& reception);
 
   // No value before a schedule has been derived or begun, and after it has been dropped.
   const std::optional<timebase::CycleClock>& clock() const { return clock_; }

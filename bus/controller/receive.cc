@@ -56,7 +56,7 @@ void FlexRayController::State::receive(const ports::Reception& reception) {
   // A controller that is sending cannot decode other signals.
   const bool conflict = talks_over(reception, c);
   if (clock && !poc::in_startup(poc.kind)) return judge(reception, conflict);
-  hear_in_startup(reception, conflict);
+  receive_in_startup(reception, conflict);
   due = next_event();
 }
 
@@ -92,77 +92,77 @@ bool FlexRayController::State::judge_on_both(const ports::Reception& reception) 
   if (expected == nullptr) return false;
   const int slot = expected->slot;
   const bool under_way = board.under_way();
-  board.hear_a(slot);
+  board.receive_a(slot);
   accept(reception, Channel::kA, slot, expected);
   // The host may act on that event.
   if (!in_operation() || board.under_way() != under_way) {
     receive(on_b(reception));
     return true;
   }
-  board.hear_b(slot);
+  board.receive_b(slot);
   accept(reception, Channel::kB, slot, expected);
   return true;
 }
 
-bool FlexRayController::State::knows(const ports::Reception& reception) {
+bool FlexRayController::State::is_known(const ports::Reception& reception) {
   // Until the reception ends the controller neither sends nor reads slot status, and its own transmissions are over.
-  if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !in_operation() ||
+  if (due <= reception.end || segment != Segment::kStatic || wants_receptions || !in_operation() ||
       reception.start < std::max(sending_to[0], sending_to[1]) || reception.frame.header.payload_preamble)
     return false;
   const FrameSlot* const expected = first_of_slot_on_both(reception);
   if (expected == nullptr) return false;
   if (reception.frame.header.null_frame || expected->pdu == kNoPdu) return true;
   const auto bytes = static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes);
-  return cni.incoming(expected->pdu).knows(reception.frame.payload.first(bytes), expected->fragment);
+  return cni.incoming(expected->pdu).is_known(reception.frame.payload.first(bytes), expected->fragment);
 }
 
-void FlexRayController::State::hear_known(const ports::Reception& reception) {
+void FlexRayController::State::receive_known(const ports::Reception& reception) {
   const wire::FrameHeader& header = reception.frame.header;
-  board.hear_a(header.frame_id);
-  board.hear_b(header.frame_id);
-  if (header.sync) hear_sync(reception, header.frame_id, schedules::model::Channels::kAB);
+  board.receive_a(header.frame_id);
+  board.receive_b(header.frame_id);
+  if (header.sync) receive_sync(reception, header.frame_id, schedules::model::Channels::kAB);
 }
 
-void FlexRayController::State::hear_in_startup(const ports::Reception& reception, bool conflict) {
-  tell({poc::PocEventKind::kChannelActive}, reception.end);
+void FlexRayController::State::receive_in_startup(const ports::Reception& reception, bool conflict) {
+  apply({poc::PocEventKind::kChannelActive}, reception.end);
   if (conflict && wakeup_sent != kNever<Microticks>) {
-    tell({poc::PocEventKind::kWakeupCollision}, reception.end);
+    apply({poc::PocEventKind::kWakeupCollision}, reception.end);
   } else if (!conflict) {
-    if (is_cas(reception)) tell({poc::PocEventKind::kCasReceived}, reception.end);
+    if (is_cas(reception)) apply({poc::PocEventKind::kCasReceived}, reception.end);
     if (reception.signal == ports::Signal::kWakeup && pattern_wakes && reception.channel == p.pWakeupChannel)
-      tell({poc::PocEventKind::kWakeupPatternReceived}, reception.end);
+      apply({poc::PocEventKind::kWakeupPatternReceived}, reception.end);
     if (reception.signal == ports::Signal::kFrame && wire::has_header(reception.frame))
-      tell({poc::PocEventKind::kHeaderReceived}, reception.end);
+      apply({poc::PocEventKind::kHeaderReceived}, reception.end);
   }
   if (clock)
     judge(reception, conflict);
   else if (!conflict)
-    hear(reception);
+    receive_startup_frame(reception);
   if (clock) return;
   const bool idle = !port.carrier(Channel::kA) && !port.carrier(Channel::kB);
-  if (idle) tell({poc::PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
+  if (idle) apply({poc::PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
 }
 
 // Without a schedule only startup frames matter: two of them make one.
-void FlexRayController::State::hear(const ports::Reception& reception) {
+void FlexRayController::State::receive_startup_frame(const ports::Reception& reception) {
   const wire::FrameHeader& header = reception.frame.header;
   if (!is_frame(reception) || !header.startup || !header.sync || header.frame_id > g.gNumberOfStaticSlots ||
       header.payload_words != g.gPayloadLengthStatic)
     return;
-  const StartupFrame heard{reception.channel, header.frame_id, header.cycle, reception.start};
+  const StartupFrame received{reception.channel, header.frame_id, header.cycle, reception.start};
   const poc::PocEvent event = poc::PocEvent::startup_frame(header.frame_id, header.cycle);
   if (poc.kind == poc::PocKind::kColdstartListen || poc.kind == poc::PocKind::kIntegrationListen) {
-    tell(event, reception.end);
+    apply(event, reception.end);
     if (poc.kind != poc::PocKind::kInitialiseSchedule) return;
-    initialisation.hear(heard);
+    initialisation.receive(received);
     partner_overdue =
         reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1} + port.handed_over_within();
-  } else if (poc.kind == poc::PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
-    const auto schedule = initialisation.hear(heard);
-    if (!schedule && heard.cycle % 2 == 0) return;  // the other channel's even frame
+  } else if (poc.kind == poc::PocKind::kInitialiseSchedule && received.frame_id == poc.reference) {
+    const auto schedule = initialisation.receive(received);
+    if (!schedule && received.cycle % 2 == 0) return;  // the other channel's even frame
     partner_overdue = kNever<Microticks>;
-    if (!schedule) return tell({poc::PocEventKind::kScheduleNotDerived}, reception.end);
-    tell(event, reception.end);
+    if (!schedule) return apply({poc::PocEventKind::kScheduleNotDerived}, reception.end);
+    apply(event, reception.end);
     begin_schedule(schedule->cycle_start, schedule->rate, schedule->cycle);
     start_cycle();
     // Skips the past events of a cycle entered in the middle; this node sends nothing in it anyway.
@@ -245,8 +245,8 @@ void FlexRayController::State::accept(const ports::Reception& reception, Channel
   const wire::FrameHeader& header = reception.frame.header;
   if (!poc::in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
   if (header.sync)
-    hear_sync(reception, slot,
-              channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB);
+    receive_sync(reception, slot,
+                 channel == Channel::kA ? schedules::model::Channels::kA : schedules::model::Channels::kB);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
   if (expected != nullptr && (expected->pdu == kNoPdu || store(*expected, reception))) return;
   board.at(slot).errors[index_of(channel)] |= kUnexpectedFrame;
@@ -257,16 +257,16 @@ void FlexRayController::State::accept(const ports::Reception& reception, Channel
 
 // The medium reports the arrival of the TSS's first bit, so there is no decoding time to subtract
 // (pDecodingCorrection). The schedule compensates the mean propagation delay of the bus.
-void FlexRayController::State::hear_sync(const ports::Reception& reception, int slot,
-                                         schedules::model::Channels channels) {
+void FlexRayController::State::receive_sync(const ports::Reception& reception, int slot,
+                                            schedules::model::Channels channels) {
   const Microticks late = reception.start - clock->cycle_start() - line(slot).action_point;
   const auto deviation = [&](int compensation) { return static_cast<int>(late.value) - compensation; };
   const std::array<int, 2> deviations{deviation(p.pDelayCompensationA), deviation(p.pDelayCompensationB)};
   const auto starts_up = [&](Channel channel) {
     return includes(channels, channel) && std::abs(deviations[index_of(channel)]) <= p.pdAcceptedStartupRange;
   };
-  sync.heard(slot, channels, deviations,
-             reception.frame.header.startup && (starts_up(Channel::kA) || starts_up(Channel::kB)));
+  sync.received(slot, channels, deviations,
+                reception.frame.header.startup && (starts_up(Channel::kA) || starts_up(Channel::kB)));
 }
 
 // Counts the minislots of a reception, from the first one on if it began before: the slot counter goes on
@@ -299,10 +299,10 @@ void FlexRayController::State::judge_dynamic(const ports::Reception& reception, 
 }
 
 // Returns whether a valid dynamic frame may hold the fragment that the schedule has there.
-bool FlexRayController::State::is_as_expected(const wire::DecodedFrame& heard, const FrameSlot* expected) const {
+bool FlexRayController::State::is_as_expected(const wire::DecodedFrame& received, const FrameSlot* expected) const {
   return expected != nullptr && expected->pdu != kNoPdu &&
-         heard.header.payload_preamble == expected->message_id.has_value() &&
-         heard.payload.size() >=
+         received.header.payload_preamble == expected->message_id.has_value() &&
+         received.payload.size() >=
              preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes);
 }
 

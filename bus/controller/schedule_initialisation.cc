@@ -10,7 +10,7 @@ ScheduleInitialisation::ScheduleInitialisation(const schedules::model::GlobalPar
 
 void ScheduleInitialisation::reset() { even_ = {}; }
 
-std::optional<InitialSchedule> ScheduleInitialisation::hear(const StartupFrame& frame) {
+std::optional<InitialSchedule> ScheduleInitialisation::receive(const StartupFrame& frame) {
   std::optional<StartupFrame>& even = even_[index_of(frame.channel)];
   // Later than this, the frame belongs to a later cycle and the partner is missing.
   const std::int64_t longest = node_.pMicroPerCycle + node_.pRateCorrectionOut;

@@ -43,7 +43,7 @@ class ScheduleInitialisation {
                          const schedules::model::NodeParameters& node);
 
   void reset();
-  std::optional<InitialSchedule> hear(const StartupFrame& frame);
+  std::optional<InitialSchedule> receive(const StartupFrame& frame);
 
  private:
   const schedules::model::GlobalParameters& flexray_;

@@ -62,11 +62,11 @@ class SlotBoard {
     return noted_[slot - 1];
   }
   const Seen& at(int slot) const { return noted_[slot - 1]; }
-  // The common case: a valid frame on both channels in each slot. hear_a() and hear_b() are its
+  // The common case: a valid frame on both channels in each slot. receive_a() and receive_b() are its
   // halves, for a slot without activity so far (nothing()). tests/bus/controller/fast_ways_test.cc compares with at().
   bool nothing(int slot) const { return at(slot).nothing(); }
-  void hear_a(int slot) { noted_[slot - 1].element[0] = noted_[slot - 1].valid[0] = true; }
-  void hear_b(int slot) {
+  void receive_a(int slot) { noted_[slot - 1].element[0] = noted_[slot - 1].valid[0] = true; }
+  void receive_b(int slot) {
     noted_[slot - 1].element[1] = noted_[slot - 1].valid[1] = true;
     ++pairs_;
   }
@@ -80,7 +80,7 @@ class SlotBoard {
     for (int slot = first; slot <= last; ++slot) at(slot).errors[index_of(channel)] |= kBoundaryViolation;
   }
   // Returns the last slot with activity; 0 without any.
-  int last_heard(schedules::model::Channel channel) {
+  int last_received(schedules::model::Channel channel) {
     int slot = slots();
     while (slot > 0 && at(slot).nothing(index_of(channel))) --slot;
     return slot;
@@ -100,7 +100,7 @@ class SlotBoard {
   std::vector<Seen> seen_, kept_;  // by slot - 1
   Seen* noted_;                    // the beginning of the board that at() reads
   bool under_way_ = false;
-  int pairs_ = 0;           // slots counted by hear_b()
+  int pairs_ = 0;           // slots counted by receive_b()
   bool only_pairs_ = true;  // at() has handed out no slot for changes
 };
 

@@ -30,7 +30,7 @@ struct FlexRayController::State {
   const SlotTable slots;
   const MinislotGrid minislots;
   const timebase::CycleGeometry geometry;
-  const bool told_of_receptions;         // the host wants every reception
+  const bool wants_receptions;           // the host wants every reception
   const timebase::Divisor nominal_slot;  // a static slot's microticks, give or take one
   const Microticks static_frame;         // a static frame's length
   const Microticks longest_cas;          // a longer low phase is no collision avoidance symbol
@@ -95,7 +95,7 @@ struct FlexRayController::State {
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
 
   // --- protocol operation control (controller.cc)
-  void tell(const poc::PocEvent& event, Microticks at);
+  void apply(const poc::PocEvent& event, Microticks at);
   void act(const poc::PocActions& actions, Microticks at);
   void begin_schedule(Microticks start, int rate, std::int64_t cycle);
   void lay_cycle();  // computes `counter` and `grid` from the clock
@@ -108,7 +108,7 @@ struct FlexRayController::State {
   void enter_cycle(const poc::StartupFramesSeen& ended, Microticks at);
   void close_static_segment(Microticks at);
   void note_what_goes_on();
-  void tell_slot_problems(Microticks at);
+  void report_slot_problems(Microticks at);
   Macroticks slot_start(int slot) const { return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot}; }
   Macroticks action_point(int slot) const { return slot_start(slot) + Macroticks{g.gdActionPointOffset}; }
   Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }
@@ -156,16 +156,16 @@ struct FlexRayController::State {
   bool judge_on_both(const ports::Reception& reception);
   bool in_operation() const { return poc::in_operation(poc.kind); }
   const schedules::model::FrameSlot* first_of_slot_on_both(const ports::Reception& reception) const;
-  bool knows(const ports::Reception& reception);
-  void hear_known(const ports::Reception& reception);
-  void hear_sync(const ports::Reception& reception, int slot, schedules::model::Channels channels);
+  bool is_known(const ports::Reception& reception);
+  void receive_known(const ports::Reception& reception);
+  void receive_sync(const ports::Reception& reception, int slot, schedules::model::Channels channels);
   bool talks_over(const ports::Reception& reception, std::size_t channel) const {
     return sending_from[channel] != kNever<Microticks> && reception.start < sending_to[channel] &&
            reception.end > sending_from[channel];
   }
-  void hear_in_startup(const ports::Reception& reception, bool conflict);  // or without a schedule
-  void hear(const ports::Reception& reception);                            // without a schedule
-  void judge(const ports::Reception& reception, bool conflict);            // within the schedule
+  void receive_in_startup(const ports::Reception& reception, bool conflict);  // or without a schedule
+  void receive_startup_frame(const ports::Reception& reception);              // without a schedule
+  void judge(const ports::Reception& reception, bool conflict);               // within the schedule
   void judge_static(const ports::Reception& reception, int slot, SlotStatus errors);
   // A valid frame decodes without error, lies within its slot, and has a header that is right there.
   static bool is_frame(const ports::Reception& reception) {
@@ -185,7 +185,7 @@ struct FlexRayController::State {
   // Takes in a valid static frame; `expected` is the one that the schedule has there, null without one.
   void accept(const ports::Reception& reception, schedules::model::Channel channel, int slot,
               const schedules::model::FrameSlot* expected);
-  bool is_as_expected(const wire::DecodedFrame& heard, const schedules::model::FrameSlot* expected) const;
+  bool is_as_expected(const wire::DecodedFrame& received, const schedules::model::FrameSlot* expected) const;
   void judge_elsewhere(const ports::Reception& reception, int slot, SlotStatus errors, bool conflict);
   void cross_slots(const ports::Reception& reception, int slot, int last);
   void judge_dynamic(const ports::Reception& reception, int minislot, SlotStatus errors);

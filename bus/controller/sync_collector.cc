@@ -40,8 +40,8 @@ void SyncCollector::measure(int frame_id, schedules::model::Channels channels, c
 
 void SyncCollector::own(int frame_id, schedules::model::Channels channels) { measure(frame_id, channels, {}); }
 
-void SyncCollector::heard(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation,
-                          bool startup) {
+void SyncCollector::received(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation,
+                             bool startup) {
   measure(frame_id, channels, deviation);
   Ids& ids = startup_[even_ ? 0 : 1];
   if (!startup || ids.count == timebase::kMaxSyncNodes || ids.contains(frame_id)) return;

@@ -21,7 +21,7 @@ class SyncCollector {
   void own(int frame_id, schedules::model::Channels channels);
   // Notes a valid sync frame of another node, on one channel or both; `deviation` [uT], by channel: observed
   // minus expected start. `startup`: a startup frame within pdAcceptedStartupRange on at least one channel.
-  void heard(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation, bool startup);
+  void received(int frame_id, schedules::model::Channels channels, const std::array<int, 2>& deviation, bool startup);
 
   const timebase::SyncMeasurements& measurements() const { return measurements_; }
   std::span<const timebase::SyncDeviation> odd() const;

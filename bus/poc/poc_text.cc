@@ -56,8 +56,8 @@ std::string_view to_text(PocReason reason) {
     case PocReason::kWakeupAfterSilence: return "the channels were idle for the listen timeout: the pattern is sent";
     case PocReason::kWakeupAfterNoise:
       return "neither a frame nor a wake-up pattern came within the noise listen timeout: the pattern is sent";
-    case PocReason::kWakeupPatternHeard: return "another node sent a wake-up pattern first";
-    case PocReason::kWakeupHeaderHeard: return "a frame header was heard: the cluster is awake";
+    case PocReason::kWakeupPatternReceived: return "another node sent a wake-up pattern first";
+    case PocReason::kWakeupHeaderReceived: return "a frame header was heard: the cluster is awake";
     case PocReason::kWakeupSent: return "the wake-up pattern was sent completely";
     case PocReason::kWakeupCollision: return "another node sent on the channel during the pattern";
     case PocReason::kCollisionWithPattern: return "the pattern collided with another node's wake-up pattern";
@@ -72,7 +72,7 @@ std::string_view to_text(PocReason reason) {
     case PocReason::kListenTimerStopped: return "a channel became active: the listen timer stops";
     case PocReason::kListenTimerRestarted: return "the channels are idle again: the listen timer starts again";
     case PocReason::kNoiseTimerRestarted: return "a symbol or frame header was heard: the noise timer starts again";
-    case PocReason::kStartupFrameHeard:
+    case PocReason::kStartupFrameReceived:
       return "a startup frame of an even cycle was heard: its sender's schedule is tried";
 
     case PocReason::kColdstartAfterSilence:

@@ -29,8 +29,8 @@ enum class PocReason : std::uint8_t {
   kWakeupCommand,
   kWakeupAfterSilence,
   kWakeupAfterNoise,
-  kWakeupPatternHeard,
-  kWakeupHeaderHeard,
+  kWakeupPatternReceived,
+  kWakeupHeaderReceived,
   kWakeupSent,
   kWakeupCollision,
   kCollisionWithPattern,
@@ -47,7 +47,7 @@ enum class PocReason : std::uint8_t {
   kListenTimerStopped,
   kListenTimerRestarted,
   kNoiseTimerRestarted,
-  kStartupFrameHeard,
+  kStartupFrameReceived,
 
   // Leading coldstart node.
   kColdstartAfterSilence,

@@ -72,7 +72,7 @@ PocStep listen_with(const PocParameters& parameters, PocStep step) {
 
 PocStep derive_schedule(const Now& now) {
   if (now.event.cycle % 2 != 0) return ignore(now, PocReason::kEvenFrameAwaited);
-  PocStep step = enter(now, PocKind::kInitialiseSchedule, PocReason::kStartupFrameHeard, PocAction::kDeriveSchedule);
+  PocStep step = enter(now, PocKind::kInitialiseSchedule, PocReason::kStartupFrameReceived, PocAction::kDeriveSchedule);
   step.next.reference = now.event.frame_id;
   return step;
 }

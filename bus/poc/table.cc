@@ -104,8 +104,9 @@ constexpr Rule kRules[] = {
     // Wake-up.
     {K::kWakeupListen, E::kChannelActive, stays<R::kListenTimerStopped, A::kStopListenTimer>},
     {K::kWakeupListen, E::kChannelsIdle, stays<R::kListenTimerRestarted, A::kRestartListenTimer>},
-    {K::kWakeupListen, E::kWakeupPatternReceived, ends_wakeup<WakeupStatus::kReceivedPattern, R::kWakeupPatternHeard>},
-    {K::kWakeupListen, E::kHeaderReceived, ends_wakeup<WakeupStatus::kReceivedHeader, R::kWakeupHeaderHeard>},
+    {K::kWakeupListen, E::kWakeupPatternReceived,
+     ends_wakeup<WakeupStatus::kReceivedPattern, R::kWakeupPatternReceived>},
+    {K::kWakeupListen, E::kHeaderReceived, ends_wakeup<WakeupStatus::kReceivedHeader, R::kWakeupHeaderReceived>},
     {K::kWakeupListen, E::kListenTimeout, enters<K::kWakeupSend, R::kWakeupAfterSilence, A::kSendWakeupPattern>},
     {K::kWakeupListen, E::kNoiseTimeout, enters<K::kWakeupSend, R::kWakeupAfterNoise, A::kSendWakeupPattern>},
     {K::kWakeupSend, E::kWakeupSent, ends_wakeup<WakeupStatus::kTransmitted, R::kWakeupSent>},

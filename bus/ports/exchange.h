@@ -18,7 +18,7 @@ namespace ttf::bus::ports {
 class Exchange {
  public:
   // One message of a member; without bytes: the member is gone for good.
-  struct Heard {
+  struct Received {
     NodeId from{};
     bool gone = false;
     std::span<const std::byte> bytes;  // valid until the next call
@@ -29,7 +29,7 @@ class Exchange {
   // medium is lost.
   virtual void send(std::span<const std::byte> message) = 0;
   // Returns the next message, or that a member is gone. Throws std::runtime_error if the medium is lost.
-  virtual Heard receive() = 0;
+  virtual Received receive() = 0;
 };
 
 }  // namespace ttf::bus::ports

@@ -56,7 +56,7 @@ struct LiveSignal {
   int slot = 0;                      // a frame's: 1..2047
   Duration duration{};               // for all but frames: the time on the wire
   std::span<const std::byte> bytes;  // a frame's header, payload, trailer; 8..262
-  bool tells_late = false;           // a sync frame: states to receivers how late it left
+  bool states_late = false;          // a sync frame: states to receivers how late it left
 };
 
 // A report of a CAN's controller about an error, or about its state of error confinement.

@@ -21,7 +21,7 @@ std::optional<FollowUp> Departures::left(const canfd_frame& can, ports::MachineT
     departure.expected = false;
     --expected_;
     const Duration late = at - departure.due;
-    if (!can_be_told(late)) return {};
+    if (!fits_follow_up(late)) return {};
     return FollowUp{.slot = departure.slot, .cycle_counter = departure.cycle_counter, .late = late};
   }
   return {};

@@ -21,7 +21,7 @@ class Departures {
   void expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, ports::MachineTime due);
   bool none() const { return expected_ == 0; }
   // Notes that this own CAN frame had left at `at`. Returns the frame's follow-up, once; no value if the frame
-  // is not expected or left too late for a follow-up (can_be_told()).
+  // is not expected or left too late for a follow-up (fits_follow_up()).
   std::optional<FollowUp> left(const canfd_frame& can, ports::MachineTime at);
 
  private:

@@ -144,15 +144,15 @@ canfd_frame symbol_to_can(schedules::model::Channel channel, ports::Signal symbo
   return can;
 }
 
-bool can_be_told(Duration late) {
-  using Told = std::numeric_limits<std::int32_t>;
-  return late.ns >= Told::min() && late.ns <= Told::max();
+bool fits_follow_up(Duration late) {
+  using Limits = std::numeric_limits<std::int32_t>;
+  return late.ns >= Limits::min() && late.ns <= Limits::max();
 }
 
 canfd_frame follow_up_to_can(schedules::model::Channel channel, const FollowUp& follow_up) {
   TTF_CHECK(follow_up.slot >= 1 && follow_up.slot <= kLastSlot, "slot {}", follow_up.slot);
   TTF_CHECK(follow_up.cycle_counter <= kLastCycle, "cycle {}", follow_up.cycle_counter);
-  TTF_CHECK(can_be_told(follow_up.late), "{} ns", follow_up.late.ns);
+  TTF_CHECK(fits_follow_up(follow_up.late), "{} ns", follow_up.late.ns);
   canfd_frame can = empty_frame(kSymbolIdentifier, kFollowUpBytes);
   can.data[0] = kFollowUpKind;
   put_big_endian(can, 1, static_cast<std::uint32_t>(follow_up.slot), 2);

@@ -63,10 +63,10 @@ canfd_frame symbol_to_can(schedules::model::Channel channel, ports::Signal symbo
 struct FollowUp {
   int slot = 0;                    // 1..2047
   std::uint8_t cycle_counter = 0;  // 0..63
-  Duration late;                   // negative: earlier; within can_be_told()
+  Duration late;                   // negative: earlier; within fits_follow_up()
 };
 // Returns whether a follow-up has room for that lateness: up to 2.14 s either way.
-bool can_be_told(Duration late);
+bool fits_follow_up(Duration late);
 canfd_frame follow_up_to_can(schedules::model::Channel channel, const FollowUp& follow_up);
 
 enum class Outcome : std::uint8_t {

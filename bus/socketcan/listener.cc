@@ -20,11 +20,11 @@ std::vector<can_filter> filters_of(const std::vector<std::uint32_t>& identifiers
 }  // namespace
 
 SocketCanListener::SocketCanListener(const std::array<std::string, 2>& channels, const std::vector<Can>& cans,
-                                     const ports::HeardIdentifiers& identifiers) {
+                                     const ports::ReceivedIdentifiers& identifiers) {
   const auto join = [&](ports::Line line, const std::string& interface, bool flexible,
-                        const std::vector<std::uint32_t>& heard, std::optional<Reassembly> reassembly) {
-    if (interface.empty() || heard.empty()) return;
-    Socket socket({.interface = interface, .flexible_data_rate = flexible, .filters = filters_of(heard)});
+                        const std::vector<std::uint32_t>& received, std::optional<Reassembly> reassembly) {
+    if (interface.empty() || received.empty()) return;
+    Socket socket({.interface = interface, .flexible_data_rate = flexible, .filters = filters_of(received)});
     lines_.push_back({line, std::move(socket), std::move(reassembly)});
   };
   std::vector<std::uint32_t> slots{kSymbolIdentifier};  // follow-ups
@@ -35,7 +35,7 @@ SocketCanListener::SocketCanListener(const std::array<std::string, 2>& channels,
     join(ports::line_of_can(b), cans[b].interface, cans[b].flexible_data_rate, identifiers.can[b], {});
 }
 
-std::optional<ports::Heard> SocketCanListener::hear() {
+std::optional<ports::ReceivedFrame> SocketCanListener::receive() {
   for (std::size_t idle = 0; idle < lines_.size();) {
     OnLine& line = lines_[turn_];
     const Status status = line.socket.receive(received_);
@@ -47,46 +47,46 @@ std::optional<ports::Heard> SocketCanListener::hear() {
     }
     idle = 0;
     if ((received_.can.can_id & CAN_EFF_FLAG) != 0) continue;  // without filters
-    auto heard = line.reassembly ? on_channel(line) : on_can();
-    if (!heard) continue;
-    heard->line = line.line;
-    heard->at = on_host(received_.stamp_ns, clock_pair());
-    return heard;
+    auto received = line.reassembly ? on_channel(line) : on_can();
+    if (!received) continue;
+    received->line = line.line;
+    received->at = on_host(received_.stamp_ns, clock_pair());
+    return received;
   }
   return std::nullopt;
 }
 
-std::optional<ports::Heard> SocketCanListener::on_channel(OnLine& line) {
+std::optional<ports::ReceivedFrame> SocketCanListener::on_channel(OnLine& line) {
   const Arrival arrival = line.reassembly->arrive(received_.can);
   if (arrival.outcome == Outcome::kFragment) return std::nullopt;
-  ports::Heard heard;
-  heard.slot = static_cast<int>(received_.can.can_id & CAN_SFF_MASK);
+  ports::ReceivedFrame received;
+  received.slot = static_cast<int>(received_.can.can_id & CAN_SFF_MASK);
   if (arrival.outcome != Outcome::kComplete) {
-    if (heard.slot == kSymbolIdentifier) return std::nullopt;  // nobody's
-    heard.form = ports::Heard::Form::kMalformed;
+    if (received.slot == kSymbolIdentifier) return std::nullopt;  // nobody's
+    received.form = ports::ReceivedFrame::Form::kMalformed;
   } else if (arrival.follow_up) {
-    heard.form = ports::Heard::Form::kFollowUp;
-    heard.slot = arrival.follow_up->slot;
-    heard.cycle_counter = arrival.follow_up->cycle_counter;
-    heard.late = arrival.follow_up->late;
+    received.form = ports::ReceivedFrame::Form::kFollowUp;
+    received.slot = arrival.follow_up->slot;
+    received.cycle_counter = arrival.follow_up->cycle_counter;
+    received.late = arrival.follow_up->late;
   } else if (arrival.signal == ports::Signal::kFrame) {
-    heard.bytes = arrival.frame;
+    received.bytes = arrival.frame;
   } else {
     return std::nullopt;
   }
-  return heard;
+  return received;
 }
 
-std::optional<ports::Heard> SocketCanListener::on_can() const {
+std::optional<ports::ReceivedFrame> SocketCanListener::on_can() const {
   const canfd_frame& can = received_.can;
-  ports::Heard heard;
+  ports::ReceivedFrame received;
   const bool flexible = (can.flags & CANFD_FDF) != 0;
   const std::size_t most = flexible ? CANFD_MAX_DLEN : CAN_MAX_DLEN;
   const bool fits = can.can_id <= CAN_SFF_MASK && can.len <= most && can_fd_length(can.len) == can.len;
-  heard.form = fits ? ports::Heard::Form::kCan : ports::Heard::Form::kMalformed;
-  heard.can = {can.can_id & CAN_SFF_MASK, flexible, {}};
-  if (fits) heard.can.data = std::as_bytes(std::span(can.data)).first(can.len);
-  return heard;
+  received.form = fits ? ports::ReceivedFrame::Form::kCan : ports::ReceivedFrame::Form::kMalformed;
+  received.can = {can.can_id & CAN_SFF_MASK, flexible, {}};
+  if (fits) received.can.data = std::as_bytes(std::span(can.data)).first(can.len);
+  return received;
 }
 
 std::uint64_t SocketCanListener::lost() const {

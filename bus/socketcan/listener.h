@@ -24,9 +24,9 @@ class SocketCanListener final : public ports::Listener {
     bool flexible_data_rate = false;
   };
   SocketCanListener(const std::array<std::string, 2>& channels, const std::vector<Can>& cans,
-                    const ports::HeardIdentifiers& identifiers);
+                    const ports::ReceivedIdentifiers& identifiers);
 
-  std::optional<ports::Heard> hear() override;
+  std::optional<ports::ReceivedFrame> receive() override;
   std::uint64_t lost() const override;
   const std::string& failure() const override { return failure_; }
 
@@ -36,8 +36,8 @@ class SocketCanListener final : public ports::Listener {
     Socket socket;
     std::optional<Reassembly> reassembly;  // of a channel
   };
-  std::optional<ports::Heard> on_channel(OnLine& line);
-  std::optional<ports::Heard> on_can() const;
+  std::optional<ports::ReceivedFrame> on_channel(OnLine& line);
+  std::optional<ports::ReceivedFrame> on_can() const;
 
   std::vector<OnLine> lines_;
   std::size_t turn_ = 0;  // the line being received from

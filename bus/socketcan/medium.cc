@@ -57,7 +57,7 @@ ports::LiveStatus SocketCanMedium::done(Status status, const OnLine& line) {
     case Status::kGone:
     case Status::kFailed: break;
   }
-  if (failure_.empty()) line.socket.tell_failure(failure_);
+  if (failure_.empty()) line.socket.report_failure(failure_);
   return ports::LiveStatus::kFailed;
 }
 
@@ -78,7 +78,7 @@ ports::LiveStatus SocketCanMedium::send(const ports::LiveSignal& signal, ports::
   }
   const CanFrames can = frame_to_can(signal.slot, signal.bytes);
   const ports::LiveStatus status = send_all(line, can.all());
-  if (status == ports::LiveStatus::kDone && signal.tells_late)
+  if (status == ports::LiveStatus::kDone && signal.states_late)
     line.flexray->departures.expect(can.all().back(), signal.slot, wire::header_of(signal.bytes)->cycle, due);
   confirm(line);
   return status;
@@ -111,8 +111,8 @@ void SocketCanMedium::confirm(OnLine& line) {
 void SocketCanMedium::confirmed(OnLine& line, const Received& own) {
   FlexRay& flexray = *line.flexray;
   if (flexray.departures.none()) return;
-  if (const auto told = flexray.departures.left(own.can, on_host(own.stamp_ns, clock_pair())))
-    done(line.socket.send(follow_up_to_can(flexray.channel, *told)), line);
+  if (const auto follow_up = flexray.departures.left(own.can, on_host(own.stamp_ns, clock_pair())))
+    done(line.socket.send(follow_up_to_can(flexray.channel, *follow_up)), line);
 }
 
 std::optional<ports::LiveArrival> SocketCanMedium::receive() {

@@ -192,11 +192,11 @@ std::uint32_t Socket::lost() const {
 
 std::string Socket::failure() const {
   std::string text;
-  tell_failure(text);
+  report_failure(text);
   return text;
 }
 
-void Socket::tell_failure(std::string& text) const {
+void Socket::report_failure(std::string& text) const {
   switch (state_) {
     case Status::kDown: text += when_down_; break;
     case Status::kGone: text += when_gone_; break;

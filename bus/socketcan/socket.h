@@ -71,7 +71,7 @@ class Socket {
   // if known.
   std::string failure() const;
   // Appends that sentence; allocates only memory of `text`.
-  void tell_failure(std::string& text) const;
+  void report_failure(std::string& text) const;
 
  private:
   Status failed(int error);

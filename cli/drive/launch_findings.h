@@ -18,7 +18,7 @@ struct ExternalNode {
   std::string node;
   std::uint64_t in_window = 0, early = 0, late = 0, missing = 0;  // frames
   std::vector<std::pair<std::string, std::uint64_t>> malformed;   // by kind
-  std::vector<std::string> never_heard;                           // lists and lines of a node that was heard
+  std::vector<std::string> never_received;                        // lists and lines of a node that was heard
   std::optional<double> first_after_s;
   std::string state;
 };

@@ -372,7 +372,7 @@ const Rows<LaunchFindings> kLaunch{
     {"late", [](auto& e) { return e.late; }, "frames after it"},
     {"malformed", [](auto& e) { return e.malformed; }, "malformed frames, by their kind", "their number"},
     {"missing", [](auto& e) { return e.missing; }, "frames that did not come"},
-    {"never_heard", [](auto& e) { return e.never_heard; }, "lists and lines of which no frame came", "a list or a line"},
+    {"never_heard", [](auto& e) { return e.never_received; }, "lists and lines of which no frame came", "a list or a line"},
     {"first_after_s", [](auto& e) { return e.first_after_s; }, "time of the first frame [s]"},
     {"state", [](auto& e) { return e.state; }, "state, in words"},
   }, kIfEmpty},

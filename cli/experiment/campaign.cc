@@ -41,15 +41,15 @@ std::uint32_t fault_of(const std::string& text, const CampaignFile& campaign) {
 void print(const Story& story, const Words& words) {
   std::vector<Story::Line> lines = story.lines();
   std::stable_sort(lines.begin(), lines.end(), [](const Story::Line& a, const Story::Line& b) { return a.at < b.at; });
-  std::map<Story::Of, std::uint64_t> told;
+  std::map<Story::Of, std::uint64_t> shown;
   for (const Story::Line& line : lines) {
-    if (line.of != Story::Of::kOthers && ++told[line.of] > kShownActs) continue;
+    if (line.of != Story::Of::kOthers && ++shown[line.of] > kShownActs) continue;
     fmt::print("  {:>10.3f} ms  ", in_ms(line.at));
     if (!words.unit_beside_ms.empty())
       fmt::print("{} {:>6.2f}  ", words.unit_beside_ms, in_units_of(words.unit, line.at - TrueTime{}));
     fmt::print("{}\n", line.text);
   }
-  const auto beyond = [&](Story::Of of) { return told[of] > kShownActs ? told[of] - kShownActs : 0; };
+  const auto beyond = [&](Story::Of of) { return shown[of] > kShownActs ? shown[of] - kShownActs : 0; };
   if (const auto more = beyond(Story::Of::kFault)) fmt::print("  the fault acts {} more\n", counted(more, "time"));
   if (const auto more = beyond(Story::Of::kGuardians))
     fmt::print("  the guardians intervene {} more\n", counted(more, "time"));

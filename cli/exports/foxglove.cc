@@ -3,7 +3,7 @@
 
 #include "cli/drive_progress.h"
 #include "cli/exports/formats.h"
-#include "cli/exports/told_uses.h"
+#include "cli/exports/reported_uses.h"
 #include "cli/logs/viewed_sensors.h"
 #include "core/counted.h"
 #include "recording/records/tee.h"
@@ -30,8 +30,8 @@ std::vector<std::string> missing(const SceneCounts& counts) {
 FoxgloveResult export_foxglove(const recording::merge::MergedLogs& drive, const std::string& out) {
   FoxgloveResult result;
   FoxgloveExport scene(out, logs::viewed_sensors(drive, result.warnings));
-  ToldUses uses(
-      [&](const ToldUses::Use& use, ToldUses::Ages ages) {
+  ReportedUses uses(
+      [&](const ReportedUses::Use& use, ReportedUses::Ages ages) {
         for (const evaluation::accuracy::SensorAge& one : ages) scene.age(use.stamp.true_time, one.sensor, one.age);
       },
       [&](const evaluation::accuracy::JudgedUse& use) {

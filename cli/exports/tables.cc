@@ -15,7 +15,7 @@
 
 #include "cli/drive_progress.h"
 #include "cli/exports/formats.h"
-#include "cli/exports/told_uses.h"
+#include "cli/exports/reported_uses.h"
 #include "cli/output.h"
 #include "experiments/results/database.h"
 #include "recording/exports/frames.h"
@@ -149,10 +149,10 @@ class TableDatabase {
   std::deque<Rows> rows_;  // by table
 };
 
-TableRows tell_tables(const recording::merge::MergedLogs& drive, TableExport::Write write) {
+TableRows write_tables(const recording::merge::MergedLogs& drive, TableExport::Write write) {
   TableExport tables(recording::exports::LogNames(drive.manifest()), std::move(write));
-  ToldUses uses(
-      [&](const ToldUses::Use& use, ToldUses::Ages ages) {
+  ReportedUses uses(
+      [&](const ReportedUses::Use& use, ReportedUses::Ages ages) {
         for (const evaluation::accuracy::SensorAge& one : ages)
           tables.age(use.stamp.true_time, use.image_sequence, one.sensor, one.age);
       },
@@ -186,7 +186,7 @@ TableRows export_tables(const recording::merge::MergedLogs& drive, const std::st
     for (const recording::merge::StoredLog& log : drive.logs()) refuse_overwriting(log.name(), path, "--out");
     files.emplace_back(path);
   }
-  TableRows rows = tell_tables(
+  TableRows rows = write_tables(
       drive, [&](Table table, std::string_view text) { files[static_cast<std::size_t>(table)].write(text); });
   for (OutputFile& file : files) file.finish();
   for (std::size_t t = 0; t < rows.size(); ++t) rows[t].first = names[t];
@@ -195,7 +195,7 @@ TableRows export_tables(const recording::merge::MergedLogs& drive, const std::st
 
 TableRows export_sqlite(const recording::merge::MergedLogs& drive, const std::string& file) {
   TableDatabase database(file);
-  TableRows rows = tell_tables(drive, [&](Table table, std::string_view line) { database.write(table, line); });
+  TableRows rows = write_tables(drive, [&](Table table, std::string_view line) { database.write(table, line); });
   database.finish();
   return rows;
 }

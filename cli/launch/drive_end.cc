@@ -77,13 +77,13 @@ std::vector<NodeAtEnd> EndWatch::nodes(const schedules::model::Cluster& cluster,
 
 supervision::Hooks EndWatch::around(supervision::Hooks hooks) {
   supervision::Hooks all = hooks;
-  all.on_all_ready = [this, told = hooks.on_all_ready] {
+  all.on_all_ready = [this, inner = hooks.on_all_ready] {
     begun_ = true;
-    return told ? told() : nlohmann::json::object();
+    return inner ? inner() : nlohmann::json::object();
   };
-  all.on_gone = [this, told = hooks.on_gone](std::size_t node, const supervision::Ending& ending, bool comes_back) {
+  all.on_gone = [this, inner = hooks.on_gone](std::size_t node, const supervision::Ending& ending, bool comes_back) {
     endings_[node] = ending;
-    if (told) told(node, ending, comes_back);
+    if (inner) inner(node, ending, comes_back);
   };
   return all;
 }

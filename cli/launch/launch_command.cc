@@ -50,9 +50,9 @@ std::vector<std::string> command_line() {
 }
 
 // Prints and writes the drive's results, from the logs of the nodes that reached its end.
-void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& result,
-                 const std::optional<Verdict>& verdict, const nlohmann::ordered_json& launched,
-                 const std::vector<external::Account>& accounts, const LaunchArguments& arguments) {
+void report_result(const node_set::NodeSet& set, const drive::StrategyResult& result,
+                   const std::optional<Verdict>& verdict, const nlohmann::ordered_json& launched,
+                   const std::vector<external::Account>& accounts, const LaunchArguments& arguments) {
   const std::vector<drive::StrategyResult> results{result};
   if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
   nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
@@ -72,8 +72,8 @@ void tell_result(const node_set::NodeSet& set, const drive::StrategyResult& resu
 
 // Reports nodes out of operation at the end and an empty comparison, in a sentence each. Returns the exit
 // code: a drive fails if no node is in operation at its end, even if all processes ended well.
-int tell_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result,
-             const nlohmann::ordered_json& launched, int exit_code, supervision::LaunchFolder& folder) {
+int report_end(const node_set::NodeSet& set, const DriveEnd& end, const drive::StrategyResult* result,
+               const nlohmann::ordered_json& launched, int exit_code, supervision::LaunchFolder& folder) {
   const std::string absent = end.sentence();
   const bool failed = end.nobody && exit_code == 0;
   if (!absent.empty()) fmt::print(stderr, "{}: {}\n", failed ? "error" : "warning", absent);
@@ -143,12 +143,12 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
     verdict = verdict_of({&plan.set.cluster, &*result->real_time, result->service, health.restarts(),
                           end ? end->sentence() : std::string(), wrongs_text(accounts)});
   const nlohmann::ordered_json launched =
-      to_json(drive::LaunchFindings{end ? std::optional(end->absent) : std::nullopt, told(accounts), verdict});
+      to_json(drive::LaunchFindings{end ? std::optional(end->absent) : std::nullopt, judged(accounts), verdict});
   if (!accounts.empty()) folder.set(kExternal, launched.at(kExternal));
-  if (result) tell_result(plan.set, *result, verdict, launched, accounts, arguments);
+  if (result) report_result(plan.set, *result, verdict, launched, accounts, arguments);
   std::fflush(stdout);  // both streams may share one file
   if (!end && !accounts.empty()) folder.write();
-  const int code = end ? tell_end(plan.set, *end, shown, launched, exit_code, folder) : exit_code;
+  const int code = end ? report_end(plan.set, *end, shown, launched, exit_code, folder) : exit_code;
   say_written(plan.set.folder);
   return code;
 }

@@ -60,25 +60,25 @@ LiveLaunch::LiveLaunch(const LaunchPlan& plan)
     : set_(plan.set), around_(sim::drives::surroundings_of(set_.scenario, set_.cluster, set_.seed, 0, nullptr)),
       vehicle_(node_set::vehicle_line_of_launch(set_, around_)),
       processes_(plan.set.cluster.nodes.size() - plan.set.externals.size()) {
-  if (!plan.set.externals.empty()) hearing_.emplace(plan.set, plan.set.externals);
+  if (!plan.set.externals.empty()) listening_.emplace(plan.set, plan.set.externals);
 }
 
 supervision::Hooks LiveLaunch::hooks() {
   supervision::Hooks hooks;
-  if (hearing_ || vehicle_)
+  if (listening_ || vehicle_)
     hooks.listen = [this] {
-      if (hearing_) hearing_->take_in();
+      if (listening_) listening_->take_in();
       if (vehicle_) vehicle_->take_in();
     };
-  if (hearing_) {
+  if (listening_) {
     hooks.external = [this](std::size_t node) {
-      return hearing_->health(static_cast<NodeId>(node), bus::ports::host_now());
+      return listening_->health(static_cast<NodeId>(node), bus::ports::host_now());
     };
   }
   hooks.on_all_ready = [this] {
     const bus::ports::MachineTime soonest = bus::ports::host_now() + kUntilStart;
     origin_ = bus::ports::MachineTime{(soonest.ns + kRound_ns - 1) / kRound_ns * kRound_ns};
-    if (hearing_) hearing_->begin(*origin_);
+    if (listening_) listening_->begin(*origin_);
     return nlohmann::json{{"origin_ns", origin_->ns}, {"rejoin", false}};
   };
   hooks.on_late_ready = [this](std::size_t) {
@@ -134,7 +134,7 @@ std::vector<std::string> LiveLaunch::states_at_end(const supervision::HealthTabl
 }
 
 std::vector<external::Account> LiveLaunch::accounts() const {
-  return hearing_ ? hearing_->accounts(bus::ports::host_now()) : std::vector<external::Account>{};
+  return listening_ ? listening_->accounts(bus::ports::host_now()) : std::vector<external::Account>{};
 }
 
 std::vector<std::string> LiveLaunch::warnings() const {
@@ -143,8 +143,8 @@ std::vector<std::string> LiveLaunch::warnings() const {
     warnings.push_back(fmt::format("{} of {} nodes: {}", nodes.size(), processes_, sentence));
   for (const auto& [node, problem] : vehicle_problems_)
     if (!problem.empty()) warnings.push_back(fmt::format("{} {}", set_.cluster.nodes[node].name, problem));
-  if (hearing_)
-    for (std::string& sentence : hearing_->warnings()) warnings.push_back(std::move(sentence));
+  if (listening_)
+    for (std::string& sentence : listening_->warnings()) warnings.push_back(std::move(sentence));
   return warnings;
 }
 

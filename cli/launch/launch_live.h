@@ -12,7 +12,7 @@
 #include "bus/ports/live_medium.h"
 #include "cli/drive/run_outputs.h"
 #include "cli/launch/external/account.h"
-#include "cli/launch/external/hearing.h"
+#include "cli/launch/external/listening.h"
 #include "cli/launch/launch_plan.h"
 #include "cli/node_set/node_set.h"
 #include "cli/supervision/supervisor.h"
@@ -46,7 +46,7 @@ class LiveLaunch {
   Duration so_far(bus::ports::MachineTime now) const;
 
   const node_set::NodeSet& set_;
-  std::optional<external::Hearing> hearing_;  // if there are external nodes
+  std::optional<external::Listening> listening_;  // if there are external nodes
   sim::drives::Surroundings around_;
   std::unique_ptr<nodes::runner::vehicle::Line> vehicle_;  // if commands drive it; it receives all of them
   std::map<std::size_t, std::string> vehicle_problems_;    // by node, the last reported

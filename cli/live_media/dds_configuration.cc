@@ -64,14 +64,14 @@ void check_dds_configuration() {
   if (uri == nullptr) return;
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) fail("pipe");
-  supervision::Descriptor heard(ends[0]), words(ends[1]);
+  supervision::Descriptor reading(ends[0]), words(ends[1]);
   const pid_t child = fork();
   if (child < 0) fail("fork");
   if (child == 0) try_to_join(words.get());
   words.close();
   std::string said;
   std::array<char, 4096> bytes{};
-  for (ssize_t size = 0; (size = read(heard.get(), bytes.data(), bytes.size())) != 0;) {
+  for (ssize_t size = 0; (size = read(reading.get(), bytes.data(), bytes.size())) != 0;) {
     if (size < 0 && errno != EINTR) fail("read");
     if (size > 0 && said.size() < bytes.size()) said.append(bytes.data(), static_cast<std::size_t>(size));
   }

@@ -44,7 +44,7 @@ struct ListenerSetting {
   const std::vector<std::string>& channel_interfaces;
   const std::vector<std::string>& can_interfaces;
   const std::string& session;
-  const bus::ports::HeardIdentifiers& identifiers;
+  const bus::ports::ReceivedIdentifiers& identifiers;
 };
 
 // How a node's frames travel on a medium without interfaces: each as a sample with fields, in words.

@@ -37,37 +37,38 @@
 namespace ttf::cli::logs {
 namespace {
 
-using report::drive::ToldDurations;
-using report::drive::ToldStage;
-using report::drive::ToldStages;
+using report::drive::ReportedDurations;
+using report::drive::ReportedStage;
+using report::drive::ReportedStages;
 
-ToldDurations told(const evaluation::ages::DurationStatistics& had) {
+ReportedDurations reported(const evaluation::ages::DurationStatistics& had) {
   return {in_ms(had.least), in_ms(had.mean()), in_ms(had.p99()), in_ms(had.most)};
 }
 
-std::optional<double> told(const std::optional<Duration>& bound) {
+std::optional<double> reported(const std::optional<Duration>& bound) {
   return bound ? std::optional(in_ms(*bound)) : std::nullopt;
 }
 
 // The latency by stage of a drive, from its log and the attached cluster. Returns nothing if the log has no sound cluster; a
 // warning names one that cannot be read.
-std::vector<ToldStages> told_stages(const recording::merge::MergedLogs& drive, std::vector<std::string>& warnings) {
+std::vector<ReportedStages> reported_stages(const recording::merge::MergedLogs& drive,
+                                            std::vector<std::string>& warnings) {
   const Attached attached = attached_to(drive, "the latency by stage is left out", warnings);
   if (!attached.cluster || !schedules::check::check(*attached.cluster).empty()) return {};
   const bool held = drive.manifest().strategy == name_of(fusion::strategies::StrategyKind::kBuff);
   const TrueTime from = attached.scenario ? sim::drives::evaluation_start(*attached.scenario) : TrueTime{};
   evaluation::ages::StageAccount account(schedules::analysis::measurement_ages(*attached.cluster), held, from);
   drive.read(account);
-  std::vector<ToldStages> all;
+  std::vector<ReportedStages> all;
   for (const evaluation::ages::SensorStages& sensor : account.finish()) {
-    ToldStages& one = all.emplace_back();
+    ReportedStages& one = all.emplace_back();
     one.sensor = attached.cluster->sensor(sensor.sensor).name;
     one.measured = sensor.measured;
     one.seen = sensor.seen();
     one.to_use = sensor.to_use;
     for (const evaluation::ages::StageFinding& stage : sensor.stages)
-      one.stages.push_back({stage.name, told(stage.best), told(stage.worst), told(stage.had), in_ms(stage.age_best),
-                            told(stage.age_worst), told(stage.age), stage.beyond});
+      one.stages.push_back({stage.name, reported(stage.best), reported(stage.worst), reported(stage.had),
+                            in_ms(stage.age_best), reported(stage.age_worst), reported(stage.age), stage.beyond});
   }
   return all;
 }
@@ -91,7 +92,7 @@ void describe(std::vector<report::drive::Drive>& drives) {
   for (report::drive::Drive& drive : drives) {
     if (!drive.log) continue;
     drive.sensors = viewed_sensors(*drive.log, warnings);
-    drive.stages = told_stages(*drive.log, warnings);
+    drive.stages = reported_stages(*drive.log, warnings);
   }
   print_warnings(warnings);
 }

@@ -6,7 +6,7 @@
 
 namespace ttf::cli::node {
 
-void tell_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json) {
+void report_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json) {
   const nlohmann::ordered_json json{{"counts", ending.counts}, {"real_time", ending.health}};
   if (supervisor) supervisor->health(ending.health);
   if (supervisor && ending.failure.empty()) supervisor->done(json);

@@ -17,6 +17,6 @@ struct NodeEnding {
 
 // Sends a supervisor the last health, and "done" only after success. With `as_json` prints the result, failed
 // or not, on standard output. Throws std::runtime_error with the failure.
-void tell_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json);
+void report_ending(const NodeEnding& ending, std::optional<supervision::ControlLine>& supervisor, bool as_json);
 
 }  // namespace ttf::cli::node

@@ -22,7 +22,7 @@
 #include "cli/supervision/signal_watch.h"
 #include "core/decimal.h"
 #include "core/errors.h"
-#include "nodes/runner/health_teller.h"
+#include "nodes/runner/health_reporter.h"
 #include "nodes/runner/kernel_clock.h"
 #include "nodes/runner/runner.h"
 #include "nodes/runner/thread_privileges.h"
@@ -78,7 +78,7 @@ struct Start {
 };
 
 // Without a supervisor, a node needs the common instant of the begin: otherwise its drive would have a time of its own.
-void check_told_start(const node_set::NodeSet& set) {
+void check_common_start(const node_set::NodeSet& set) {
   if (!set.start_at_ns)
     throw InputError(
         {"command line", 0, "--start-at", "",
@@ -86,7 +86,7 @@ void check_told_start(const node_set::NodeSet& set) {
          "UTC seconds since 1970; with --rejoin it may be past"});
 }
 
-Start told_start(const node_set::NodeSet& set) {
+Start common_start(const node_set::NodeSet& set) {
   const bus::ports::MachineTime origin = from_utc(*set.start_at_ns);
   if (!set.rejoin && origin < bus::ports::host_now())
     throw InputError({"command line", 0, "--start-at", scaled_text(*set.start_at_ns, 1'000'000'000),
@@ -95,7 +95,7 @@ Start told_start(const node_set::NodeSet& set) {
 }
 
 // Explains the wait to the user.
-void tell_wait(const Start& start) {
+void report_wait(const Start& start) {
   const Duration ahead = start.origin - bus::ports::host_now();
   if (ahead.ns > 0)
     fmt::print(stderr, "the drive begins in {:.1f} s (--start-at){}\n", ahead.seconds(),
@@ -161,7 +161,7 @@ int run_node_live(const NodeOptions& options) {
   supervision::SignalWatch signals;  // must precede all threads
   auto supervisor = supervision::ControlLine::from_environment();
   if (!supervisor) {
-    check_told_start(set);
+    check_common_start(set);
     supervision::FolderLock::refuse_if_held(set.folder);
     if (set.needs_dds()) live_media::check_dds_configuration();
   }
@@ -177,11 +177,11 @@ int run_node_live(const NodeOptions& options) {
       set.bus.medium->make({set.cluster, options.node, set.bus.interfaces, set.can_interfaces, set.session,
                             supervisor ? kLivePatience : std::chrono::milliseconds{0}, set.externals});
   if (set.topics) try_topics(set);
-  const std::optional<Start> told = supervisor ? std::nullopt : std::optional(told_start(set));
+  const std::optional<Start> common = supervisor ? std::nullopt : std::optional(common_start(set));
   const std::string path = free_log(options);
   recording::log::LogWriter log(path, wall_manifest(set), recording::log::LogWriter::Writing::kBehind);
-  if (told) tell_wait(*told);
-  const Start start = told ? *told : start_of(*supervisor);
+  if (common) report_wait(*common);
+  const Start start = common ? *common : start_of(*supervisor);
   if (vehicle && start.rejoins && start.origin < bus::ports::host_now()) node_set::catch_up(*vehicle);
   nodes::runner::RunnerConfig config = config_of(options, start, signals.fd());
   config.vehicle = vehicle.get();
@@ -193,7 +193,7 @@ int run_node_live(const NodeOptions& options) {
   }
   recording::records::Tee tee(std::move(sinks));
   // Sends health to the supervisor and to ROS 2's topics.
-  nodes::runner::HealthTeller teller([&](const Health& health, bus::ports::MachineTime at) {
+  nodes::runner::HealthReporter reporter([&](const Health& health, bus::ports::MachineTime at) {
     if (supervisor) supervisor->health(health_json(health));
     if (topics) topics->health(health, config.clock.drive_time(at));
   });
@@ -206,14 +206,14 @@ int run_node_live(const NodeOptions& options) {
 
   nodes::runner::KernelClock machine_clock(config.clock);
   nodes::runner::Runner node(config, std::move(steps), *medium, machine_clock, tee);
-  node.on_health([&teller](const Health& health) { teller.hand_over(health); });
+  node.on_health([&reporter](const Health& health) { reporter.hand_over(health); });
   const nodes::runner::RunnerEnd end = node.run();
-  teller.close();
+  reporter.close();
   log.close();
   if (!supervisor) say_written(path);
   if (!supervisor && vehicle) node_set::warn_of_vehicle(set, options.node, vehicle->counts());
   const bool failed = end == nodes::runner::RunnerEnd::kFailed;
-  tell_ending(
+  report_ending(
       {node_set::counts_json(node.counts()), health_json(node.health()), failed ? medium->failure() : std::string()},
       supervisor, options.json);
   return 0;

@@ -37,7 +37,7 @@ std::int64_t utc_ns(bus::ports::MachineTime at) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() + (at - bus::ports::host_now()).ns;
 }
 
-bool tells_truth(const NodeSet& set, NodeId node) {
+bool publishes_truth(const NodeSet& set, NodeId node) {
   return !set.cluster.sensors.empty() && set.cluster.sensors.front().device == node;
 }
 
@@ -51,7 +51,7 @@ bus::dds::ros::RosOptions options_of(const NodeSet& set, const nodes::runner::Dr
   options.health_period = kHealthPeriod;
   options.images = has_role(set.cluster.node(node), StepRole::kImageOutput);
   options.tracks = has_role(set.cluster.node(node), StepRole::kFusion);
-  if (tells_truth(set, node)) {
+  if (publishes_truth(set, node)) {
     const sim::drives::Scenario& scenario = set.scenario;
     options.truth_objects =
         static_cast<std::uint16_t>(scenario.truth ? scenario.truth->objects.size() : scenario.world.objects.size());
@@ -67,7 +67,7 @@ class DdsTopics final : public LiveTopics {
   DdsTopics(const NodeSet& set, NodeId node, const nodes::runner::DriveClock& clock,
             const sim::drives::Surroundings& around)
       : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, node)) {
-    if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
+    if (publishes_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
   }
 
   std::vector<recording::records::Sink*> sinks() override {
@@ -92,14 +92,14 @@ void DdsTopics::health(const nodes::runner::Health& health, TrueTime at) {
                           us(health.wakeup_p99),
                           us(health.wakeup_longest),
                           us(health.largest_offset)};
-  const std::array<bus::dds::ros::HealthValue, 8> told{{{"late wake-ups", values[0]},
-                                                        {"slots missed", values[1]},
-                                                        {"late frames", values[2]},
-                                                        {"frames lost", values[3]},
-                                                        {"wake-up lateness p50 [us]", values[4]},
-                                                        {"wake-up lateness p99 [us]", values[5]},
-                                                        {"wake-up lateness max [us]", values[6]},
-                                                        {"largest offset correction [us]", values[7]}}};
+  const std::array<bus::dds::ros::HealthValue, 8> entries{{{"late wake-ups", values[0]},
+                                                           {"slots missed", values[1]},
+                                                           {"late frames", values[2]},
+                                                           {"frames lost", values[3]},
+                                                           {"wake-up lateness p50 [us]", values[4]},
+                                                           {"wake-up lateness p99 [us]", values[5]},
+                                                           {"wake-up lateness max [us]", values[6]},
+                                                           {"largest offset correction [us]", values[7]}}};
   using recording::records::CanState;
   const CanState can = health.can_state.value_or(CanState::kActive);
   std::string words(health.state ? to_text(*health.state) : "running");
@@ -107,7 +107,7 @@ void DdsTopics::health(const nodes::runner::Health& health, TrueTime at) {
   const bool good =
       (!health.state || *health.state == recording::records::PocKind::kNormalActive) && can == CanState::kActive;
   publisher_.health(
-      {at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_, words, told});
+      {at, good ? bus::dds::ros::HealthLevel::kOk : bus::dds::ros::HealthLevel::kWarn, name_, words, entries});
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ void catch_up(Line& line) {
 }
 
 nlohmann::ordered_json vehicle_json(const nodes::runner::vehicle::Counts& counts) {
-  return {{"told", counts.told}, {"heard", counts.heard},         {"late", counts.late},
-          {"gaps", counts.gaps}, {"malformed", counts.malformed}, {"whole", counts.whole}};
+  return {{"told", counts.reported}, {"heard", counts.received},      {"late", counts.late},
+          {"gaps", counts.gaps},     {"malformed", counts.malformed}, {"whole", counts.whole}};
 }
 
 std::string vehicle_problem(const nlohmann::json& json) {
@@ -63,7 +63,7 @@ void warn_of_vehicle(const NodeSet& set, NodeId node, const nodes::runner::vehic
   const std::string& name = set.cluster.node(node).name;
   if (const std::string problem = vehicle_problem(vehicle_json(counts)); !problem.empty())
     print_warnings(fmt::format("{} {}", name, problem));
-  if (counts.told + counts.heard == 0)
+  if (counts.reported + counts.received == 0)
     print_warnings(
         fmt::format("{} knows of no command to the vehicle: the actuator's node must run on this host, with "
                     "the same --session ({})",

@@ -35,7 +35,7 @@ nlohmann::ordered_json task_json(const sets::TaskSet& set, const sets::Verdict& 
                                                       : nlohmann::ordered_json(nullptr)},
                               {"quality", schedules::timing::response::word(timing.response.quality)},
                               {"deadline_ms", optional_ms(task.deadline)},
-                              {"met", sets::meets_deadline(set, verdict.responses, t)}};
+                              {"met", sets::keeps_deadline(set, verdict.responses, t)}};
   if (timing.miss_probability) json["late_probability"] = *timing.miss_probability;
   return json;
 }
@@ -57,7 +57,7 @@ nlohmann::ordered_json set_chain_json(const sets::TaskSet& set, const sets::Chai
   nlohmann::ordered_json json{{"name", chain.name}, {"stages", nlohmann::ordered_json::array()}};
   for (const std::size_t t : chain.stages) json["stages"].push_back(set.tasks[t].name);
   json["largest_age_ms"] = optional_ms(chain.largest_age);
-  json["met"] = timing.times.has_value() && sets::meets_age(chain, timing);
+  json["met"] = timing.times.has_value() && sets::keeps_age(chain, timing);
   if (!timing.times) {
     json["no_times"] = timing.why_none;
     return json;

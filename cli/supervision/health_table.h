@@ -29,8 +29,8 @@ struct NodeHealth {
 
 // The state of an external node (cli/supervision/supervisor.h), as the launch receives it.
 struct ExternalHealth {
-  bool heard = false;    // at least once
-  bool sending = false;  // now
+  bool received = false;  // at least once
+  bool sending = false;   // now
   std::string words = "waiting";
   std::optional<std::uint64_t> missing;  // frames
 };

@@ -86,11 +86,11 @@ bool moves_cursor(int fd) {
 }
 
 TerminalSize terminal_size(int fd) {
-  winsize told{};
+  winsize reported{};
   TerminalSize size;
-  if (ioctl(fd, TIOCGWINSZ, &told) != 0) return size;
-  if (told.ws_col > 0) size.columns = told.ws_col;
-  if (told.ws_row > 0) size.rows = told.ws_row;
+  if (ioctl(fd, TIOCGWINSZ, &reported) != 0) return size;
+  if (reported.ws_col > 0) size.columns = reported.ws_col;
+  if (reported.ws_row > 0) size.rows = reported.ws_row;
   return size;
 }
 

@@ -82,7 +82,7 @@ Outcome Supervisor::run() {
     keep_time();
   }
   if (listens()) listen();
-  end_unheard();
+  end_silent();
   screen_.status("");
   show_health();
   const Outcome outcome = failure_ ? *failure_ : interruption_ ? *interruption_ : Outcome{};
@@ -165,7 +165,7 @@ void Supervisor::keep_time() {
     listen();
     listen_at_ = now() + config_.listen_every;
   }
-  watch_unheard();
+  watch_silent();
   if (const auto signal = stop_order_.due(now())) signal_all(*signal);
   if (status_at_ && now() >= *status_at_) {
     show_status();
@@ -184,7 +184,7 @@ std::optional<Duration> Supervisor::next_instant() const {
   take(stop_order_.next_instant());
   take(status_at_);
   take(listen_at_);
-  take(unheard_at_);
+  take(silence_at_);
   return first;
 }
 

@@ -12,7 +12,7 @@
 //
 // An external node is a device that takes a node's place: no process of the launch. The hooks listen to it and
 // report its state. It takes no part in the barrier, as it may have nothing to answer before the others have begun. A required one
-// that was not received within heard_timeout, or by the end, fails the launch.
+// that was not received within silence_timeout, or by the end, fails the launch.
 //
 // A node fails by a code other than 0, by a signal, by ending before it was ready, or by owing its result. During a stop, neither
 // the stop's signals nor their codes (130, 143) count. After the last other node has ended well, optional
@@ -56,7 +56,7 @@ struct NodeSpec {
 struct SupervisorConfig {
   std::vector<NodeSpec> nodes;
   Duration ready_timeout = Duration::milliseconds(30'000);
-  Duration heard_timeout = Duration::milliseconds(30'000);  // from the start on, for required external nodes
+  Duration silence_timeout = Duration::milliseconds(30'000);  // from the start on, for required external nodes
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
@@ -132,7 +132,7 @@ class Supervisor {
   bool restart_later(Node& node, std::string_view what);
   void message(Node& node, const std::string& text);
   void became_ready(Node& node);
-  void tell_start(Node& node, const nlohmann::json& facts);
+  void send_start(Node& node, const nlohmann::json& facts);
   std::vector<std::string> missing(bool optional_too) const;
   void watch_barrier();
   void pass_barrier();
@@ -140,9 +140,9 @@ class Supervisor {
   bool any_external() const;
   bool listens() const { return any_external() || hooks_.listen; }
   void listen();
-  std::vector<std::string> unheard() const;
-  void watch_unheard();
-  void end_unheard();
+  std::vector<std::string> silent() const;
+  void watch_silent();
+  void end_silent();
   void stop(std::string_view why);
   void signal_all(int signal);
   void fail(std::string_view why, int exit_code);
@@ -166,7 +166,7 @@ class Supervisor {
   bool started_ = false;  // the barrier has been passed
   nlohmann::json start_facts_;
   StopOrder stop_order_;
-  std::optional<Duration> barrier_at_, optional_at_, status_at_, listen_at_, unheard_at_;
+  std::optional<Duration> barrier_at_, optional_at_, status_at_, listen_at_, silence_at_;
   std::optional<Outcome> failure_, interruption_;
   bool folder_fails_ = false;
 };

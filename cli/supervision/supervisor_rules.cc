@@ -133,13 +133,13 @@ void Supervisor::became_ready(Node& node) {
   node.ready = true;
   health_.set_process(node.index, "ready");
   if (!started_ || stop_order_.begun()) return;
-  guarded([&] { tell_start(node, hooks_.on_late_ready ? hooks_.on_late_ready(node.index) : start_facts_); });
+  guarded([&] { send_start(node, hooks_.on_late_ready ? hooks_.on_late_ready(node.index) : start_facts_); });
 }
 
-void Supervisor::tell_start(Node& node, const nlohmann::json& facts) {
+void Supervisor::send_start(Node& node, const nlohmann::json& facts) {
   // A node that has closed its line is probably just ending.
-  const bool told = node.child->send_control(nlohmann::json{{"start", facts}}.dump());
-  health_.set_process(node.index, told ? "running" : "not told to start");
+  const bool sent = node.child->send_control(nlohmann::json{{"start", facts}}.dump());
+  health_.set_process(node.index, sent ? "running" : "not told to start");
 }
 
 std::vector<std::string> Supervisor::missing(bool optional_too) const {
@@ -166,25 +166,25 @@ void Supervisor::listen() {
   }
 }
 
-std::vector<std::string> Supervisor::unheard() const {
+std::vector<std::string> Supervisor::silent() const {
   std::vector<std::string> names;
   for (const auto& node : nodes_)
-    if (node->spec.external && !node->external.heard && node->spec.policy != Policy::kOptional)
+    if (node->spec.external && !node->external.received && node->spec.policy != Policy::kOptional)
       names.push_back(node->spec.name);
   return names;
 }
 
-void Supervisor::watch_unheard() {
-  if (!unheard_at_ || now() < *unheard_at_) return;
-  unheard_at_.reset();
-  if (const std::vector<std::string> names = unheard(); !names.empty())
-    fail(fmt::format("nothing was heard within {} of {}", seconds_text(config_.heard_timeout), joined(names)), 1);
+void Supervisor::watch_silent() {
+  if (!silence_at_ || now() < *silence_at_) return;
+  silence_at_.reset();
+  if (const std::vector<std::string> names = silent(); !names.empty())
+    fail(fmt::format("nothing was heard within {} of {}", seconds_text(config_.silence_timeout), joined(names)), 1);
 }
 
 // A drive may be over before the timeout.
-void Supervisor::end_unheard() {
+void Supervisor::end_silent() {
   if (!started_ || stop_order_.begun()) return;
-  if (const std::vector<std::string> names = unheard(); !names.empty())
+  if (const std::vector<std::string> names = silent(); !names.empty())
     failure_ = Outcome{1, fmt::format("nothing was heard of {}", joined(names))};
 }
 
@@ -208,14 +208,14 @@ void Supervisor::watch_barrier() {
 void Supervisor::pass_barrier() {
   started_ = true;
   barrier_at_.reset();
-  if (any_external()) unheard_at_ = now() + config_.heard_timeout;
+  if (any_external()) silence_at_ = now() + config_.silence_timeout;
   start_facts_ = nlohmann::json::object();
   guarded([&] {
     if (hooks_.on_all_ready) start_facts_ = hooks_.on_all_ready();
   });
   if (stop_order_.begun()) return;
   for (const auto& node : nodes_)
-    if (node->child != nullptr && node->ready) tell_start(*node, start_facts_);
+    if (node->child != nullptr && node->ready) send_start(*node, start_facts_);
   record([&] {
     config_.folder->state("running");
     config_.folder->write();
@@ -246,7 +246,7 @@ void Supervisor::stop(std::string_view why) {
   if (!signal) return;
   barrier_at_.reset();
   optional_at_.reset();
-  unheard_at_.reset();
+  silence_at_.reset();
   for (const auto& node : nodes_)
     if (node->restart_at) {
       node->restart_at.reset();

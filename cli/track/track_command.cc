@@ -81,7 +81,7 @@ class ScanPicture {
 };
 
 // Reports all findings; sound rows are kept. Without any sound row, the findings are an error.
-void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {
+void report_damage(const Findings& findings, bool skip, std::size_t rows_left) {
   if (!skip || rows_left == 0) findings.throw_if_any();
   for (const Finding& finding : findings.list()) print_warnings(finding.sentence());
 }
@@ -233,7 +233,7 @@ int run_track(const TrackOptions& options) {
   } else {
     recorded = recording::replay::recorded_lists_of(rows, config, options.observations, findings);
   }
-  tell_damage(findings, options.skip_damaged, recorded.lists.size());
+  report_damage(findings, options.skip_damaged, recorded.lists.size());
   if (ego) recording::replay::carry(recorded, rows, *ego, options.observations);
   recording::replay::simulate(recorded, simulated);
 

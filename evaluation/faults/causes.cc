@@ -86,7 +86,7 @@ template <class Fits> FaultCauses::Cause FaultCauses::latest(TrueTime until, Fit
 FaultCauses::Cause FaultCauses::of_signal(const Signal& signal) const {
   const auto its_own = [&](const Suspect& suspect) {
     return owns(suspect, signal.owner, signal.from) ||
-           (suspect.reach.hearing && owns(suspect, signal.receiver, signal.from));
+           (suspect.reach.reception && owns(suspect, signal.receiver, signal.from));
   };
   const auto on_channel = [&](const Suspect& suspect) { return disturbs(suspect, signal); };
   const auto at_once = [&](const Suspect& suspect) { return its_own(suspect) || on_channel(suspect); };

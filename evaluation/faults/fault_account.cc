@@ -119,7 +119,7 @@ void FaultAccount::on(const recording::records::FaultActivity& activity) {
 void FaultAccount::on(const recording::records::StateChanged& change) {
   const NodeId node = change.stamp.node;
   const TrueTime at = change.stamp.true_time;
-  if (!knows(node)) return;
+  if (!has(node)) return;
   const Cause cause = causes_.of_node(node, at);
   if (!starts_as_planned(node) || falls_back(change))
     changed(cause, node, change.from_name, change.to_name, change.why, at);
@@ -131,7 +131,7 @@ void FaultAccount::on(const recording::records::StateChanged& change) {
 void FaultAccount::on(const recording::records::PowerChanged& power) {
   const NodeId node = power.stamp.node;
   const TrueTime at = power.stamp.true_time;
-  if (!knows(node)) return;
+  if (!has(node)) return;
   const Cause cause = causes_.of_node(node, at);
   const std::string_view off = "without supply", on = "with supply";
   if (!power.on || !starts_as_planned(node)) changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
@@ -149,7 +149,7 @@ void FaultAccount::left_active(Cause cause, NodeId node, TrueTime at) {
 void FaultAccount::on(const recording::records::SlotProblem& problem) {
   const NodeId node = problem.stamp.node;
   const TrueTime at = problem.stamp.true_time;
-  if (!knows(node)) return;
+  if (!has(node)) return;
   ledger_.on(problem);
   const schedules::model::GlobalParameters& g = cluster_.flexray;
   FaultCauses::Signal signal;
@@ -175,12 +175,12 @@ void FaultAccount::on(const recording::records::SlotProblem& problem) {
 void FaultAccount::on(const recording::records::ClockCorrected& corrected) {
   const NodeId node = corrected.stamp.node;
   const TrueTime at = corrected.stamp.true_time;
-  if (!knows(node)) return;
+  if (!has(node)) return;
   for_each_check(corrected, [&](Check check) { notice(causes_.of_node(node, at), check, node, corrected.cycle, at); });
 }
 
 void FaultAccount::on(const recording::records::SlotFrameSent& frame) {
-  if (!knows(frame.stamp.node)) return;
+  if (!has(frame.stamp.node)) return;
   ledger_.on(frame);
   if (!standings_.counts(frame.stamp.node)) return;
   const TrueTime at = frame.stamp.true_time;

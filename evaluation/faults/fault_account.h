@@ -125,7 +125,7 @@ class FaultAccount final : public recording::records::Sink {
   // comes again after a round.
   using Counted = std::array<std::array<std::optional<TrueTime>, schedules::model::kMostCycles>, 2 * kAllChecks.size()>;
 
-  bool knows(NodeId node) const { return index_of(node) < standings_.size(); }  // a log may be of another cluster
+  bool has(NodeId node) const { return index_of(node) < standings_.size(); }  // a log may be of another cluster
   // A starting node takes these steps in any case, so only those back have a cause.
   bool starts_as_planned(NodeId node) const { return standings_.has_to_start(node) && !cut_off_[index_of(node)]; }
   FaultEffects& effects(Cause cause);

@@ -17,8 +17,8 @@ bool same_bytes(std::span<const std::byte> a, std::span<const std::byte> b) {
 }  // namespace
 
 FrameLedger::FrameLedger(const schedules::model::Cluster& cluster, const Standings& standings,
-                         std::function<void(const SlotLoss&)> told)
-    : cluster_(cluster), standings_(standings), told_(std::move(told)) {
+                         std::function<void(const SlotLoss&)> on_loss)
+    : cluster_(cluster), standings_(standings), on_loss_(std::move(on_loss)) {
   int slots = 0;
   for (const schedules::model::FrameSlot& frame : cluster.frames) slots = std::max(slots, frame.slot);
   owed_.resize(static_cast<std::size_t>(slots) + 1);
@@ -55,13 +55,13 @@ void FrameLedger::owe(Owed& owed, NodeId sender, int slot) {
 // Reports every receiver that has not received the frame by now as a loss.
 void FrameLedger::collect(Owed& owed, int slot) {
   for (std::size_t n = 0; n < standings_.size(); ++n) {
-    if (owed.receivers[n]) told_({owed.sent, static_cast<NodeId>(n), owed.sender, slot, owed.cycle, false});
+    if (owed.receivers[n]) on_loss_({owed.sent, static_cast<NodeId>(n), owed.sender, slot, owed.cycle, false});
     owed.receivers[n] = false;
   }
 }
 
 void FrameLedger::sent(NodeId node, int slot, Channel channel, const bus::wire::DecodedFrame& frame, TrueTime at) {
-  if (standings_.faulty(node) || !knows(slot)) return;
+  if (standings_.faulty(node) || !has(slot)) return;
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
   if (!is_copy(owed, node, slot, channel, frame, at)) {
     collect(owed, slot);
@@ -79,7 +79,7 @@ void FrameLedger::sent(NodeId node, int slot, Channel channel, const bus::wire::
 }
 
 void FrameLedger::received(NodeId node, int slot, Channel channel, const bus::wire::DecodedFrame& frame, TrueTime at) {
-  if (standings_.faulty(node) || !knows(slot)) return;
+  if (standings_.faulty(node) || !has(slot)) return;
   const NodeId sender = owner_of(cluster_, slot, channel, frame.header.cycle);
   if (sender == kNoNode || standings_.faulty(sender) || sender == node) return;
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
@@ -87,7 +87,7 @@ void FrameLedger::received(NodeId node, int slot, Channel channel, const bus::wi
   if (owed.sender == sender && at - sent.at < cluster_.cycle() && sent.says(frame))
     owed.receivers[index_of(node)] = false;
   else
-    told_({at, node, sender, slot, frame.header.cycle, true});
+    on_loss_({at, node, sender, slot, frame.header.cycle, true});
 }
 
 void FrameLedger::finish(TrueTime at) {

@@ -25,7 +25,7 @@ class FrameLedger {
  public:
   // `on_loss` is called for every loss between fault-free nodes. `standings` must outlive this object.
   FrameLedger(const schedules::model::Cluster& cluster, const Standings& standings,
-              std::function<void(const SlotLoss&)> told);
+              std::function<void(const SlotLoss&)> on_loss);
 
   // Calls come in the order of time; `frame` is valid during the call only.
   void sent(NodeId node, int slot, schedules::model::Channel channel, const bus::wire::DecodedFrame& frame,
@@ -54,7 +54,7 @@ class FrameLedger {
     std::vector<bool> receivers;  // by NodeId
     std::array<Sent, 2> as_sent;  // by channel
   };
-  bool knows(int slot) const { return slot >= 0 && static_cast<std::size_t>(slot) < owed_.size(); }
+  bool has(int slot) const { return slot >= 0 && static_cast<std::size_t>(slot) < owed_.size(); }
   bool is_copy(const Owed& owed, NodeId node, int slot, schedules::model::Channel channel,
                const bus::wire::DecodedFrame& frame, TrueTime at) const;
   void owe(Owed& owed, NodeId sender, int slot);
@@ -62,7 +62,7 @@ class FrameLedger {
 
   const schedules::model::Cluster& cluster_;
   const Standings& standings_;
-  std::function<void(const SlotLoss&)> told_;
+  std::function<void(const SlotLoss&)> on_loss_;
   std::vector<Owed> owed_;  // by slot
 };
 

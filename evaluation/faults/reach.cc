@@ -12,11 +12,11 @@ using K = ttf::faults::FaultKind;
 
 struct ReachRow {
   K kind{};
-  bool supply = false, hearing = false, channel = false, clocks = false;
+  bool supply = false, reception = false, channel = false, clocks = false;
 };
 constexpr std::array<ReachRow, ttf::faults::kFaultKinds> kReaches{{
-    {.kind = K::kCrash, .supply = true, .hearing = true},
-    {.kind = K::kOmission, .hearing = true},  // not if it acts on sending only
+    {.kind = K::kCrash, .supply = true, .reception = true},
+    {.kind = K::kOmission, .reception = true},  // not if it acts on sending only
     {.kind = K::kBabblingIdiot, .channel = true},
     {.kind = K::kMasquerading, .channel = true},
     {.kind = K::kSosTiming, .channel = true, .clocks = true},
@@ -26,10 +26,10 @@ constexpr std::array<ReachRow, ttf::faults::kFaultKinds> kReaches{{
     {.kind = K::kBitFlipTrailer},
     {.kind = K::kChannelSwap, .channel = true},
     {.kind = K::kByzantineClock, .clocks = true},
-    {.kind = K::kDrift, .hearing = true, .clocks = true},
-    {.kind = K::kLoneColdstart, .supply = true, .hearing = true},
-    {.kind = K::kDuplicateColdstart, .hearing = true, .channel = true, .clocks = true},
-    {.kind = K::kWrongSchedule, .hearing = true, .channel = true, .clocks = true},
+    {.kind = K::kDrift, .reception = true, .clocks = true},
+    {.kind = K::kLoneColdstart, .supply = true, .reception = true},
+    {.kind = K::kDuplicateColdstart, .reception = true, .channel = true, .clocks = true},
+    {.kind = K::kWrongSchedule, .reception = true, .channel = true, .clocks = true},
     {.kind = K::kNoise, .channel = true},
     {.kind = K::kTransient, .channel = true, .clocks = true},  // acts on sync frames, too
     {.kind = K::kCanOmission},                                 // this and the others of a CAN: nothing on FlexRay
@@ -66,7 +66,7 @@ FaultReach reach_of(const ttf::faults::Fault& fault, const schedules::model::Clu
   const bool of_sending_only = ttf::faults::takes(fault.kind, ttf::faults::FaultParameter::kDirection) &&
                                fault.direction == ttf::faults::FaultDirection::kSend;
   // A kind without a length or shift of its own has 0 there, so it lasts as long as a frame.
-  return {row.hearing && !of_sending_only, row.channel, row.clocks,
+  return {row.reception && !of_sending_only, row.channel, row.clocks,
           std::max(frame, fault.length) + std::max(fault.shift, Duration{})};
 }
 

@@ -17,10 +17,10 @@ std::vector<bool> named_by(const ttf::faults::Fault& fault, const schedules::mod
 bool takes_supply(const ttf::faults::Fault& fault, NodeId node);
 
 struct FaultReach {
-  bool hearing = false;  // reception of the nodes that it names
-  bool channel = false;  // others' slots in which it acts
-  bool clocks = false;   // the cluster's common time
-  Duration lasts{};      // duration of its signals on a channel, from the act on
+  bool reception = false;  // reception of the nodes that it names
+  bool channel = false;    // others' slots in which it acts
+  bool clocks = false;     // the cluster's common time
+  Duration lasts{};        // duration of its signals on a channel, from the act on
 };
 FaultReach reach_of(const ttf::faults::Fault& fault, const schedules::model::Cluster& cluster);
 

@@ -14,9 +14,9 @@ constexpr TrueTime kEverything{std::numeric_limits<std::int64_t>::max()};
 }  // namespace
 
 SlotLedger::SlotLedger(const schedules::model::Cluster& cluster, const Standings& standings,
-                       std::function<void(const SlotLoss&)> told)
+                       std::function<void(const SlotLoss&)> on_loss)
     : cluster_(cluster), standings_(standings),
-      told_(std::move(told)), slot_{cluster.flexray.gdStaticSlot * cluster.flexray.gdMacrotick_ps / 1000} {
+      on_loss_(std::move(on_loss)), slot_{cluster.flexray.gdStaticSlot * cluster.flexray.gdMacrotick_ps / 1000} {
   for (Cycle& cycle : cycles_) {
     cycle.counted.resize(cluster.nodes.size());
     cycle.slots.resize(cluster.frames.size());
@@ -103,8 +103,8 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
         received = received || (slot.sent[c] && !slot.reported[c][n]);
         forged = forged || (!slot.sent[c] && !slot.reported[c][n]);
       }
-      if (forged) told_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, true});
-      if (!received) told_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, false});
+      if (forged) on_loss_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, true});
+      if (!received) on_loss_({slot.at, receiver, frame.sender, frame.slot, cycle.counter, false});
     }
   }
 }

@@ -28,7 +28,7 @@ class SlotLedger {
   // `on_loss` is called for every loss between nodes that count, both in the slot and when it is settled.
   // `standings` must outlive this object.
   SlotLedger(const schedules::model::Cluster& cluster, const Standings& standings,
-             std::function<void(const SlotLoss&)> told);
+             std::function<void(const SlotLoss&)> on_loss);
 
   void on(const recording::records::SlotFrameSent& frame);
   void on(const recording::records::SlotProblem& problem);
@@ -54,7 +54,7 @@ class SlotLedger {
 
   const schedules::model::Cluster& cluster_;
   const Standings& standings_;
-  std::function<void(const SlotLoss&)> told_;
+  std::function<void(const SlotLoss&)> on_loss_;
   std::array<Cycle, kCycles> cycles_;
   std::int64_t newest_ = -1;  // counter of the cycle opened last
   Duration slot_;             // length of a static slot

@@ -46,7 +46,7 @@ FaultOutcome outcome_of(const Judgement& judgement, const sim::faults::Injector:
 }
 
 // `all`: the judgement's checks, in their order.
-template <class Judgement, class Checks> void tell(const Judgement& judgement, const Checks& all, Story& story) {
+template <class Judgement, class Checks> void report(const Judgement& judgement, const Checks& all, Story& story) {
   for (std::size_t c = 0; c < all.size(); ++c) {
     if (const auto& at = judgement.seen_by_others[c])
       story.say(*at, fmt::format("noticed by others: {}", name_of(all[c])));

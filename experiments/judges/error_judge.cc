@@ -8,9 +8,9 @@
 
 namespace ttf::experiments::judges {
 
+using schedules::synthesis::instants::judging::ChainEnd;
 using schedules::synthesis::instants::judging::Coming;
-using schedules::synthesis::instants::judging::Meeting;
-using schedules::synthesis::instants::judging::Met;
+using schedules::synthesis::instants::judging::FirstUse;
 using schedules::synthesis::instants::judging::Prospect;
 using schedules::synthesis::plan::Plan;
 using schedules::synthesis::plan::PlannedChain;
@@ -36,12 +36,12 @@ ErrorJudge::ErrorJudge(const Plan& plan) {
   }
 }
 
-double ErrorJudge::of(const std::vector<Meeting>& meetings, const std::vector<double>& weights) const {
+double ErrorJudge::of(const std::vector<ChainEnd>& chain_ends, const std::vector<double>& weights) const {
   std::vector<Round> rounds;
-  for (const Meeting& meeting : meetings) {
-    rounds.push_back({meeting.round, {}, meeting.uses, {}});
-    if (over_time_) rounds.back().held = {meeting.round.ns / static_cast<std::int64_t>(meeting.uses.size())};
-    for (const Met& one : meeting.met)
+  for (const ChainEnd& chain_end : chain_ends) {
+    rounds.push_back({chain_end.round, {}, chain_end.uses, {}});
+    if (over_time_) rounds.back().held = {chain_end.round.ns / static_cast<std::int64_t>(chain_end.uses.size())};
+    for (const FirstUse& one : chain_end.first_uses)
       rounds.back().sightings.push_back({one.measured, variances_[one.chain], one.used, {}});
   }
   double most = 0.0;

@@ -19,7 +19,7 @@ class ErrorJudge : public schedules::synthesis::instants::judging::Judge {
   explicit ErrorJudge(const schedules::synthesis::plan::Plan& plan);
 
   std::size_t parts() const override { return densities_.size(); }
-  double of(const std::vector<schedules::synthesis::instants::judging::Meeting>& meetings,
+  double of(const std::vector<schedules::synthesis::instants::judging::ChainEnd>& chain_ends,
             const std::vector<double>& weights) const override;
   // By least_error.h: all phases are within the boxes, of which `effort` are looked at.
   double bound(const std::vector<schedules::synthesis::instants::judging::Prospect>& prospects,

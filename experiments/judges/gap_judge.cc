@@ -8,26 +8,26 @@
 
 namespace ttf::experiments::judges {
 
+using schedules::synthesis::instants::judging::ChainEnd;
 using schedules::synthesis::instants::judging::Coming;
-using schedules::synthesis::instants::judging::Meeting;
-using schedules::synthesis::instants::judging::Met;
+using schedules::synthesis::instants::judging::FirstUse;
 using schedules::synthesis::instants::judging::Prospect;
 using schedules::synthesis::plan::Plan;
 
 namespace {
 
 // Returns by use of the chain the newest measurement before it.
-CommandRound commands_of(const Meeting& meeting, std::size_t chain, Duration delay) {
-  CommandRound round{meeting.round, {}, {}};
-  for (const Met& one : meeting.met)
+CommandRound commands_of(const ChainEnd& chain_end, std::size_t chain, Duration delay) {
+  CommandRound round{chain_end.round, {}, {}};
+  for (const FirstUse& one : chain_end.first_uses)
     if (one.chain == chain) round.samples.push_back(one.measured);
-  for (const Duration use : meeting.uses) {
+  for (const Duration use : chain_end.uses) {
     std::optional<Duration> newest;
-    for (const Met& one : meeting.met) {
+    for (const FirstUse& one : chain_end.first_uses) {
       if (one.chain != chain) continue;
-      const std::int64_t behind = (use - one.used).ns, length = meeting.round.ns;
+      const std::int64_t behind = (use - one.used).ns, length = chain_end.round.ns;
       const std::int64_t rounds = (behind - (behind % length + length) % length) / length;
-      newest = std::max(newest.value_or(Duration{INT64_MIN}), one.measured + meeting.round * rounds);
+      newest = std::max(newest.value_or(Duration{INT64_MIN}), one.measured + chain_end.round * rounds);
     }
     round.commands.push_back({use + delay, *newest});
   }
@@ -48,13 +48,13 @@ double GapJudge::at_age(Duration period, Duration age) const {
   return known->second;
 }
 
-double GapJudge::of(const std::vector<Meeting>& meetings, const std::vector<double>& weights) const {
+double GapJudge::of(const std::vector<ChainEnd>& chain_ends, const std::vector<double>& weights) const {
   double most = 0.0;
-  for (const Meeting& meeting : meetings) {
+  for (const ChainEnd& chain_end : chain_ends) {
     std::set<std::size_t> chains;
-    for (const Met& one : meeting.met) chains.insert(one.chain);
+    for (const FirstUse& one : chain_end.first_uses) chains.insert(one.chain);
     for (const std::size_t chain : chains) {
-      const CommandRound round = commands_of(meeting, chain, delay_);
+      const CommandRound round = commands_of(chain_end, chain, delay_);
       const bool one_age = round.samples.size() == 1 && round.commands.size() == 1;
       const double error = one_age ? at_age(round.length, round.commands[0].at - delay_ - round.commands[0].sampled)
                                    : gap_error(vehicle_, round);

@@ -20,7 +20,7 @@ class GapJudge : public schedules::synthesis::instants::judging::Judge {
  public:
   explicit GapJudge(const schedules::synthesis::plan::Plan& plan);
 
-  double of(const std::vector<schedules::synthesis::instants::judging::Meeting>& meetings,
+  double of(const std::vector<schedules::synthesis::instants::judging::ChainEnd>& chain_ends,
             const std::vector<double>& weights) const override;
   // Where a sensor measures as often as it is used, the loop has one age. The bound is the error at the least one. This
   // supposes that the error grows with the age. Sixteen ages over a period are tried. If the error falls from one to

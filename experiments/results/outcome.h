@@ -8,18 +8,18 @@
 
 namespace ttf::experiments::results {
 
-enum class Outcome : std::uint8_t { kHolds, kFails, kCannotTell };
+enum class Outcome : std::uint8_t { kHolds, kFails, kUndecided };
 
 constexpr std::string_view to_text(Outcome outcome) {
   switch (outcome) {
     case Outcome::kHolds: return "holds";
     case Outcome::kFails: return "does not hold";
-    case Outcome::kCannotTell: break;
+    case Outcome::kUndecided: break;
   }
   return "cannot tell";
 }
 constexpr std::optional<Outcome> outcome_of(std::string_view text) {
-  for (const Outcome one : {Outcome::kHolds, Outcome::kFails, Outcome::kCannotTell})
+  for (const Outcome one : {Outcome::kHolds, Outcome::kFails, Outcome::kUndecided})
     if (to_text(one) == text) return one;
   return std::nullopt;
 }

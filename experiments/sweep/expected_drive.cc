@@ -72,7 +72,7 @@ bool shows_one_face(const sim::world::ObjectConfig& object, const sensors::Place
   return (std::abs(c * x + s * y) < 0.5 * least.length) != (std::abs(c * y - s * x) < 0.5 * least.width);
 }
 
-bool knows_size(const fusion::config::Sizes& prior, const sim::world::ObjectConfig& object) {
+bool size_is_known(const fusion::config::Sizes& prior, const sim::world::ObjectConfig& object) {
   return object.size.draw == sim::world::SizeDraw::kNominal && std::abs(prior.length - object.length) < kKnown_m &&
          std::abs(prior.width - object.width) < kKnown_m && prior.length_sigma <= kKnown_m &&
          prior.width_sigma <= kKnown_m;
@@ -133,7 +133,7 @@ bool ExpectedError::is_defined(const sim::drives::Scenario& scenario) {
   if (scenario.world.objects.size() != 1 || scenario.tracker.motion != fusion::config::MotionModel::kConstantVelocity ||
       scenario.tracker.extent_noise > 0.0 || scenario.world.ego || scenario.world.objects.front().on)
     return false;
-  return knows_size(scenario.tracker.sizes, scenario.world.objects.front()) || shows_one_face(scenario);
+  return size_is_known(scenario.tracker.sizes, scenario.world.objects.front()) || shows_one_face(scenario);
 }
 
 ExpectedError::ExpectedError(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster)

@@ -15,7 +15,7 @@ constexpr std::string_view kNotTheirs = "the experiment has a seed, and paradigm
 bool is_fixed(const Edit& edit) { return edit.key == "seed" || edit.key.starts_with("clusters"); }
 
 // Returns whether one paradigm may have both; an empty name means all.
-bool meet(const std::string& one, const std::string& other) { return one.empty() || other.empty() || one == other; }
+bool overlap(const std::string& one, const std::string& other) { return one.empty() || other.empty() || one == other; }
 
 class KeyCheck {
  public:
@@ -27,7 +27,7 @@ class KeyCheck {
       for (const Edit& edit : paradigm.edits) {
         const auto [first, last] = owners_.equal_range(edit.key);
         const bool owned =
-            std::any_of(first, last, [&](const auto& entry) { return meet(entry.second.paradigm, paradigm.name); });
+            std::any_of(first, last, [&](const auto& entry) { return overlap(entry.second.paradigm, paradigm.name); });
         if (owned || is_fixed(edit))
           fail(edit, "paradigms",
                fmt::format("must not set {} in {}: {}", edit.key, paradigm.name,
@@ -48,7 +48,7 @@ class KeyCheck {
       for (auto edit = setting.edits.begin(); edit != setting.edits.end(); ++edit) {
         if (axis.keys.empty() && !varied(*edit, axis.name)) return;
         if (std::any_of(setting.edits.begin(), edit, [&](const Edit& other) {
-              return other.key == edit->key && meet(other.paradigm, edit->paradigm);
+              return other.key == edit->key && overlap(other.paradigm, edit->paradigm);
             }))
           return fail(*edit, "axes",
                       fmt::format("must not set {} twice in {} of {}", edit->key, setting.label, axis.name));
@@ -65,7 +65,7 @@ class KeyCheck {
     for (auto other = first; other != last; ++other) {
       const Owner& owner = other->second;
       known = known || (owner.axis == axis && owner.paradigm == edit.paradigm);
-      if (owner.axis == axis || !meet(owner.paradigm, edit.paradigm)) continue;
+      if (owner.axis == axis || !overlap(owner.paradigm, edit.paradigm)) continue;
       fail(edit, "axes", fmt::format("must not vary {} twice: {} and {} do", edit.key, owner.axis, axis));
       return false;
     }

@@ -39,8 +39,8 @@ EmergencyBraking::EmergencyBraking(const schedules::model::Cluster& cluster, con
                                    const EmergencyConfig& config)
     : config_(config), way_(cluster, task, config.path), out_(cluster, task) {}
 
-void EmergencyBraking::tell(host::StepContext& context, WarningKind service, bool on, TrackId track,
-                            double time_to_collision) {
+void EmergencyBraking::report(host::StepContext& context, WarningKind service, bool on, TrackId track,
+                              double time_to_collision) {
   if (on_[index_of(service)] == on) return;
   on_[index_of(service)] = on;
   context.sink->on(recording::records::Warning{context.stamp, service, on, track, time_to_collision});
@@ -70,8 +70,8 @@ void EmergencyBraking::run(host::StepContext& context) {
   };
   const bool brakes = within(WarningKind::kEmergencyBraking, config_.braking_time_s) || goes_on;
   const bool warns = brakes || within(WarningKind::kForwardCollision, config_.warning_time_s);
-  tell(context, WarningKind::kForwardCollision, warns, record.track, remaining);
-  tell(context, WarningKind::kEmergencyBraking, brakes, record.track, remaining);
+  report(context, WarningKind::kForwardCollision, warns, record.track, remaining);
+  report(context, WarningKind::kEmergencyBraking, brakes, record.track, remaining);
   if (brakes) record.reason = recording::records::CommandReason::kEmergency;
   out_.issue(context, {brakes, brakes ? -config_.deceleration : 0.0, 0.0}, record);
 }

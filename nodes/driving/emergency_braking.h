@@ -37,8 +37,8 @@ class EmergencyBraking final : public host::Step {
   bool reads_newest(std::string_view port) const override { return port == "odometry"; }
 
  private:
-  void tell(host::StepContext& context, recording::records::WarningKind service, bool on, TrackId track,
-            double time_to_collision);
+  void report(host::StepContext& context, recording::records::WarningKind service, bool on, TrackId track,
+              double time_to_collision);
 
   EmergencyConfig config_;
   WayAhead way_;

@@ -101,8 +101,8 @@ std::optional<MotionPlanner::Chosen> MotionPlanner::most_important(const PoseOnL
   return Chosen{*found, {candidates_[*found].x, speed}};
 }
 
-void MotionPlanner::tell_region(host::StepContext& context, const std::optional<Chosen>& chosen,
-                                recording::records::PlanMade& record) {
+void MotionPlanner::report_region(host::StepContext& context, const std::optional<Chosen>& chosen,
+                                  recording::records::PlanMade& record) {
   std::optional<vision::Region> region;
   for (std::size_t i = 0; chosen && !region && i < pictures_.size(); ++i)
     region = region_of(pictures_[i], config_.interest, objects_[chosen->index]);
@@ -120,7 +120,7 @@ void MotionPlanner::run(host::StepContext& context) {
   recording::records::PlanMade record;
   if (!speed || !own) {
     memory_.speed.reset();
-    tell_region(context, std::nullopt, record);
+    report_region(context, std::nullopt, record);
     const bool stops = memory_.state == control::PlannerState::kStop;
     return plan_.issue(context, {stops, 0.0, memory_.state}, record);
   }
@@ -137,7 +137,7 @@ void MotionPlanner::run(host::StepContext& context) {
     record.gap = chosen->object.gap;
     record.speed_ahead = chosen->object.speed;
   }
-  tell_region(context, chosen, record);
+  report_region(context, chosen, record);
   plan_.issue(context, {true, std::max(0.0, asked), memory_.state}, record);
 }
 

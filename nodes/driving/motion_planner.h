@@ -70,8 +70,8 @@ class MotionPlanner final : public host::Step {
     control::MostImportant object;
   };
   std::optional<Chosen> most_important(const PoseOnLine& own);
-  void tell_region(host::StepContext& context, const std::optional<Chosen>& chosen,
-                   recording::records::PlanMade& record);
+  void report_region(host::StepContext& context, const std::optional<Chosen>& chosen,
+                     recording::records::PlanMade& record);
 
   PlannerConfig config_;
   std::vector<Picture> pictures_;

@@ -184,7 +184,7 @@ void Executive::run_step(const Processor::Running& running) {
   if (context.turn != running.turn) processor_.choose_mode(context.turn->mode);
   records_.counts().unlisted_fates += context.unlisted;
   actuation_ = context.actuation;
-  wiring_.tell_discarded(running.task, start);
+  wiring_.report_discarded(running.task, start);
 }
 
 void Executive::finish(Microticks now) {

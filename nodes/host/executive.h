@@ -73,8 +73,8 @@ class Executive final : private bus::controller::ControllerEvents {
   // tests/sim/processes/unwanted_frames_test.cc compares whole drives with and without it.
   bool receive_on_both(const bus::ports::Reception& reception);
   // For a reception that is still on its way to the controller (bus/controller/controller.h).
-  bool knows(const bus::ports::Reception& reception) { return !asleep_ && flexray_->knows(reception); }
-  void hear_known(const bus::ports::Reception& reception) { flexray_->hear_known(reception); }
+  bool is_known(const bus::ports::Reception& reception) { return !asleep_ && flexray_->is_known(reception); }
+  void receive_known(const bus::ports::Reception& reception) { flexray_->receive_known(reception); }
   void receive_can(std::size_t can_bus, const bus::ports::CanFrame& frame, Microticks now);
   // Records that a frame of this node left at `now`. `frame` has the medium's knowledge: bus, start, true time of
   // the departure, identifier and data. The node adds the times of its own clock, the list and the measurement.

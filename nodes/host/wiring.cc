@@ -63,7 +63,7 @@ std::span<Input> Wiring::read(std::size_t task, const recording::records::Stamp&
   return ports.inputs;
 }
 
-void Wiring::tell_discarded(std::size_t task, const recording::records::Stamp& at) {
+void Wiring::report_discarded(std::size_t task, const recording::records::Stamp& at) {
   const TaskPorts& ports = tasks_[task];
   for (std::size_t i = 0; i < ports.inputs.size(); ++i) {
     const Input& input = ports.inputs[i];
@@ -96,21 +96,21 @@ std::span<const std::size_t> Wiring::arrived(const ListArrival& arrival, Microti
   if (route == nullptr) return {};
 
   const recording::records::Stamp stamp = time_.stamp(at);
-  const auto tell = [&](recording::records::Hop what, std::uint32_t sequence) {
+  const auto report = [&](recording::records::Hop what, std::uint32_t sequence) {
     records_.hop(stamp, what, arrival.pdu, sequence, arrival.medium);
   };
   if (arrival.torn) {
     ++records_.counts().torn_lists;
-    tell(recording::records::Hop::kTorn, *arrival.torn);
+    report(recording::records::Hop::kTorn, *arrival.torn);
   }
-  if (arrival.effect == kStale) tell(recording::records::Hop::kStale, arrival.sequence);
+  if (arrival.effect == kStale) report(recording::records::Hop::kStale, arrival.sequence);
   if (arrival.effect != kCompleted) return {};
-  tell(recording::records::Hop::kReceived, arrival.sequence);
+  report(recording::records::Hop::kReceived, arrival.sequence);
   for (const Route::Reader& reader : route->readers) {
     Source& source = tasks_[reader.task].sources[reader.input];
     if (source.unread && !source.newest_counts) {
       ++records_.counts().overwritten_lists;
-      tell(recording::records::Hop::kOverwritten, *source.unread);
+      report(recording::records::Hop::kOverwritten, *source.unread);
     }
     source.unread = arrival.sequence;
   }

@@ -52,7 +52,7 @@ class Wiring {
   // Returns the inputs of the task at its start `at`.
   std::span<Input> read(std::size_t task, const recording::records::Stamp& at);
   // Records the inputs that the task could not use.
-  void tell_discarded(std::size_t task, const recording::records::Stamp& at);
+  void report_discarded(std::size_t task, const recording::records::Stamp& at);
   std::span<Output> outputs(std::size_t task) { return tasks_[task].outputs; }
   // Sends the lists that the task has written; they become visible at its end `at`.
   void write(std::size_t task, const recording::records::Stamp& at);

@@ -24,7 +24,7 @@ void LiveFlexRay::transmit(const bus::ports::Transmission& transmission) {
   signal.signal = transmission.signal;
   signal.slot = transmission.slot;
   signal.bytes = transmission.bytes;
-  signal.tells_late = transmission.signal == bus::ports::Signal::kFrame && transmission.content.header.sync;
+  signal.states_late = transmission.signal == bus::ports::Signal::kFrame && transmission.content.header.sync;
   if (transmission.signal != bus::ports::Signal::kFrame) signal.duration = due(transmission.end) - at;
   (void)medium_.send(signal, at);  // the medium counts it if there is no room
 }

@@ -121,7 +121,7 @@ void Runner::strobe(SensorId sensor, std::uint32_t sequence) {
 }
 
 void Runner::actuate(const host::Actuation& actuation) {
-  if (config_.vehicle != nullptr) config_.vehicle->tell(actuation);
+  if (config_.vehicle != nullptr) config_.vehicle->report(actuation);
 }
 
 // ---- arrivals
@@ -142,7 +142,7 @@ void Runner::take_in() {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
     if (arrival->at < powered_on_) continue;  // without power the node receives nothing
     if (arrival->kind == bus::ports::LiveArrival::Kind::kCanReport) {
-      tell_errors(*arrival);
+      report_errors(*arrival);
       continue;
     }
     std::optional<Microticks> late;
@@ -153,7 +153,7 @@ void Runner::take_in() {
 }
 
 // Records the errors of the node's own controller on a private CAN, as its interface reports them.
-void Runner::tell_errors(const bus::ports::LiveArrival& arrival) {
+void Runner::report_errors(const bus::ports::LiveArrival& arrival) {
   const bus::ports::CanReport& report = arrival.report;
   const auto can_bus = static_cast<std::uint8_t>(arrival.can_bus);
   const recording::records::Stamp stamp = executive_->stamp(ticks(config_.clock.drive_time(arrival.at)));
@@ -272,7 +272,7 @@ bus::ports::MachineTime Runner::next_health(bus::ports::MachineTime now) const {
 }
 
 // Returns the instant of the next report, which may come sooner if a task ends before and makes room.
-bus::ports::MachineTime Runner::tell_health() {
+bus::ports::MachineTime Runner::report_health() {
   const bus::ports::MachineTime now = machine_clock_.now();
   if (now < health_due_) return health_due_;
   const Microticks next = next_due();
@@ -337,11 +337,11 @@ RunnerEnd Runner::run() {
       break;
     }
     if (now >= end) break;
-    const bus::ports::MachineTime tells = tell_health();
+    const bus::ports::MachineTime health_due = report_health();
     watch_lines();
     const Microticks next = next_due();
     const bus::ports::MachineTime due = next == kNever<Microticks> ? end : std::min(end, machine_time(next));
-    machine_clock_.wait_until(std::min(due, tells));
+    machine_clock_.wait_until(std::min(due, health_due));
   }
   record_account();
   return how;

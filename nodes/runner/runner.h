@@ -117,7 +117,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   }
 
   void take_in();
-  void tell_errors(const bus::ports::LiveArrival& arrival);
+  void report_errors(const bus::ports::LiveArrival& arrival);
   void do_due(Microticks now);
   // Does a host's work: restarts a halted controller. It also restarts one whose coldstart attempts are
   // exhausted, after kCyclesUntilAnew of listening: if all nodes only listened, the cluster would never start.
@@ -127,7 +127,7 @@ class Runner final : private host::SensorLines, private host::TrueClock, private
   Microticks next_due() const;
   void watch_lines();
   bus::ports::MachineTime next_health(bus::ports::MachineTime now) const;
-  bus::ports::MachineTime tell_health();
+  bus::ports::MachineTime report_health();
   std::uint64_t dropped() const;
   void record_account();
 

@@ -37,14 +37,14 @@ void TimingAccount::frames_lost(Microticks noticed, Duration late, std::int64_t 
 void TimingAccount::record(Microticks now, const recording::records::BinnedDurations& floor,
                            const bus::ports::LiveCounts& medium, std::uint64_t dropped) {
   const recording::records::Stamp at = stamp_(now);
-  const auto tell = [&](LatenessOf of, const recording::records::BinnedDurations& lateness) {
+  const auto report = [&](LatenessOf of, const recording::records::BinnedDurations& lateness) {
     sink_.on(recording::records::LatenessHistogram{at, of, lateness.longest(), lateness.counts()});
   };
-  tell(LatenessOf::kWakeUps, wake_ups);
-  tell(LatenessOf::kFloor, floor);
-  tell(LatenessOf::kDepartures, departures);
-  tell(LatenessOf::kArrivals, arrivals);
-  tell(LatenessOf::kTransits, transits);
+  report(LatenessOf::kWakeUps, wake_ups);
+  report(LatenessOf::kFloor, floor);
+  report(LatenessOf::kDepartures, departures);
+  report(LatenessOf::kArrivals, arrivals);
+  report(LatenessOf::kTransits, transits);
   sink_.on(recording::records::MediumCounts{at, medium.sent, medium.received, medium.not_sent, medium.lost,
                                             medium.foreign, medium.malformed, dropped});
 }

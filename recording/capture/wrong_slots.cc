@@ -91,17 +91,17 @@ class SlotJudge {
     const StampedFrame& frame = frames_[index];
     const std::int64_t reach = kCyclesAway * cycle_;
     witnesses_.clear();
-    const auto hear = [&](const StampedFrame& other) {
+    const auto add = [&](const StampedFrame& other) {
       if (is_static(other) && other.slot != frame.slot) witnesses_.push_back(&other);
     };
     for (std::size_t i = index;
          i-- > 0 && witnesses_.size() < kWitnesses && frame.time_ns - frames_[i].time_ns <= reach;)
-      hear(frames_[i]);
+      add(frames_[i]);
     const std::size_t before = witnesses_.size();
     for (std::size_t i = index + 1;
          i < frames_.size() && witnesses_.size() < before + kWitnesses && frames_[i].time_ns - frame.time_ns <= reach;
          ++i)
-      hear(frames_[i]);
+      add(frames_[i]);
     if (witnesses_.size() < kLeastWitnesses) return std::nullopt;
 
     const std::int64_t first = phase(*witnesses_.front());

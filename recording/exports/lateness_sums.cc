@@ -16,19 +16,20 @@ bool is_of_another_process(const records::BinnedDurations& newer, const records:
 void LatenessSums::on(const records::LatenessHistogram& record) {
   const std::size_t of = index_of(record.of);
   if (of < 1 || of > kKinds) return;  // from a later version
-  Told& told = told_[record.stamp.node][of - 1];
+  Reported& reported = reported_[record.stamp.node][of - 1];
   const records::BinnedDurations newest(record.counts, record.longest);
-  if (record.stamp.local < told.at || is_of_another_process(newest, told.newest)) told.before.add(told.newest);
-  told.newest = newest;
-  told.at = record.stamp.local;
+  if (record.stamp.local < reported.at || is_of_another_process(newest, reported.newest))
+    reported.before.add(reported.newest);
+  reported.newest = newest;
+  reported.at = record.stamp.local;
 }
 
 std::map<NodeId, NodeLateness> LatenessSums::nodes() const {
   using records::LatenessOf;
   std::map<NodeId, NodeLateness> nodes;
-  for (const auto& [node, told] : told_) {
-    const auto sum = [&kinds = told](LatenessOf of) {
-      const Told& one = kinds[index_of(of) - 1];
+  for (const auto& [node, reported] : reported_) {
+    const auto sum = [&kinds = reported](LatenessOf of) {
+      const Reported& one = kinds[index_of(of) - 1];
       records::BinnedDurations all = one.before;
       all.add(one.newest);
       return all;

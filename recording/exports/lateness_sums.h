@@ -34,12 +34,12 @@ class LatenessSums final : public records::Sink {
 
  private:
   static constexpr std::size_t kKinds = index_of(records::LatenessOf::kTransits);
-  struct Told {
+  struct Reported {
     records::BinnedDurations before;  // from the node's former processes
     records::BinnedDurations newest;  // from its present process
     LocalTime at{};                   // local time of the newest histogram
   };
-  std::map<NodeId, std::array<Told, kKinds>> told_;
+  std::map<NodeId, std::array<Reported, kKinds>> reported_;
 };
 
 }  // namespace ttf::recording::exports

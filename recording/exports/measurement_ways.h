@@ -104,9 +104,9 @@ class MeasurementWays {
 
   // Advances to `now`. Calls `on_act(act, execution)` for every act whose task's execution is known, with the mark of
   // the execution.
-  template <class Told> void advance(TrueTime now, Told&& told) {
-    while (!acts_.empty() && acts_.front().at + kExecutionIsTold < now) {
-      if (const std::optional<WayMark> mark = perform(acts_.front())) told(acts_.front(), *mark);
+  template <class OnAct> void advance(TrueTime now, OnAct&& on_act) {
+    while (!acts_.empty() && acts_.front().at + kRecordDelay < now) {
+      if (const std::optional<WayMark> mark = perform(acts_.front())) on_act(acts_.front(), *mark);
       acts_.pop_front();
     }
     forget(now);
@@ -115,10 +115,10 @@ class MeasurementWays {
   void finish();
 
  private:
-  static constexpr Duration kExecutionIsTold = Duration::milliseconds(1);  // delay of its record after
-                                                                           // its start
-  static constexpr Duration kTolerance = Duration::microseconds(2);  // between a task's start and the stamps of its
-                                                                     // acts then
+  static constexpr Duration kRecordDelay = Duration::milliseconds(1);  // delay of its record after
+                                                                       // its start
+  static constexpr Duration kTolerance = Duration::microseconds(2);    // between a task's start and the stamps of its
+                                                                       // acts then
 
   struct Carried {
     std::optional<std::uint8_t> channel;  // the first that had it

@@ -39,7 +39,7 @@ std::string PerfettoExport::measurement(const MeasurementId& id) const {
 // Advances the timeline. Records come in the order of time, so marks that are old enough are complete.
 TrueTime PerfettoExport::come_to(TrueTime at) {
   const TrueTime now = shown(at);
-  ways_.advance(now, [this](const MeasurementWays::Act& act, const WayMark& run) { told(act, run); });
+  ways_.advance(now, [this](const MeasurementWays::Act& act, const WayMark& run) { on_act(act, run); });
   timeline_.write_before(now - kKeptBack);
   return now;
 }
@@ -73,7 +73,7 @@ std::vector<TraceFlow> PerfettoExport::flows_of(const TraceMark& mark) {
 }
 
 // Notes an act in the slice of its task.
-void PerfettoExport::told(const MeasurementWays::Act& act, const WayMark& run) {
+void PerfettoExport::on_act(const MeasurementWays::Act& act, const WayMark& run) {
   const TraceMark slice{run.at, run.serial};
   const auto note = [&](const char* name, const MeasurementId& id) { timeline_.note(slice, {name, measurement(id)}); };
   using Deed = MeasurementWays::Deed;

@@ -63,7 +63,7 @@ class PerfettoExport final : public records::Sink {
     TrueTime newest{};  // instant of the newest measurement in it
   };
   TrueTime come_to(TrueTime at);
-  void told(const MeasurementWays::Act& act, const WayMark& run);
+  void on_act(const MeasurementWays::Act& act, const WayMark& run);
   void join(const MeasurementWays::Way& way);
   std::vector<TraceFlow> flows_of(const TraceMark& mark);
   TraceMark node_instant(NodeId node, const char* lane, TrueTime at, std::string name, std::vector<TraceNote> notes);

@@ -94,7 +94,7 @@ bool arrives_before(const RecordedList& a, const RecordedList& b) {
 // Numbers the lists of each sensor by their time, and copies by their arrival.
 void give_numbers(std::vector<RecordedList>& lists, std::size_t sensors) {
   std::stable_sort(lists.begin(), lists.end(), arrives_before);
-  std::vector<std::map<GlobalTime, std::uint32_t>> times(sensors), heard(sensors);
+  std::vector<std::map<GlobalTime, std::uint32_t>> times(sensors), copies(sensors);
   for (const RecordedList& list : lists) times[index_of(list.id.sensor)].emplace(list.measured, 0);
   for (auto& of_sensor : times) {
     std::uint32_t next = 0;
@@ -103,7 +103,7 @@ void give_numbers(std::vector<RecordedList>& lists, std::size_t sensors) {
   for (RecordedList& list : lists) {
     const std::size_t s = index_of(list.id.sensor);
     list.id.sequence = times[s][list.measured];
-    list.copy = heard[s][list.measured]++;
+    list.copy = copies[s][list.measured]++;
   }
 }
 

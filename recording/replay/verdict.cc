@@ -99,7 +99,7 @@ std::string degrees(const Facts& facts) {
                      counted(facts.bearings, "bearing"));
 }
 
-std::string heard_before(const Facts& facts) {
+std::string received_before(const Facts& facts) {
   if (!facts.made_nothing || !most(facts.duplicates, facts.lists)) return "";
   return fmt::format("{} of {} were heard before: they have the sensor and the time of another list", facts.duplicates,
                      counted(facts.lists, "list"));
@@ -118,7 +118,7 @@ std::string never_confirmed(const Facts& facts) {
 }
 
 using Cause = std::string (*)(const Facts&);
-constexpr Cause kCauses[] = {damaged_rows, too_old, too_few, degrees, long_gaps, uncertain_after_gaps, heard_before};
+constexpr Cause kCauses[] = {damaged_rows, too_old, too_few, degrees, long_gaps, uncertain_after_gaps, received_before};
 
 }  // namespace
 

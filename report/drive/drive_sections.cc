@@ -35,11 +35,11 @@ std::vector<scene::ViewedSensor> sensors_of(const Drive& drive) {
 
 }  // namespace
 
-std::vector<ToldDrive> told_of(const std::vector<const Drive*>& drives) {
-  std::vector<ToldDrive> told;
+std::vector<ReportedDrive> reported_drives(const std::vector<const Drive*>& drives) {
+  std::vector<ReportedDrive> reported;
   std::size_t scenes = 0;
   for (const Drive* drive : drives) {
-    ToldDrive& one = told.emplace_back();
+    ReportedDrive& one = reported.emplace_back();
     one.drive = drive;
     if (!drive->log) continue;
     DriveSeriesSink series;
@@ -53,24 +53,25 @@ std::vector<ToldDrive> told_of(const std::vector<const Drive*>& drives) {
     }
     one.series = series.finish();
   }
-  return told;
+  return reported;
 }
 
-void scene_section(page::Page& page, const std::vector<ToldDrive>& drives) {
+void scene_section(page::Page& page, const std::vector<ReportedDrive>& drives) {
   std::vector<nlohmann::ordered_json> scenes;
   for (std::size_t d = 0; d < drives.size(); ++d) {
-    const ToldDrive& told = drives[d];
-    if (told.scene.empty()) continue;
-    const drawing::Names names = drawing::names_of(told.drive->log->manifest());
-    scenes.push_back(scene::packed(told.scene, names, told.drive->label, static_cast<int>(d)));
+    const ReportedDrive& reported = drives[d];
+    if (reported.scene.empty()) continue;
+    const drawing::Names names = drawing::names_of(reported.drive->log->manifest());
+    scenes.push_back(scene::packed(reported.scene, names, reported.drive->label, static_cast<int>(d)));
   }
   if (scenes.empty()) return;
   const auto logs = static_cast<std::size_t>(
-      std::ranges::count_if(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; }));
+      std::ranges::count_if(drives, [](const ReportedDrive& reported) { return reported.drive->log != nullptr; }));
   page.section("The drive from above");
   std::string caption;
   if (logs > kMostScenes) caption = fmt::format("The first {} of {} drives are shown. ", kMostScenes, logs);
-  const bool moves = std::ranges::any_of(drives, [](const ToldDrive& told) { return !told.scene.own.empty(); });
+  const bool moves =
+      std::ranges::any_of(drives, [](const ReportedDrive& reported) { return !reported.scene.own.empty(); });
   caption += "In the vehicle's frame, x to the right. Tracks are moved on by their velocity ";
   caption += moves ? "over ground, and by the vehicle's own motion, from image to image. Trails and the lines to where "
                      "tracks are after a second are relative to the vehicle. "
@@ -78,24 +79,24 @@ void scene_section(page::Page& page, const std::vector<ToldDrive>& drives) {
   page.scenes(std::move(scenes), caption + "Plots over time and timing diagrams show the same instant.");
 }
 
-void errors_section(page::Page& page, const std::vector<ToldDrive>& drives) {
+void errors_section(page::Page& page, const std::vector<ReportedDrive>& drives) {
   const page::Plot plots[] = {error_plot(drives), age_histogram(drives), age_plot(drives)};
   if (std::ranges::all_of(plots, [](const page::Plot& plot) { return plot.views.empty(); })) return;
   page.section("Errors and ages");
   for (const page::Plot& plot : plots) page.plot(plot);
 }
 
-void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window) {
+void timing_section(page::Page& page, const std::vector<ReportedDrive>& drives, const DiagramWindow& window) {
   std::vector<page::PageDiagram> diagrams;
   std::vector<std::string> shown, left_out;
   const auto logs = static_cast<std::size_t>(
-      std::ranges::count_if(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; }));
+      std::ranges::count_if(drives, [](const ReportedDrive& reported) { return reported.drive->log != nullptr; }));
   const std::size_t drawn = std::min(logs, window.most);
-  for (const ToldDrive& told : drives) {
-    if (!told.drive->log || diagrams.size() >= drawn) continue;
-    const recording::log::LogManifest& manifest = told.drive->log->manifest();
+  for (const ReportedDrive& reported : drives) {
+    if (!reported.drive->log || diagrams.size() >= drawn) continue;
+    const recording::log::LogManifest& manifest = reported.drive->log->manifest();
     const drawing::Names names = drawing::names_of(manifest);
-    TrueTime from = window.from.value_or(scenario_in(*told.drive->log).judged_from);
+    TrueTime from = window.from.value_or(scenario_in(*reported.drive->log).judged_from);
     // The given end lies before the judged part: the window ends there.
     if (!window.from && window.to && *window.to <= from) from = std::max(TrueTime{}, *window.to - window.length);
     const TrueTime to = std::min(window.to.value_or(from + window.length), from + kLongestDiagram);
@@ -105,11 +106,11 @@ void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, cons
         names, {manifest.cycle_ns}, from, std::max(to - from, window.length),
         [&](TrueTime begin, TrueTime end, const std::string& svg) { return packer.add(begin, end, svg); });
     recording::records::Tee both({&diagram, &windows});
-    told.drive->log->read(both);
+    reported.drive->log->read(both);
     windows.finish();
-    if (const std::optional<TrueTime> end = packer.full_at(); end && in_ms(*end) < 1e3 * told.series.end_s)
-      left_out.push_back(fmt::format("{} from {:.3f} s on", told.drive->label, in_ms(*end) * 1e-3));
-    diagrams.push_back({told.drive->label, diagram.svg(timing::TimingUse::kPage), packer.finish()});
+    if (const std::optional<TrueTime> end = packer.full_at(); end && in_ms(*end) < 1e3 * reported.series.end_s)
+      left_out.push_back(fmt::format("{} from {:.3f} s on", reported.drive->label, in_ms(*end) * 1e-3));
+    diagrams.push_back({reported.drive->label, diagram.svg(timing::TimingUse::kPage), packer.finish()});
     shown.push_back(fmt::format("{:g} ms from {:g} s on", in_ms(to - from), in_ms(from) * 1e-3));
   }
   if (diagrams.empty()) return;
@@ -128,12 +129,12 @@ void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, cons
                     "times and ages.");
 }
 
-void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives, std::size_t most) {
+void time_base_section(page::Page& page, const std::vector<ReportedDrive>& drives, std::size_t most) {
   const page::Plot precision = precision_plot(drives);
   std::vector<page::Plot> corrections;
-  for (const ToldDrive& told : drives)
-    if (told.drive->log && !told.series.offset_corrections.empty() && corrections.size() < most)
-      corrections.push_back(corrections_plot(told, drawing::names_of(told.drive->log->manifest())));
+  for (const ReportedDrive& reported : drives)
+    if (reported.drive->log && !reported.series.offset_corrections.empty() && corrections.size() < most)
+      corrections.push_back(corrections_plot(reported, drawing::names_of(reported.drive->log->manifest())));
   if (precision.views.empty() && corrections.empty()) return;
   page.section("The time base");
   if (precision.views.empty())
@@ -146,11 +147,11 @@ void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives, s
   page.close_details();
 }
 
-void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives) {
+void troubles_section(page::Page& page, const std::vector<ReportedDrive>& drives) {
   page.section("Faults and problems");
   std::vector<std::string> without;
-  for (const ToldDrive& told : drives)
-    if (!told.drive->log) without.push_back(told.drive->label);
+  for (const ReportedDrive& reported : drives)
+    if (!reported.drive->log) without.push_back(reported.drive->label);
   const std::string elsewhere =
       "slot problems and missed deadlines are in the table above only; faults, if any, in summary.json.";
   if (without.size() == drives.size()) {
@@ -158,8 +159,8 @@ void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives) {
     return;
   }
   bool any = false;
-  for (const ToldDrive& told : drives)
-    for (const page::PageTable& table : trouble_tables(told)) {
+  for (const ReportedDrive& reported : drives)
+    for (const page::PageTable& table : trouble_tables(reported)) {
       page.table(table);
       any = true;
     }

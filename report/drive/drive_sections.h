@@ -25,14 +25,14 @@ struct DiagramWindow {
 inline constexpr std::size_t kMostScenes = 6;  // drives
 
 // Returns the drives with the series of their logs, and the first with their scenes.
-std::vector<ToldDrive> told_of(const std::vector<const Drive*>& drives);
+std::vector<ReportedDrive> reported_drives(const std::vector<const Drive*>& drives);
 
 // Each section is omitted if it is empty, except the faults: their absence deserves a sentence.
-void scene_section(page::Page& page, const std::vector<ToldDrive>& drives);
-void errors_section(page::Page& page, const std::vector<ToldDrive>& drives);
-void timing_section(page::Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window);
-void time_base_section(page::Page& page, const std::vector<ToldDrive>& drives,
+void scene_section(page::Page& page, const std::vector<ReportedDrive>& drives);
+void errors_section(page::Page& page, const std::vector<ReportedDrive>& drives);
+void timing_section(page::Page& page, const std::vector<ReportedDrive>& drives, const DiagramWindow& window);
+void time_base_section(page::Page& page, const std::vector<ReportedDrive>& drives,
                        std::size_t most);  // the most drives with a plot of corrections
-void troubles_section(page::Page& page, const std::vector<ToldDrive>& drives);
+void troubles_section(page::Page& page, const std::vector<ReportedDrive>& drives);
 
 }  // namespace ttf::report::drive

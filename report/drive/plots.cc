@@ -15,7 +15,7 @@ constexpr std::string_view kTimeAxis = "true time [s]";
 
 using Series = std::vector<TimedValue> DriveSeries::*;
 
-std::vector<page::Curve> curves_of(const std::vector<ToldDrive>& drives, Series series) {
+std::vector<page::Curve> curves_of(const std::vector<ReportedDrive>& drives, Series series) {
   std::vector<page::Curve> curves;
   for (std::size_t d = 0; d < drives.size(); ++d) {
     page::Curve curve{drives[d].drive->label, static_cast<int>(d), {}, {}, {}, {}};
@@ -32,17 +32,17 @@ void add_view(page::Plot& plot, std::string label, std::string y, std::vector<pa
   if (!curves.empty()) plot.views.push_back({std::move(label), std::move(y), std::move(curves)});
 }
 
-std::string sensor_name(const std::vector<ToldDrive>& drives, SensorId sensor) {
-  for (const ToldDrive& told : drives)
-    if (told.drive->log && index_of(sensor) < told.drive->log->manifest().sensor_names.size())
-      return told.drive->log->manifest().sensor_names[index_of(sensor)];
+std::string sensor_name(const std::vector<ReportedDrive>& drives, SensorId sensor) {
+  for (const ReportedDrive& reported : drives)
+    if (reported.drive->log && index_of(sensor) < reported.drive->log->manifest().sensor_names.size())
+      return reported.drive->log->manifest().sensor_names[index_of(sensor)];
   return "sensor " + std::to_string(index_of(sensor));
 }
 
 using Ages = std::map<SensorId, std::vector<double>> DriveSeries::*;
 
 // Adds one view of all sensors together, and one for each of several sensors.
-void add_age_views(page::Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
+void add_age_views(page::Plot& plot, const std::vector<ReportedDrive>& drives, Ages ages, const std::string& when) {
   std::set<SensorId> sensors;
   std::vector<NamedValues> all;
   for (std::size_t d = 0; d < drives.size(); ++d) {
@@ -99,7 +99,7 @@ std::vector<page::Curve> histogram(const std::vector<NamedValues>& all, int bins
   return curves;
 }
 
-page::Plot error_plot(const std::vector<ToldDrive>& drives) {
+page::Plot error_plot(const std::vector<ReportedDrive>& drives) {
   page::Plot plot{"Error over time",
                   "At each use of an image, against the truth: the root mean square over the matched objects.",
                   std::string(kTimeAxis),
@@ -112,7 +112,7 @@ page::Plot error_plot(const std::vector<ToldDrive>& drives) {
   return plot;
 }
 
-page::Plot age_plot(const std::vector<ToldDrive>& drives) {
+page::Plot age_plot(const std::vector<ReportedDrive>& drives) {
   page::Plot plot{"Age over time",
                   "Age of each sensor's newest measurement in an image, at the image's use.",
                   std::string(kTimeAxis),
@@ -125,7 +125,7 @@ page::Plot age_plot(const std::vector<ToldDrive>& drives) {
   return plot;
 }
 
-page::Plot age_histogram(const std::vector<ToldDrive>& drives) {
+page::Plot age_histogram(const std::vector<ReportedDrive>& drives) {
   page::Plot plot{"Ages of measurements",
                   "Latency from the instant of measuring, as shares of all.",
                   "age [ms]",
@@ -138,7 +138,7 @@ page::Plot age_histogram(const std::vector<ToldDrive>& drives) {
   return plot;
 }
 
-page::Plot precision_plot(const std::vector<ToldDrive>& drives) {
+page::Plot precision_plot(const std::vector<ReportedDrive>& drives) {
   page::Plot plot{"Precision",
                   "Largest difference between any two nodes' global times, double cycle by double cycle.",
                   std::string(kTimeAxis),
@@ -150,8 +150,8 @@ page::Plot precision_plot(const std::vector<ToldDrive>& drives) {
   return plot;
 }
 
-page::Plot corrections_plot(const ToldDrive& told, const drawing::Names& names) {
-  page::Plot plot{told.drive->label + ": offset corrections",
+page::Plot corrections_plot(const ReportedDrive& reported, const drawing::Names& names) {
+  page::Plot plot{reported.drive->label + ": offset corrections",
                   "Each node's correction of its clock in a double cycle.",
                   std::string(kTimeAxis),
                   page::Plot::Kind::kLines,
@@ -160,7 +160,7 @@ page::Plot corrections_plot(const ToldDrive& told, const drawing::Names& names) 
                   {}};
   std::vector<page::Curve> curves;
   int colour = 0;
-  for (const auto& [node, values] : told.series.offset_corrections) {
+  for (const auto& [node, values] : reported.series.offset_corrections) {
     page::Curve curve{names.node(node), colour++, {}, {}, {}, {}};
     for (const TimedValue& one : thinned(values, kMostPoints)) {
       curve.x.push_back(one.t_s);

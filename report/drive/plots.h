@@ -10,11 +10,11 @@
 
 namespace ttf::report::drive {
 
-page::Plot error_plot(const std::vector<ToldDrive>& drives);
-page::Plot age_plot(const std::vector<ToldDrive>& drives);  // over time
-page::Plot age_histogram(const std::vector<ToldDrive>& drives);
-page::Plot precision_plot(const std::vector<ToldDrive>& drives);
-page::Plot corrections_plot(const ToldDrive& drive, const drawing::Names& names);  // one curve per node
+page::Plot error_plot(const std::vector<ReportedDrive>& drives);
+page::Plot age_plot(const std::vector<ReportedDrive>& drives);  // over time
+page::Plot age_histogram(const std::vector<ReportedDrive>& drives);
+page::Plot precision_plot(const std::vector<ReportedDrive>& drives);
+page::Plot corrections_plot(const ReportedDrive& drive, const drawing::Names& names);  // one curve per node
 
 // Returns the shares of the values in bins of one common width, as curves of Plot::Kind::kSteps. x is the
 // begin of a bin; one more bin of height 0 follows the last.

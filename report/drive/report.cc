@@ -38,12 +38,12 @@ void label_drives(std::vector<ResultsFolder>& folders) {
   }
 }
 
-void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
+void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ReportedDrive>& drives) {
   page.section("Question");
   std::set<std::string> described;
-  for (const ToldDrive& told : drives)
-    if (told.drive->log)
-      if (const ScenarioWords words = scenario_in(*told.drive->log);
+  for (const ReportedDrive& reported : drives)
+    if (reported.drive->log)
+      if (const ScenarioWords words = scenario_in(*reported.drive->log);
           !words.description.empty() && described.insert(words.description).second)
         page.paragraph(words.description);
   for (const ResultsFolder& folder : folders) {
@@ -61,7 +61,7 @@ void asked(page::Page& page, const std::vector<ResultsFolder>& folders, const st
   }
 }
 
-void answered(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ToldDrive>& drives) {
+void answered(page::Page& page, const std::vector<ResultsFolder>& folders, const std::vector<ReportedDrive>& drives) {
   const DrivesAnswer answer = answer_of(drives);
   page.section("Answer");
   page.lead(answer.answer);
@@ -74,7 +74,7 @@ void answered(page::Page& page, const std::vector<ResultsFolder>& folders, const
     for (const std::string& remark : folder.remarks) page.paragraph(folder.path + ": " + remark);
 }
 
-void pictures(page::Page& page, const std::vector<ToldDrive>& drives) {
+void pictures(page::Page& page, const std::vector<ReportedDrive>& drives) {
   std::size_t shown = 0;
   bool any = false;
   const auto add = [&](std::string_view svg, const std::string& caption) {
@@ -82,62 +82,63 @@ void pictures(page::Page& page, const std::vector<ToldDrive>& drives) {
     any = true;
     page.picture(svg, caption);
   };
-  for (const ToldDrive& told : drives) {
-    if (!told.drive->log || shown >= kMostPictures) continue;
+  for (const ReportedDrive& reported : drives) {
+    if (!reported.drive->log || shown >= kMostPictures) continue;
     ++shown;
-    const recording::log::LogManifest& manifest = told.drive->log->manifest();
+    const recording::log::LogManifest& manifest = reported.drive->log->manifest();
     const drawing::Names names = drawing::names_of(manifest);
     plots::PositionOptions options;
-    options.title = fmt::format("{}, {}", told.drive->scenario, told.drive->label);
-    options.from = scenario_in(*told.drive->log).judged_from;
+    options.title = fmt::format("{}, {}", reported.drive->scenario, reported.drive->label);
+    options.from = scenario_in(*reported.drive->log).judged_from;
     plots::PositionPlots plots(names, options);
     startup::StartupExtent extent;
     recording::exports::LatenessSums lateness;
     recording::records::Tee tee({&plots, &extent, &lateness});
-    told.drive->log->read(tee);
+    reported.drive->log->read(tee);
     if (!plots.select().empty())
       add(plots.plane_svg(),
-          told.drive->label + (plots.several() ? ": y over x of all objects, by truth and image"
-                                               : ": y over x by truth, sensors, DGPS and the image"));
+          reported.drive->label + (plots.several() ? ": y over x of all objects, by truth and image"
+                                                   : ": y over x by truth, sensors, DGPS and the image"));
     if (const auto window = extent.window({manifest.cycle_ns})) {
       startup::StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
-      told.drive->log->read(startup);
-      add(startup.svg(), told.drive->label + ": start-up, every node's states and transmissions");
+      reported.drive->log->read(startup);
+      add(startup.svg(), reported.drive->label + ": start-up, every node's states and transmissions");
     }
     if (const auto nodes = lateness.nodes(); !nodes.empty())
-      add(plots::lateness_svg(nodes, names), told.drive->label + ": lateness of wake-ups, in real time");
+      add(plots::lateness_svg(nodes, names), reported.drive->label + ": lateness of wake-ups, in real time");
   }
 }
 
-void made(page::Page& page, const std::vector<ToldDrive>& drives) {
-  if (std::ranges::none_of(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; })) return;
+void made(page::Page& page, const std::vector<ReportedDrive>& drives) {
+  if (std::ranges::none_of(drives, [](const ReportedDrive& reported) { return reported.drive->log != nullptr; }))
+    return;
   page.section("How to repeat it");
   page::PageTable table{"Facts from each log",
                         {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
                         {}};
   std::set<std::string> commands, texts;
   std::vector<std::string> order;
-  for (const ToldDrive& told : drives) {
-    if (!told.drive->log) continue;
-    const recording::log::LogManifest& manifest = told.drive->log->manifest();
+  for (const ReportedDrive& reported : drives) {
+    if (!reported.drive->log) continue;
+    const recording::log::LogManifest& manifest = reported.drive->log->manifest();
     std::string hashes;
     for (const auto& [what, hash] : manifest.hashes)
       hashes += fmt::format("{}{} {}", hashes.empty() ? "" : ", ", what, hash);
-    table.rows.push_back({told.drive->label, manifest.version, std::to_string(manifest.seed), manifest.strategy,
+    table.rows.push_back({reported.drive->label, manifest.version, std::to_string(manifest.seed), manifest.strategy,
                           manifest.cluster_name,
-                          recording::log::ContentHash::text(told.drive->log->content_hash().value()), hashes});
-    const ScenarioWords words = scenario_in(*told.drive->log);
+                          recording::log::ContentHash::text(reported.drive->log->content_hash().value()), hashes});
+    const ScenarioWords words = scenario_in(*reported.drive->log);
     std::string command = fmt::format(
         "ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
         page::shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
         page::shell_word(manifest.strategy), manifest.seed);
     constexpr std::int64_t kNsPerSecond = 1'000'000'000, kPpm = 1'000'000;
-    if (told.drive->duration && *told.drive->duration != words.duration)
-      command += " --duration " + scaled_text(told.drive->duration->ns, kNsPerSecond);
+    if (reported.drive->duration && *reported.drive->duration != words.duration)
+      command += " --duration " + scaled_text(reported.drive->duration->ns, kNsPerSecond);
     if (manifest.time_scale_ppm != kPpm) command += " --time-scale " + scaled_text(manifest.time_scale_ppm, kPpm);
     if (!manifest.recording_name.empty()) command += " --input " + page::shell_word(manifest.recording_name);
     if (!manifest.truth_name.empty()) command += " --truth " + page::shell_word(manifest.truth_name);
-    if (has_libraries(*told.drive)) command += " --steps FOLDER";
+    if (has_libraries(*reported.drive)) command += " --steps FOLDER";
     if (commands.insert(command).second) order.push_back(command);
   }
   if (!table.rows.empty()) page.table(table);
@@ -149,9 +150,9 @@ void made(page::Page& page, const std::vector<ToldDrive>& drives) {
     for (const std::string& command : order) all += command + '\n';
     page.command(all);
   }
-  for (const ToldDrive& told : drives)
-    if (told.drive->log)
-      for (const recording::log::Attachment& attachment : told.drive->log->attachments())
+  for (const ReportedDrive& reported : drives)
+    if (reported.drive->log)
+      for (const recording::log::Attachment& attachment : reported.drive->log->attachments())
         if (texts.insert(attachment.name + '\n' + attachment.bytes).second)
           page.preformatted(attachment.name, attachment.bytes);
 }
@@ -167,7 +168,7 @@ std::string drive_report_html(std::vector<ResultsFolder> folders, const DiagramW
       all.push_back(&drive);
       scenarios.insert(drive.scenario);
     }
-  const std::vector<ToldDrive> drives = told_of(all);
+  const std::vector<ReportedDrive> drives = reported_drives(all);
   page::Page page(joined({scenarios.begin(), scenarios.end()}),
                   folders.size() == 1 ? "Report of a run" : fmt::format("Report of {} runs", folders.size()));
   asked(page, folders, drives);

@@ -30,7 +30,7 @@ struct Drive {
   std::shared_ptr<const recording::merge::MergedLogs> log;  // null if no log was kept
   std::optional<Duration> duration{};                       // by the folder's summary
   std::vector<recording::scene::ViewedSensor> sensors{};    // by SensorId; empty: only the log's names are known
-  std::vector<ToldStages> stages{};                         // latency by stage; empty if no bounds are known
+  std::vector<ReportedStages> stages{};                     // latency by stage; empty if no bounds are known
 };
 
 struct ResultsFolder {

@@ -20,22 +20,22 @@ std::string cell(std::uint64_t beyond) { return beyond == 0 ? "-" : fmt::format(
 // A sensor's stages in one drive.
 struct Of {
   const std::string* label;
-  const ToldStages* stages;
+  const ReportedStages* stages;
 };
 
-std::vector<std::string> sensors_of(const std::vector<ToldDrive>& drives) {
+std::vector<std::string> sensors_of(const std::vector<ReportedDrive>& drives) {
   std::vector<std::string> names;
-  for (const ToldDrive& told : drives)
-    for (const ToldStages& one : told.drive->stages)
+  for (const ReportedDrive& reported : drives)
+    for (const ReportedStages& one : reported.drive->stages)
       if (one.seen > 0 && std::ranges::find(names, one.sensor) == names.end()) names.push_back(one.sensor);
   return names;
 }
 
-std::vector<Of> of_sensor(const std::vector<ToldDrive>& drives, const std::string& sensor) {
+std::vector<Of> of_sensor(const std::vector<ReportedDrive>& drives, const std::string& sensor) {
   std::vector<Of> all;
-  for (const ToldDrive& told : drives)
-    for (const ToldStages& one : told.drive->stages)
-      if (one.sensor == sensor && one.seen > 0) all.push_back({&told.drive->label, &one});
+  for (const ReportedDrive& reported : drives)
+    for (const ReportedStages& one : reported.drive->stages)
+      if (one.sensor == sensor && one.seen > 0) all.push_back({&reported.drive->label, &one});
   return all;
 }
 
@@ -44,7 +44,7 @@ std::vector<std::string> stages_of(const std::vector<Of>& drives) {
   std::vector<std::string> names;
   for (const Of& one : drives) {
     auto place = names.begin();
-    for (const ToldStage& stage : one.stages->stages) {
+    for (const ReportedStage& stage : one.stages->stages) {
       const auto known = std::ranges::find(names, stage.name);
       place = known != names.end() ? known : names.insert(place, stage.name);
       ++place;
@@ -53,7 +53,7 @@ std::vector<std::string> stages_of(const std::vector<Of>& drives) {
   return names;
 }
 
-page::PageTable ages_table(const std::vector<ToldDrive>& drives) {
+page::PageTable ages_table(const std::vector<ReportedDrive>& drives) {
   page::PageTable table{
       "Age of a measurement at the end of its way, the first use of an image that shows it [ms]",
       {"sensor", "run", "seen all the way", "least", "most", "least", "mean", "p99", "most", "outside"},
@@ -62,9 +62,9 @@ page::PageTable ages_table(const std::vector<ToldDrive>& drives) {
   for (const std::string& sensor : sensors_of(drives)) {
     bool first = true;
     for (const Of& one : of_sensor(drives, sensor)) {
-      const ToldStage& last = one.stages->stages.back();
+      const ReportedStage& last = one.stages->stages.back();
       std::uint64_t beyond = 0;
-      for (const ToldStage& stage : one.stages->stages) beyond = std::max(beyond, stage.beyond);
+      for (const ReportedStage& stage : one.stages->stages) beyond = std::max(beyond, stage.beyond);
       table.rows.push_back({first ? sensor : "", *one.label,
                             fmt::format("{} of {}", one.stages->seen, one.stages->measured), cell(last.age_best),
                             cell(last.age_worst), cell(last.age.least), cell(last.age.mean), cell(last.age.p99),
@@ -85,7 +85,7 @@ page::PageTable stages_table(const std::string& sensor, const std::vector<Of>& d
   for (const std::string& name : stages_of(drives)) {
     bool first = true;
     for (const Of& one : drives) {
-      const auto stage = std::ranges::find(one.stages->stages, name, &ToldStage::name);
+      const auto stage = std::ranges::find(one.stages->stages, name, &ReportedStage::name);
       if (stage == one.stages->stages.end()) continue;
       std::vector<std::string> cells{first ? name : ""};
       if (several) cells.push_back(*one.label);
@@ -102,10 +102,10 @@ page::PageTable stages_table(const std::string& sensor, const std::vector<Of>& d
 
 }  // namespace
 
-std::string beyond_words(const std::string& label, const std::vector<ToldStages>& sensors) {
+std::string beyond_words(const std::string& label, const std::vector<ReportedStages>& sensors) {
   std::string text;
-  for (const ToldStages& one : sensors) {
-    const auto worst = std::ranges::max_element(one.stages, {}, &ToldStage::beyond);
+  for (const ReportedStages& one : sensors) {
+    const auto worst = std::ranges::max_element(one.stages, {}, &ReportedStage::beyond);
     if (worst == one.stages.end() || worst->beyond == 0) continue;
     text += fmt::format("{}{} of {} of {}", text.empty() ? "" : ", ", worst->beyond, counted(one.seen, "measurement"),
                         one.sensor);
@@ -113,13 +113,13 @@ std::string beyond_words(const std::string& label, const std::vector<ToldStages>
   return text.empty() ? "" : fmt::format("{}: ages outside the schedule's bounds: {}.", label, text);
 }
 
-void stages_section(page::Page& page, const std::vector<ToldDrive>& drives) {
+void stages_section(page::Page& page, const std::vector<ReportedDrive>& drives) {
   const std::vector<std::string> sensors = sensors_of(drives);
   if (sensors.empty()) return;
   page.section("Latency by stage");
   std::vector<std::string> beyond;
-  for (const ToldDrive& told : drives)
-    if (std::string words = beyond_words(told.drive->label, told.drive->stages); !words.empty())
+  for (const ReportedDrive& reported : drives)
+    if (std::string words = beyond_words(reported.drive->label, reported.drive->stages); !words.empty())
       beyond.push_back(std::move(words));
   if (beyond.empty())
     page.paragraph(

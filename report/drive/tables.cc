@@ -29,14 +29,14 @@ struct Repeated {
   std::vector<std::string> strategies;
   std::vector<std::vector<const Drive*>> drives;  // by seed, then strategy
 };
-std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
+std::map<std::string, Repeated> repeated(const std::vector<ReportedDrive>& drives) {
   std::map<std::string, std::map<std::uint64_t, std::map<std::string, const Drive*>>> by_scenario;
   std::map<std::string, Repeated> all;
-  for (const ToldDrive& told : drives) {
-    if (told.drive->summary.is_null()) continue;
-    by_scenario[told.drive->scenario][told.drive->seed].try_emplace(told.drive->strategy, told.drive);
-    std::vector<std::string>& known = all[told.drive->scenario].strategies;
-    if (std::ranges::find(known, told.drive->strategy) == known.end()) known.push_back(told.drive->strategy);
+  for (const ReportedDrive& reported : drives) {
+    if (reported.drive->summary.is_null()) continue;
+    by_scenario[reported.drive->scenario][reported.drive->seed].try_emplace(reported.drive->strategy, reported.drive);
+    std::vector<std::string>& known = all[reported.drive->scenario].strategies;
+    if (std::ranges::find(known, reported.drive->strategy) == known.end()) known.push_back(reported.drive->strategy);
   }
   for (auto& [scenario, one] : all)
     for (const auto& [seed, by_strategy] : by_scenario[scenario]) {
@@ -67,13 +67,13 @@ experiments::results::Interval interval(const Repeated& repeated, const Measure&
 }
 
 // Returns the answer for a single draw: it has no interval, and ranks nothing.
-std::string single_answer(const std::vector<ToldDrive>& drives) {
+std::string single_answer(const std::vector<ReportedDrive>& drives) {
   const bool one_folder = std::ranges::all_of(
-      drives, [&](const ToldDrive& told) { return told.drive->folder == drives.front().drive->folder; });
+      drives, [&](const ReportedDrive& reported) { return reported.drive->folder == drives.front().drive->folder; });
   std::string text;
-  for (const ToldDrive& told : drives)
-    if (const double error = position_rmse(told); std::isfinite(error)) {
-      const std::string& label = one_folder ? told.drive->strategy : told.drive->label;
+  for (const ReportedDrive& reported : drives)
+    if (const double error = position_rmse(reported); std::isfinite(error)) {
+      const std::string& label = one_folder ? reported.drive->strategy : reported.drive->label;
       text += text.empty() ? fmt::format("{} is off by {} m in position", label, drawing::brief(error))
                            : fmt::format(", {} by {} m", label, drawing::brief(error));
     }
@@ -121,15 +121,15 @@ std::string repeated_answer(const std::string& scenario, const Repeated& repeate
 }
 
 // Adds the troubles of a drive.
-void troubles_of(const ToldDrive& told, std::vector<std::string>& more) {
-  const Drive& drive = *told.drive;
+void troubles_of(const ReportedDrive& reported, std::vector<std::string>& more) {
+  const Drive& drive = *reported.drive;
   std::vector<std::string> troubles;
   for (const Measure& row : measures())
     if (const auto count = value_at(drive, row.path); !row.shown.trouble.empty() && count && *count > 0.0)
       troubles.push_back(counted(static_cast<std::uint64_t>(*count), std::string(row.shown.trouble)));
   if (!troubles.empty()) more.push_back(fmt::format("{}: {}.", drive.label, joined(troubles, " and ")));
   if (std::string beyond = beyond_words(drive.label, drive.stages); !beyond.empty()) more.push_back(std::move(beyond));
-  if (const auto& faults = told.series.faults; !faults.empty()) {
+  if (const auto& faults = reported.series.faults; !faults.empty()) {
     std::uint64_t acts = 0;
     for (const auto& [index, fault] : faults) acts += fault.acts;
     more.push_back(fmt::format("{}: {} injected, which acted {} in all.", drive.label,
@@ -152,9 +152,9 @@ std::string remark_on(const Drive& drive) {
 }
 
 // Returns whether a summary states that nothing went wrong.
-bool is_sound(const ToldDrive& told) {
+bool is_sound(const ReportedDrive& reported) {
   return std::ranges::all_of(measures(), [&](const Measure& row) {
-    return row.shown.trouble.empty() || value_at(*told.drive, row.path) == 0.0;
+    return row.shown.trouble.empty() || value_at(*reported.drive, row.path) == 0.0;
   });
 }
 
@@ -167,23 +167,23 @@ std::optional<double> value_at(const Drive& drive, std::string_view pointer) {
   return drive.summary.at(at).get<double>();
 }
 
-double position_rmse(const ToldDrive& told) {
-  if (const auto error = value_at(*told.drive, position_error().path)) return *error;
-  if (!told.drive->summary.is_null() || told.series.position_error.empty()) return std::nan("");
+double position_rmse(const ReportedDrive& reported) {
+  if (const auto error = value_at(*reported.drive, position_error().path)) return *error;
+  if (!reported.drive->summary.is_null() || reported.series.position_error.empty()) return std::nan("");
   double squares = 0.0;
-  for (const TimedValue& one : told.series.position_error) squares += one.value * one.value;
-  return std::sqrt(squares / static_cast<double>(told.series.position_error.size()));
+  for (const TimedValue& one : reported.series.position_error) squares += one.value * one.value;
+  return std::sqrt(squares / static_cast<double>(reported.series.position_error.size()));
 }
 
-page::PageTable measure_table(const std::vector<ToldDrive>& drives) {
+page::PageTable measure_table(const std::vector<ReportedDrive>& drives) {
   page::PageTable table{"", {"measure"}, {}};
-  for (const ToldDrive& told : drives) table.header.push_back(told.drive->label);
+  for (const ReportedDrive& reported : drives) table.header.push_back(reported.drive->label);
   for (const Measure& row : measures()) {
     if (!is_on_page(row)) continue;
     std::vector<std::string> cells{label_of(row)};
     bool any = false;
-    for (const ToldDrive& told : drives) {
-      const auto value = value_at(*told.drive, row.path);
+    for (const ReportedDrive& reported : drives) {
+      const auto value = value_at(*reported.drive, row.path);
       cells.push_back(value ? drawing::cell(*value * row.shown.scale.factor, row.shown.decimals) : "-");
       any = any || (value && (*value != 0.0 || !row.shown.is_rare));
     }
@@ -192,7 +192,7 @@ page::PageTable measure_table(const std::vector<ToldDrive>& drives) {
   return table;
 }
 
-std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
+std::vector<page::PageTable> repeated_tables(const std::vector<ReportedDrive>& drives) {
   std::vector<page::PageTable> tables;
   for (const auto& [scenario, one] : repeated(drives)) {
     page::PageTable table{fmt::format("{}: means of {} runs, 95 % intervals; differences are paired, run by run",
@@ -224,11 +224,11 @@ std::vector<page::PageTable> repeated_tables(const std::vector<ToldDrive>& drive
   return tables;
 }
 
-DrivesAnswer answer_of(const std::vector<ToldDrive>& drives) {
+DrivesAnswer answer_of(const std::vector<ReportedDrive>& drives) {
   DrivesAnswer answer;
   const auto several = repeated(drives);
-  std::map<std::string, std::vector<ToldDrive>> by_scenario;
-  for (const ToldDrive& told : drives) by_scenario[told.drive->scenario].push_back(told);
+  std::map<std::string, std::vector<ReportedDrive>> by_scenario;
+  for (const ReportedDrive& reported : drives) by_scenario[reported.drive->scenario].push_back(reported);
   bool single = false;
   for (const auto& [scenario, of_one] : by_scenario) {
     std::string& place = answer.answer.empty() ? answer.answer : answer.more.emplace_back();
@@ -241,15 +241,15 @@ DrivesAnswer answer_of(const std::vector<ToldDrive>& drives) {
     }
   }
   const std::size_t before = answer.more.size();
-  for (const ToldDrive& told : drives) troubles_of(told, answer.more);
+  for (const ReportedDrive& reported : drives) troubles_of(reported, answer.more);
   if (answer.more.size() == before && std::ranges::all_of(drives, is_sound))
     answer.more.push_back("Nothing went wrong: no list or object was missed, no deadline, and no slot had a problem.");
   if (single)
     answer.more.push_back(
         "One drive is one draw of the noise, so its differences are not certain: an interval takes "
         "several runs with other seeds in one report, or an experiment.");
-  for (const ToldDrive& told : drives)
-    if (std::string remark = remark_on(*told.drive); drives.size() <= kMostRemarked && !remark.empty())
+  for (const ReportedDrive& reported : drives)
+    if (std::string remark = remark_on(*reported.drive); drives.size() <= kMostRemarked && !remark.empty())
       answer.more.push_back(std::move(remark));
   return answer;
 }

@@ -10,10 +10,11 @@
 
 namespace ttf::report::drive {
 
-std::vector<page::PageTable> trouble_tables(const ToldDrive& told) {
-  const drawing::Names names = told.drive->log ? drawing::names_of(told.drive->log->manifest()) : drawing::Names{};
-  const std::string& label = told.drive->label;
-  const DriveSeries& series = told.series;
+std::vector<page::PageTable> trouble_tables(const ReportedDrive& reported) {
+  const drawing::Names names =
+      reported.drive->log ? drawing::names_of(reported.drive->log->manifest()) : drawing::Names{};
+  const std::string& label = reported.drive->label;
+  const DriveSeries& series = reported.series;
   page::PageTable faults{label + ": injected faults", injected_columns(), {}};
   for (const auto& [index, fault] : series.faults)
     faults.rows.push_back(injected_row(fault, fault.node == kNoNode ? "-" : names.node(fault.node)));

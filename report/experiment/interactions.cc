@@ -18,7 +18,7 @@ std::string change_text(const ExperimentChange& change) {
 }
 
 // "1 of 3 interactions": of all of the experiment, which are one family.
-std::string interactions_told(const ExperimentFolder& folder) {
+std::string interactions_text(const ExperimentFolder& folder) {
   std::size_t interactions = 0, certain = 0;
   for (const ExperimentInteraction& one : folder.interactions)
     for (const InteractionPoint& point : one.points) {
@@ -39,7 +39,7 @@ page::PageTable interaction_table(const ExperimentFolder& folder, const Experime
                   "certain together by Holm's method at {:g} %",
                   measure, of.lowers, of.more_than, of.axis, of.from, of.to,
                   experiments::results::interaction_columns(of.by == "ratio"), 100.0 * folder.confidence,
-                  interactions_told(folder), marks == Marks::kBold ? "in bold" : "marked *",
+                  interactions_text(folder), marks == Marks::kBold ? "in bold" : "marked *",
                   std::round(1e6 * (1.0 - folder.confidence)) * 1e-4),
       of.others,
       {}};

@@ -176,7 +176,7 @@ page::PageTable differences_table(const ExperimentFolder& folder, std::size_t m)
 
 std::string expectation_sentence(const ExperimentExpectation& one) {
   std::string text = fmt::format("Expected: {}. ", one.expected);
-  if (one.outcome == experiments::results::Outcome::kCannotTell)
+  if (one.outcome == experiments::results::Outcome::kUndecided)
     text += "The drives cannot tell";
   else
     text += one.holds ? "It holds" : !one.outcome ? "It does not hold for certain" : "It does not hold";
@@ -218,15 +218,15 @@ std::string smallest(const ExperimentFolder& folder, const Pairs& pairs) {
     return fmt::format("{} has the smallest {}, for certain: {}.", folder.paradigms[order[0]], measure,
                        mean_text(folder, order[0]));
   std::string text;
-  std::size_t told = 0;
+  std::size_t decided = 0;
   for (const std::size_t p : order) {
     text += text.empty() ? fmt::format("For certain {} has the smallest {}", folder.paradigms[p], measure)
                          : "; " + folder.paradigms[p];
     text += least[p] == points ? fmt::format(" at all {} points", points)
                                : fmt::format(" at {} of {} points", least[p], points);
-    told += least[p];
+    decided += least[p];
   }
-  return text + (told == points ? "." : fmt::format("; at {} the drives cannot tell.", points - told));
+  return text + (decided == points ? "." : fmt::format("; at {} the drives cannot tell.", points - decided));
 }
 
 // `lead` has been said already.
@@ -328,7 +328,7 @@ void one_of_each(page::Page& page, const ExperimentFolder& folder, const Experim
       drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
   std::vector<const drive::Drive*> shown;
   for (const drive::Drive& drive : drives.drives) shown.push_back(&drive);
-  const std::vector<drive::ToldDrive> all = drive::told_of(shown);
+  const std::vector<drive::ReportedDrive> all = drive::reported_drives(shown);
   scene_section(page, all);
   errors_section(page, all);
   stages_section(page, all);

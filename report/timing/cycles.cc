@@ -25,7 +25,7 @@ struct Statement {
 };
 
 // Returns the statements in the order of the records.
-std::vector<Statement> what_frames_tell(const TimingData& data, Duration cycle, int cycles, TrueTime from) {
+std::vector<Statement> statements_of(const TimingData& data, Duration cycle, int cycles, TrueTime from) {
   std::vector<Statement> all;
   std::map<std::int64_t, std::size_t> frames;  // by count
   for (const auto& f : data.slot_frames) {
@@ -63,7 +63,7 @@ std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration c
                                               TrueTime to) {
   std::map<std::int64_t, TrueTime> known, all;
   if (cycle.ns <= 0 || (to - from).ns / cycle.ns > drawing::kMostCycleLines) return all;
-  const std::vector<Statement> statements = what_frames_tell(data, cycle, cycles, from);
+  const std::vector<Statement> statements = statements_of(data, cycle, cycles, from);
   if (!statements.empty()) {
     const std::int64_t oldest = oldest_count(statements);
     // Frames of the same count come first: a frame of another count may be a mistake.

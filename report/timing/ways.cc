@@ -29,7 +29,7 @@ class Followed {
   explicit Followed(const TimingData& data) : data_(data) {
     for (const Event& event : events()) {
       follower_.advance(event.at, [](const MeasurementWays::Act&, const WayMark&) {});
-      tell(event);
+      report(event);
     }
     follower_.advance(TrueTime{std::numeric_limits<std::int64_t>::max()},
                       [](const MeasurementWays::Act&, const WayMark&) {});
@@ -82,7 +82,7 @@ class Followed {
     return {stay.in, stays_.size() - 1};
   }
 
-  void tell(const Event& event) {
+  void report(const Event& event) {
     using Kind = LaneKey::Kind;
     switch (event.what) {
       case What::kSlotFrame: {
@@ -98,14 +98,14 @@ class Followed {
                         mark({{Kind::kCan, f.bus, 0}, f.start, f.end}));
         break;
       }
-      case What::kHop: tell(data_.hops[event.index]); break;
+      case What::kHop: report(data_.hops[event.index]); break;
       case What::kMeasured: {
         const auto& m = data_.measurements[event.index];
         records_.push_back(event.index);
         follower_.measured(m.id, kNoNode, mark({{Kind::kSensor, index_of(m.id.sensor), 0}, m.at, m.at}));
         break;
       }
-      case What::kFused: tell(data_.fused[event.index]); break;
+      case What::kFused: report(data_.fused[event.index]); break;
       case What::kImage: {
         const auto& i = data_.images[event.index];
         follower_.act({Deed::kImage, i.stamp.true_time, i.stamp.node, i.newest, i.sequence});
@@ -124,7 +124,7 @@ class Followed {
       }
     }
   }
-  void tell(const recording::records::ListHop& h) {
+  void report(const recording::records::ListHop& h) {
     if (h.sensor == kNoSensor) {
       if (h.hop == recording::records::Hop::kRead) follower_.read(h.stamp.node, h.pdu, h.sequence);
       if (h.hop == recording::records::Hop::kWritten) follower_.wrote(h.stamp.node, h.pdu);
@@ -144,7 +144,7 @@ class Followed {
       case recording::records::Hop::kStale: break;
     }
   }
-  void tell(const recording::records::ListFused& f) {
+  void report(const recording::records::ListFused& f) {
     const auto act = [&](Deed deed) { follower_.act({deed, f.stamp.true_time, f.stamp.node, {f.id}}); };
     switch (f.disposition) {
       case recording::records::Disposition::kFused:

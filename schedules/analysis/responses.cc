@@ -168,12 +168,12 @@ class ChainAnalysis {
     if (chain_[other] == chain_[task]) return jobs == Jobs::kMixed || !(leads_to(other, task) || leads_to(task, other));
     if (!chain_of(task).by_time() || !by_time(node_.tasks[other])) return true;
     for (std::size_t i = 0; i < set_.timed.size(); ++i)
-      if (set_.timed.chain(i) == chain_[task] && meets(i, *chain_[other], since)) return true;
+      if (set_.timed.chain(i) == chain_[task] && activates_within(i, *chain_[other], since)) return true;
     return false;
   }
 
   // Returns whether time activates the chain from this instant until `since` after it, or at the same instant.
-  bool meets(std::size_t instant, std::size_t chain, std::int64_t since) const {
+  bool activates_within(std::size_t instant, std::size_t chain, std::int64_t since) const {
     const auto is_it = [chain](const processor::TimedInstants::Neighbour& other) { return other.chain == chain; };
     const auto behind = set_.timed.within(instant, since, processor::TimedInstants::kForward);
     const auto beside = set_.timed.within(instant, 0, processor::TimedInstants::kBackward);

@@ -50,7 +50,7 @@ std::optional<NodeId> sender_of(const model::Cluster& cluster, const Flow& flow)
 }
 
 // Checks that a reader on FlexRay is attached to a channel of every frame of the list.
-void check_hears(const model::Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
+void check_receives(const model::Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
   const model::Node& node = cluster.node(end.node);
   if (!node.flexray)
     return findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "needs a node on FlexRay");
@@ -155,7 +155,7 @@ void check_flow(const model::Cluster& cluster, ClusterFindings& findings) {
       else if (sender_of(cluster, flow) == end.node)
         findings.at(end.binding->line, end_path(cluster, end, "reads"), name,
                     "is sent by the same node: a controller does not hear itself");
-      if (flow.medium.is_flexray()) check_hears(cluster, end, name, findings);
+      if (flow.medium.is_flexray()) check_receives(cluster, end, name, findings);
     }
   for (const auto& [flow, ends] : writers) {
     const std::string name = flow_name(cluster, flow);

@@ -12,10 +12,10 @@ namespace ttf::schedules::check {
 
 void check_round(const model::Cluster& cluster, ClusterFindings& findings) {
   if (findings.size() > 0 || cycles_per_round(cluster.flexray) == model::kMostCycles) return;
-  const Duration told_apart{cluster.round().ns / 8 * 7};
+  const Duration distinct_within{cluster.round().ns / 8 * 7};
   const auto check = [&](const std::vector<analysis::AgePath>& paths) {
     for (const analysis::AgePath& path : paths)
-      if (path.fused_worst >= told_apart)
+      if (path.fused_worst >= distinct_within)
         findings.parameter("flexray.gCycleCountMax", number(cluster.flexray.gCycleCountMax),
                            fmt::format("must make a round of cycles of more than {}: {} is up to {} old when it is "
                                        "fused, and stamps are told apart within seven eighths of a round",

@@ -17,7 +17,7 @@ namespace {
 
 // Returns whether two periodic intervals, each shorter than its period, overlap. Their starts differ by `from_a`
 // modulo the common divisor of their periods, and some instances by no more (Chinese remainder theorem).
-bool meet(const model::GlobalParameters& flexray, const model::Task& a, const model::Task& b) {
+bool overlap(const model::GlobalParameters& flexray, const model::Task& a, const model::Task& b) {
   const model::CycleInstant &x = a.activation.at, &y = b.activation.at;
   const std::int64_t cycle_ns = flexray.cycle_ps() / 1000;
   const std::int64_t period = cycle_ns * std::gcd(x.repetition, y.repetition);
@@ -142,7 +142,7 @@ void check_tasks(const model::Cluster& cluster, ClusterFindings& findings) {
       if (task.activation.kind != model::ActivationKind::kTime) continue;
       for (std::size_t other = 0; other < t; ++other)
         if (node.tasks[other].activation.kind == model::ActivationKind::kTime &&
-            meet(cluster.flexray, node.tasks[other], task))
+            overlap(cluster.flexray, node.tasks[other], task))
           findings.parameter(path + ".activation", task.name,
                              fmt::format("overlaps {} of the same node ({})", node.tasks[other].name,
                                          place_text(cluster, node.tasks[other].line)));

@@ -164,14 +164,14 @@ class DbcWriter {
     TTF_CHECK(length.has_value(), "{} bytes on {}", layout.fragment_bytes, message.bus->name);
     text_ += fmt::format("\nBO_ {} {}: {} {}\n", message.message->identifier, message.name, *length,
                          nodes_[index_of(message.message->sender)]);
-    const std::string heard_by = receivers(message);
+    const std::string received_by = receivers(message);
     std::set<std::string> names;
     for (const model::Signal& signal : layout.header)
-      put_signal(signal, signal.bit_offset, identifier_like(signal.name, names), heard_by);
+      put_signal(signal, signal.bit_offset, identifier_like(signal.name, names), received_by);
     for (int e = 0; e < layout.elements_per_fragment; ++e)
       for (const model::Signal& signal : layout.element)
         put_signal(signal, layout.header_bits + e * layout.element_bits + signal.bit_offset,
-                   identifier_like(fmt::format("{}_{}", signal.name, e), names), heard_by);
+                   identifier_like(fmt::format("{}_{}", signal.name, e), names), received_by);
   }
 
   void put_line(const Line& line) {

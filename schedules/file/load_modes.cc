@@ -29,10 +29,10 @@ class ModeLoader {
     if (mode.cycles % grid_ != 0)
       map.fail("frame", fmt::format("must be a multiple of {}, the repetition of the activation", grid_));
     std::vector<YamlMap> entries = map.maps("detections");
-    knows_cameras_ = true;
+    names_cameras_ = true;
     for (YamlMap& entry : entries) mode.instants.push_back(load_instant(entry, mode));
     if (entries.empty() && map.has("detections")) map.fail("detections", "must have at least one detection");
-    if (!entries.empty() && knows_cameras_) must_look_at_all(map, mode);
+    if (!entries.empty() && names_cameras_) must_look_at_all(map, mode);
     map.finish();
     return mode;
   }
@@ -49,7 +49,7 @@ class ModeLoader {
     if (found != cameras_.end())
       instant.camera = static_cast<std::size_t>(found - cameras_.begin());
     else
-      knows_cameras_ = false;
+      names_cameras_ = false;
     if (found == cameras_.end() && entry.has("camera"))
       entry.fail("camera", cameras_.empty()
                                ? "needs a port of a camera among reads, and one for its objects among writes"
@@ -84,7 +84,7 @@ class ModeLoader {
   const model::Task& task_;
   int grid_;
   std::vector<std::string> cameras_;
-  bool knows_cameras_ = true;  // each detection of the mode names one
+  bool names_cameras_ = true;  // each detection of the mode names one
 };
 
 }  // namespace

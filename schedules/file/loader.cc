@@ -407,16 +407,16 @@ void refuse_plan(const StrictYaml& file) {
 model::Cluster read_cluster(const StrictYaml& file, const TextOrigins& origins) {
   expect_kind(file, FileKind::kCluster);
   refuse_plan(file);
-  Findings met;
-  Loader loader(file, met);
+  Findings collected;
+  Loader loader(file, collected);
   model::Cluster cluster = loader.load();
   cluster.origins = origins;
   // Shared parameters are read once per node; a mistake in them is reported once.
   Findings findings;
   std::set<std::pair<int, std::string>> known;
-  for (const Finding& each : met.list()) {
+  for (const Finding& each : collected.list()) {
     const Finding finding = loader.in_copied_part(each);
-    if (!stands_at_its_original(cluster, finding, met.list()) &&
+    if (!stands_at_its_original(cluster, finding, collected.list()) &&
         known.insert({finding.line, finding.sentence()}).second)
       findings.add(cluster.finding(finding.line, finding.key, finding.value, finding.expected));
   }

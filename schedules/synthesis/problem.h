@@ -51,7 +51,7 @@ constexpr bool own_their_places(const Activity& a, const Activity& b) {
 }
 
 // Returns the time after which the two meet alike.
-constexpr Ticks meeting_time(const Activity& a, const Activity& b) {
+constexpr Ticks common_period(const Activity& a, const Activity& b) {
   return own_their_places(a, b) ? a.turn : std::gcd(a.period, b.period);
 }
 

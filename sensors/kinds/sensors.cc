@@ -33,7 +33,7 @@ std::optional<double> Sensors::rate_span(const schedules::model::Sensor& sensor)
   });
 }
 
-void meet(const sim::world::Weather& weather, Sensors& sensors) {
+void apply_weather(const sim::world::Weather& weather, Sensors& sensors) {
   Sensors::each(sensors, [&]<class Kind>(SensorsOfKind<Kind>& kind) {
     kind.usual.model = Kind::in_weather(kind.usual.model, weather);
     for (auto& entry : kind.own) entry.model = Kind::in_weather(entry.model, weather);

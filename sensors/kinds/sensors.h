@@ -122,7 +122,7 @@ class Sensors {
 };
 
 // Changes all sensors as this weather does.
-void meet(const sim::world::Weather& weather, Sensors& sensors);
+void apply_weather(const sim::world::Weather& weather, Sensors& sensors);
 
 // Returns how pictures show the cluster's sensors, by SensorId. It ends with the last one that the scenario styles.
 std::vector<recording::log::SensorStyle> sensor_styles(const Sensors& sensors,

@@ -31,7 +31,7 @@ Duration longest_in_true_time(const Task& task) {
 }
 
 // The actuator distinguishes a command from one a round later up to this age (past_time_stamp() of nodes/host/step.h).
-Duration oldest_told(const Cluster& cluster) { return Duration{cluster.round().ns / 8 * 7}; }
+Duration oldest_distinct(const Cluster& cluster) { return Duration{cluster.round().ns / 8 * 7}; }
 
 }  // namespace
 
@@ -67,11 +67,11 @@ void check_loop(const Scenario& scenario, const Cluster& cluster) {
                       fmt::format("{:g} ms", in_ms(actuator.dead_time)),
                       fmt::format("must be at least {:g} ms: nothing happens before the task {} of {} has ended",
                                   in_ms(least), task.name, cluster.file)});
-  if (actuator.oldest >= oldest_told(cluster))
+  if (actuator.oldest >= oldest_distinct(cluster))
     throw InputError({scenario.file, actuator.oldest_line, key + ".oldest",
                       fmt::format("{:g} ms", in_ms(actuator.oldest)),
                       fmt::format("must be from 1 ms to below {:g} ms: stamps are told apart within a round of {}",
-                                  in_ms(oldest_told(cluster)), cluster.file)});
+                                  in_ms(oldest_distinct(cluster)), cluster.file)});
   for (const schedules::model::Sensor& sensor : cluster.sensors) {
     const sensors::DriveError time = scenario.sensors.device_of(sensor).time;
     if (time.fixed != 0.0 || time.sigma != 0.0)

@@ -54,7 +54,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.sensors = sensors::kinds::load_sensors(*sensors);
     sensors->finish();
   }
-  meet(scenario.weather, scenario.sensors);
+  apply_weather(scenario.weather, scenario.sensors);
   if (auto reference = root.map_if("reference")) {
     scenario.reference = sim::world::load_reference(*reference);
     reference->finish();

@@ -40,11 +40,11 @@ std::vector<nodes::host::NodeStart> node_starts(const Startup& startup, const sc
     RandomStream stream({seed, replication, Purpose::kPowerOn, static_cast<std::uint16_t>(n), 0});
     starts[n].after = Duration{stream.integer(0, startup.spread.ns)};
   }
-  for (const Startup::PowerOn& told : startup.power_on) {
-    if (const auto node = cluster.find_node(told.node))
-      starts[index_of(*node)].after = told.after;
+  for (const Startup::PowerOn& entry : startup.power_on) {
+    if (const auto node = cluster.find_node(entry.node))
+      starts[index_of(*node)].after = entry.after;
     else
-      findings.add({startup.file, told.line, "startup.power_on", told.node, "is not a node of " + cluster.file});
+      findings.add({startup.file, entry.line, "startup.power_on", entry.node, "is not a node of " + cluster.file});
   }
   if (!startup.wake_up.empty()) {
     const auto refuse = [&](std::string why) {

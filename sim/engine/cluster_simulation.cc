@@ -258,7 +258,7 @@ void ClusterSimulation::transmit(std::size_t node, const bus::ports::Transmissio
 
 void ClusterSimulation::receive(std::size_t node, const bus::ports::Reception& reception) {
   if (is_here(node)) EngineOf::receive(node, reception);
-  if (others_ != nullptr) others_->outlook(node).hears_flexray(ticks(node));
+  if (others_ != nullptr) others_->outlook(node).receives_flexray(ticks(node));
 }
 
 bool ClusterSimulation::receive_on_both(std::size_t node, const bus::ports::Reception& reception) {
@@ -293,7 +293,7 @@ void ClusterSimulation::happen(const medium::MediumEvent& event) {
       if (arrives && is_here(node))
         nodes_[node]->receive_can(event.channel_or_bus,
                                   {event.identifier, event.flexible_data_rate, pool_.bytes(event.frame)}, ticks(node));
-      if (arrives && others_ != nullptr) others_->outlook(node).hears_can(ticks(node));
+      if (arrives && others_ != nullptr) others_->outlook(node).receives_can(ticks(node));
       pool_.release(event.frame);
       break;
     case medium::MediumEvent::Kind::kStrobe:
@@ -302,7 +302,7 @@ void ClusterSimulation::happen(const medium::MediumEvent& event) {
       break;
     case medium::MediumEvent::Kind::kTrigger:
       if (arrives && is_here(node)) nodes_[node]->trigger(static_cast<SensorId>(event.sensor), ticks(node));
-      if (arrives && others_ != nullptr) others_->outlook(node).hears_trigger(ticks(node));
+      if (arrives && others_ != nullptr) others_->outlook(node).receives_trigger(ticks(node));
       break;
     case medium::MediumEvent::Kind::kCanSent:
       if (arrives && is_here(node)) {

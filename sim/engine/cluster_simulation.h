@@ -135,7 +135,7 @@ class ClusterSimulation final : public EngineOf<nodes::host::Executive>, private
   Duration precision_{};
   Duration precision_of_pair_{};
   std::int64_t reported_pair_ = 0;
-  TrueTime told_from_{};  // the beginning of the newest actuation that another process reported
+  TrueTime reported_from_{};  // the beginning of the newest actuation that another process reported
   std::uint64_t frames_sent_ = 0;
 };
 

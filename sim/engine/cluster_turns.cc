@@ -40,10 +40,10 @@ void ClusterSimulation::act(std::size_t node, const processes::Act& act) {
   } else if (const auto* strobe = std::get_if<processes::StrobeAct>(&act)) {
     pull_strobe(strobe->sensor, strobe->sequence);
   } else if (const auto* actuation = std::get_if<nodes::host::Actuation>(&act)) {
-    if (actuation->from <= std::max(now(), told_from_))
+    if (actuation->from <= std::max(now(), reported_from_))
       throw std::runtime_error(fmt::format("{} tells of an actuation from {} ns on, at {} ns, after one from {} ns on",
-                                           cluster_.node(id).name, actuation->from.ns, now().ns, told_from_.ns));
-    told_from_ = actuation->from;
+                                           cluster_.node(id).name, actuation->from.ns, now().ns, reported_from_.ns));
+    reported_from_ = actuation->from;
     if (config_.actuate) config_.actuate(*actuation);
   }
 }

@@ -223,18 +223,18 @@ void Engine::transmit_on_both(NodeId sender, const bus::ports::Transmission& tra
     reception.end = span.end;
     return reception;
   };
-  const auto knows_it = [&](const medium::Leg& leg) {
+  const auto is_known_there = [&](const medium::Leg& leg) {
     Seat& seat = seats_[index_of(leg.receiver)];
     return seat.powered &&
-           knows(index_of(leg.receiver), received_during(seat.clock.span(start + leg.delay, end + leg.delay)));
+           is_known(index_of(leg.receiver), received_during(seat.clock.span(start + leg.delay, end + leg.delay)));
   };
-  if (!arrives_alone(way, start, end) || !std::all_of(way.begin(), way.end(), knows_it))
+  if (!arrives_alone(way, start, end) || !std::all_of(way.begin(), way.end(), is_known_there))
     return medium_.transmit_on_both(sender, transmission, start, end);
   for (const medium::Leg& leg : way) {
     const std::size_t node = index_of(leg.receiver);
-    hear_known(node, received_during(seats_[node].clock.last_span()));
+    receive_known(node, received_during(seats_[node].clock.last_span()));
   }
-  medium_.told_on_both(sender, start, end);
+  medium_.delivered_on_both(sender, start, end);
 }
 
 void EnginePort::transmit_on_both(const bus::ports::Transmission& transmission) {

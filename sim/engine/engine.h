@@ -86,8 +86,8 @@ class Engine : public Plant {
   virtual bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) = 0;
   // As in bus/controller/controller.h. tests/sim/processes/unwanted_frames_test.cc compares whole drives with and
   // without these two and receive_on_both().
-  virtual bool knows(std::size_t node, const bus::ports::Reception& reception) = 0;
-  virtual void hear_known(std::size_t node, const bus::ports::Reception& reception) = 0;
+  virtual bool is_known(std::size_t node, const bus::ports::Reception& reception) = 0;
+  virtual void receive_known(std::size_t node, const bus::ports::Reception& reception) = 0;
   virtual void drifts(std::size_t node) { (void)node; }  // its oscillator has changed
   // The private CANs have this disturbance, too; null: none.
   virtual void disturbs_cans(medium::CanDisturbance* disturbance) { (void)disturbance; }

@@ -21,9 +21,11 @@ template <class Node> class EngineOf : public Engine {
   bool receive_on_both(std::size_t node, const bus::ports::Reception& reception) override {
     return nodes_[node]->receive_on_both(reception);
   }
-  bool knows(std::size_t node, const bus::ports::Reception& reception) final { return nodes_[node]->knows(reception); }
-  void hear_known(std::size_t node, const bus::ports::Reception& reception) final {
-    nodes_[node]->hear_known(reception);
+  bool is_known(std::size_t node, const bus::ports::Reception& reception) final {
+    return nodes_[node]->is_known(reception);
+  }
+  void receive_known(std::size_t node, const bus::ports::Reception& reception) final {
+    nodes_[node]->receive_known(reception);
   }
 
   std::vector<std::unique_ptr<Node>> nodes_;  // by NodeId; null without supply or elsewhere

@@ -126,7 +126,7 @@ void ChannelLog::spreads(Id id, int receivers) {
 void ChannelLog::lost(Id id) {
   if (id != kNone) ++ways_[id].lost;
 }
-void ChannelLog::unheard(Id id) {
+void ChannelLog::not_received(Id id) {
   if (id != kNone) --ways_[id].receivers;
 }
 void ChannelLog::changed(Id id, std::span<const std::byte> bytes) {

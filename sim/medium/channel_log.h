@@ -49,7 +49,7 @@ class ChannelLog {
   // The signal spreads to `receivers`. One of them cannot decode it, does not receive it, or has other bytes.
   void spreads(Id id, int receivers);
   void lost(Id id);
-  void unheard(Id id);
+  void not_received(Id id);
   void changed(Id id, std::span<const std::byte> bytes);
 
   // End a way: nowhere, or at its last receiver. The id is free from then on.

@@ -67,10 +67,10 @@ void FlexRayMedium::transmit_on_both(NodeId sender, const bus::ports::Transmissi
   }
   const std::uint32_t frame = pool_.put_content(transmission.content, 2 * receivers);
   clear_flights_.depart_on_both(sender, {start, end, frame, Channel::kA, Signal::kFrame, ChannelLog::kNone}, ways);
-  told_on_both(sender, start, end);
+  delivered_on_both(sender, start, end);
 }
 
-void FlexRayMedium::told_on_both(NodeId sender, TrueTime start, TrueTime end) {
+void FlexRayMedium::delivered_on_both(NodeId sender, TrueTime start, TrueTime end) {
   for (const Channel channel : {Channel::kA, Channel::kB}) {
     busy_[index_of(channel)] += end - start;
     sent_until_[lane_of(sender, channel)] = end;
@@ -191,7 +191,7 @@ void FlexRayMedium::at_coupler(FlightNumber number) {
 ChannelLog::Id FlexRayMedium::witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last,
                                       bool arrives) {
   if (!arrives) {
-    log_->unheard(logged);
+    log_->not_received(logged);
     return ChannelLog::kNone;
   }
   if (last.signal != signal.signal || talks_over(last, signal.channel)) {

@@ -94,14 +94,14 @@ class FlexRayMedium {
   ClearFlights& clear_flights() { return clear_flights_; }
   // For a caller that delivers a frame on both channels itself. Returns whether a frame sent now reaches all
   // other nodes on FlexRay as it leaves, while nothing else is sent or changed. The receivers and their delays
-  // come from way_from(); told_on_both() reports the delivery to the medium.
+  // come from way_from(); delivered_on_both() reports the delivery to the medium.
   bool is_clear() const {
     return fast_ && ways_.same_on_both() && is_empty(schedules::model::Channel::kA) &&
            is_empty(schedules::model::Channel::kB) && transparent_ && is_undisturbed() && coupler_[0] == nullptr &&
            coupler_[1] == nullptr;
   }
   std::span<const Leg> way_from(NodeId sender) const { return ways_.from(sender)[0]; }
-  void told_on_both(NodeId sender, TrueTime start, TrueTime end);
+  void delivered_on_both(NodeId sender, TrueTime start, TrueTime end);
 
  private:
   // The start of a signal's ways to its receivers.

@@ -67,7 +67,7 @@ void Flights::put(FlightNumber number, NodeId receiver, const Arrival& arrival) 
   if (arrival.signal == Signal::kWakeup) pending.note_wakeup(arrival);
   Pending made{arrival, next_id_++, flight.place.sender, false};
   const Stop own{arrival.end, receiver, made.id};
-  if (flight.last_heard.receiver == kNoNode || own.end > flight.last_heard.end) flight.last_heard = own;
+  if (flight.last_received.receiver == kNoNode || own.end > flight.last_received.end) flight.last_received = own;
   // A merged signal may reach others that it did not reach before.
   const auto is_reached = [&](const Pending& other) { return overlap(other.arrival, made.arrival); };
   while (const std::optional<Pending> other = pending.take_out(is_reached)) {
@@ -86,8 +86,8 @@ void Flights::depart(FlightNumber number) {
   Flight& flight = flights_[number];
   // Merged everywhere, it has no stop of its own. It lands at its end all the same, for the log: it may still
   // break off.
-  if (flight.size == 0 && flight.logged != ChannelLog::kNone && flight.last_heard.receiver != kNoNode)
-    stops_of(number)[flight.size++] = flight.last_heard;
+  if (flight.size == 0 && flight.logged != ChannelLog::kNone && flight.last_received.receiver != kNoNode)
+    stops_of(number)[flight.size++] = flight.last_received;
   if (flight.size == 0) return land(number);
   // In the order of the way, unless a disturbance changed a signal on its last metre.
   const auto by_end = [](const Stop& a, const Stop& b) {

@@ -117,7 +117,7 @@ class Flights {
     FlightPlace place;
     ChannelLog::Id logged = ChannelLog::kNone;
     std::size_t size = 0, next = 0;  // stops, by (end, receiver) after its departure
-    Stop last_heard;                 // the last end of its signal, wherever that is merged into another
+    Stop last_received;              // the last end of its signal, wherever that is merged into another
   };
 
   void add_flights(std::size_t count);

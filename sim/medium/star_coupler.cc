@@ -13,7 +13,7 @@ using bus::poc::PocKind;
 using bus::ports::Signal;
 
 // One signal is forwarded, but many may be emitted. Those beyond this module are handled at once.
-constexpr std::size_t kHearingRoom = 16;
+constexpr std::size_t kIncomingRoom = 16;
 // A leading coldstart node is alone in its first cycles (bus/poc/poc.h).
 constexpr std::int64_t kLeaderAlone = 4;
 
@@ -32,8 +32,8 @@ struct StarCoupler::Watch final : bus::controller::ControllerEvents, bus::ports:
     TTF_CHECK(false, "the guardian sends in slot {}", sent.slot);
   }
   bool carrier(schedules::model::Channel channel) const override {
-    return channel == coupler.channel_ && std::any_of(coupler.hearing_.begin(), coupler.hearing_.end(),
-                                                      [&](const Hearing& heard) { return heard.start <= now; });
+    return channel == coupler.channel_ && std::any_of(coupler.incoming_.begin(), coupler.incoming_.end(),
+                                                      [&](const Incoming& incoming) { return incoming.start <= now; });
   }
   void state_changed(PocKind from, const bus::poc::PocStep& step, Microticks at) override {
     if (from == PocKind::kIntegrationConsistencyCheck && step.next.kind == PocKind::kIntegrationListen)
@@ -63,7 +63,7 @@ StarCoupler::StarCoupler(const schedules::model::Cluster& cluster, schedules::mo
       dynamic_(cluster_.flexray) {
   TTF_CHECK(oscillator.nominal_period_ps() == cluster_.nodes.back().microtick_ps, "microticks of {} and {} ps",
             oscillator.nominal_period_ps(), cluster_.nodes.back().microtick_ps);
-  hearing_.reserve(kHearingRoom);
+  incoming_.reserve(kIncomingRoom);
   power_on(oscillator_.ticks_at(on));
 }
 
@@ -101,16 +101,16 @@ void StarCoupler::advance(Microticks to) {
   }
 }
 
-void StarCoupler::deliver(const Hearing& heard) {
+void StarCoupler::deliver(const Incoming& incoming) {
   bus::ports::Reception reception{
-      channel_, heard.signal, oscillator_.ticks_at(heard.start), oscillator_.ticks_at(heard.end), {}};
-  if (heard.signal == Signal::kFrame) {
-    reception.frame = heard.frame;
-    reception.frame.payload = std::span(heard.bytes).subspan(bus::wire::kHeaderBytes, heard.frame.payload.size());
+      channel_, incoming.signal, oscillator_.ticks_at(incoming.start), oscillator_.ticks_at(incoming.end), {}};
+  if (incoming.signal == Signal::kFrame) {
+    reception.frame = incoming.frame;
+    reception.frame.payload = std::span(incoming.bytes).subspan(bus::wire::kHeaderBytes, incoming.frame.payload.size());
   }
   // The controller's work at that very instant is done with the reception (sim/medium/event_queue.h).
   advance(reception.end - Microticks{1});
-  watch_->now = heard.end;
+  watch_->now = incoming.end;
   controller_->receive(reception);
   if (controller_->clock() && controller_->clock()->cycle() == counted_cycle_)
     guardian_.count(*controller_->clock(), dynamic_, reception.start, reception.end);
@@ -118,39 +118,39 @@ void StarCoupler::deliver(const Hearing& heard) {
 
 void StarCoupler::catch_up(TrueTime now) {
   while (true) {
-    const auto first = std::min_element(hearing_.begin(), hearing_.end(),
-                                        [](const Hearing& a, const Hearing& b) { return a.end < b.end; });
-    if (first == hearing_.end() || first->end > now) break;
-    const Hearing heard = *first;
-    *first = hearing_.back();
-    hearing_.pop_back();
-    deliver(heard);
+    const auto first = std::min_element(incoming_.begin(), incoming_.end(),
+                                        [](const Incoming& a, const Incoming& b) { return a.end < b.end; });
+    if (first == incoming_.end() || first->end > now) break;
+    const Incoming incoming = *first;
+    *first = incoming_.back();
+    incoming_.pop_back();
+    deliver(incoming);
   }
   advance(oscillator_.ticks_at(now));
 }
 
 // Takes in a signal. Overlapping signals are undecodable, as for any receiver.
-void StarCoupler::hear(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame) {
-  Hearing heard{branch, signal.start, signal.end, signal.signal, {}, {}};
+void StarCoupler::receive(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame) {
+  Incoming incoming{branch, signal.start, signal.end, signal.signal, {}, {}};
   if (frame != nullptr && signal.signal == Signal::kFrame) {
-    heard.frame = *frame;
-    std::copy(signal.bytes.begin(), signal.bytes.end(), heard.bytes.begin());
+    incoming.frame = *frame;
+    std::copy(signal.bytes.begin(), signal.bytes.end(), incoming.bytes.begin());
   }
-  for (std::size_t i = 0; i < hearing_.size();) {
-    const Hearing& other = hearing_[i];
-    if (other.start >= heard.end || heard.start >= other.end) {
+  for (std::size_t i = 0; i < incoming_.size();) {
+    const Incoming& other = incoming_[i];
+    if (other.start >= incoming.end || incoming.start >= other.end) {
       ++i;
       continue;
     }
-    heard.signal = Signal::kUndecodable;
-    heard.branch = kNoNode;
-    heard.start = std::min(heard.start, other.start);
-    heard.end = std::max(heard.end, other.end);
-    hearing_[i] = hearing_.back();
-    hearing_.pop_back();
+    incoming.signal = Signal::kUndecodable;
+    incoming.branch = kNoNode;
+    incoming.start = std::min(incoming.start, other.start);
+    incoming.end = std::max(incoming.end, other.end);
+    incoming_[i] = incoming_.back();
+    incoming_.pop_back();
     i = 0;
   }
-  hearing_.push_back(heard);
+  incoming_.push_back(incoming);
 }
 
 bus::guardian::GuardianAnswer StarCoupler::judge(const bus::guardian::GuardianSignal& signal) const {
@@ -191,8 +191,8 @@ bool StarCoupler::pass(Leaving& signal, const bus::wire::DecodedFrame* frame) {
   const bool cut = answer.forwards() && signal.end > until;
   cut_ += cut ? 1 : 0;
   held_ += until > signal.end ? 1 : 0;
-  if (told_ && (cut || !answer.forwards()))
-    told_({signal.start, signal.sender, channel_, signal.signal, answer.reason, until});
+  if (report_ && (cut || !answer.forwards()))
+    report_({signal.start, signal.sender, channel_, signal.signal, answer.reason, until});
   if (!answer.forwards()) return false;
   if (turns_.forwarded(asked, controller_->clock().has_value())) lead_begins();
   signal.end = until;
@@ -201,29 +201,29 @@ bool StarCoupler::pass(Leaving& signal, const bus::wire::DecodedFrame* frame) {
     signal.bytes = {};
   }
   taken_until_ = signal.end;
-  hear(signal.sender, signal, frame);
+  receive(signal.sender, signal, frame);
   return true;
 }
 
 void StarCoupler::disturbed(const Leaving& signal) {
   if (failure_ != Failure::kNone) return;
-  if (hearing_.size() >= kHearingRoom) catch_up(signal.start);
+  if (incoming_.size() >= kIncomingRoom) catch_up(signal.start);
   Leaving noise = signal;
   noise.signal = signal.signal == Signal::kFrame ? Signal::kUndecodable : signal.signal;
-  hear(kNoNode, noise, nullptr);
+  receive(kNoNode, noise, nullptr);
 }
 
 TrueTime StarCoupler::fell_silent(NodeId branch, TrueTime at) {
   // Only the forwarded signal has a branch.
-  const auto heard = std::find_if(hearing_.begin(), hearing_.end(),
-                                  [&](const Hearing& one) { return one.branch == branch && one.end > at; });
-  if (failure_ != Failure::kNone || heard == hearing_.end()) return at;
+  const auto incoming = std::find_if(incoming_.begin(), incoming_.end(),
+                                     [&](const Incoming& one) { return one.branch == branch && one.end > at; });
+  if (failure_ != Failure::kNone || incoming == incoming_.end()) return at;
   // The clock is still in the cycle in which the signal began: it has not been delivered yet.
-  const TrueTime silent = std::max(at, heard->start + Duration{1});
-  const TrueTime ends = std::max(silent, end_of(heard->start, silent, oscillator_.ticks_at(heard->end)));
+  const TrueTime silent = std::max(at, incoming->start + Duration{1});
+  const TrueTime ends = std::max(silent, end_of(incoming->start, silent, oscillator_.ticks_at(incoming->end)));
   held_ += ends > silent ? 1 : 0;
-  heard->signal = Signal::kUndecodable;
-  heard->end = taken_until_ = ends;
+  incoming->signal = Signal::kUndecodable;
+  incoming->end = taken_until_ = ends;
   return ends;
 }
 

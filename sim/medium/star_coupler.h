@@ -55,7 +55,7 @@ class StarCoupler final : public Coupler {
   void start_integrated(TrueTime first, Duration cycle);
   void fail(Failure failure) { failure_ = failure; }
   // Calls `report` for each intervention; null: no calls. Interventions are counted in any case.
-  void on_intervention(std::function<void(const Intervention&)> told) { told_ = std::move(told); }
+  void on_intervention(std::function<void(const Intervention&)> report) { report_ = std::move(report); }
 
   bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) override;
   void disturbed(const Leaving& signal) override;
@@ -75,7 +75,7 @@ class StarCoupler final : public Coupler {
  private:
   struct Watch;
   // A signal on its way into the guardian's own controller.
-  struct Hearing {
+  struct Incoming {
     NodeId branch = kNoNode;  // kNoNode: from no branch, or from several
     TrueTime start{}, end{};
     bus::ports::Signal signal{};
@@ -87,8 +87,8 @@ class StarCoupler final : public Coupler {
   TrueTime end_of(TrueTime start, TrueTime end, Microticks until) const;
   void power_on(Microticks now);
   void advance(Microticks to);
-  void deliver(const Hearing& heard);
-  void hear(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame);
+  void deliver(const Incoming& incoming);
+  void receive(NodeId branch, const Leaving& signal, const bus::wire::DecodedFrame* frame);
   void lead_begins();
 
   const schedules::model::Cluster cluster_;  // with the guardian as a node
@@ -101,11 +101,11 @@ class StarCoupler final : public Coupler {
   bus::controller::DynamicSlotCounter dynamic_;
   std::int64_t counted_cycle_ = -1;  // the cycle of dynamic_
   TrueTime taken_until_{};           // the channel is taken by the forwarded signal until then
-  std::vector<Hearing> hearing_;
+  std::vector<Incoming> incoming_;
   Failure failure_ = Failure::kNone;
   std::array<std::uint64_t, bus::guardian::kAllGuardianReasons.size()> count_{};
   std::uint64_t cut_ = 0, held_ = 0;
-  std::function<void(const Intervention&)> told_;
+  std::function<void(const Intervention&)> report_;
 };
 
 }  // namespace ttf::sim::medium

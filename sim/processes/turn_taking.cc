@@ -23,12 +23,12 @@ void TurnTaking::speak(Microticks now, const nodes::host::Promise& promise) {
 std::optional<std::span<const Act>> TurnTaking::listen(NodeId node, Microticks now) {
   TTF_CHECK(node != self_, "{} listens to itself", cluster_.node(node).name);
   Member& member = members_[index_of(node)];
-  while (member.unheard.empty() && !member.gone) receive();
-  if (member.unheard.empty()) return std::nullopt;
-  std::swap(heard_, member.unheard.front());
-  spare_.push_back(std::move(member.unheard.front()));
-  member.unheard.pop_front();
-  const TurnHeader turn = read_turn(cluster_, heard_, acts_);
+  while (member.unread.empty() && !member.gone) receive();
+  if (member.unread.empty()) return std::nullopt;
+  std::swap(received_, member.unread.front());
+  spare_.push_back(std::move(member.unread.front()));
+  member.unread.pop_front();
+  const TurnHeader turn = read_turn(cluster_, received_, acts_);
   if (turn.node != node || turn.number != member.turns || turn.at != now)
     throw std::runtime_error(fmt::format("turn {} of {} at {} uT, where turn {} of {} at {} uT was due", turn.number,
                                          cluster_.node(turn.node).name, turn.at.value, member.turns,
@@ -39,12 +39,12 @@ std::optional<std::span<const Act>> TurnTaking::listen(NodeId node, Microticks n
 }
 
 void TurnTaking::receive() {
-  const bus::ports::Exchange::Heard heard = exchange_.receive();
-  if (index_of(heard.from) >= members_.size() || heard.from == self_)
+  const bus::ports::Exchange::Received received = exchange_.receive();
+  if (index_of(received.from) >= members_.size() || received.from == self_)
     throw std::runtime_error(
-        fmt::format("a message from node {}, which is no other node of the cluster", index_of(heard.from)));
-  Member& member = members_[index_of(heard.from)];
-  if (heard.gone) {
+        fmt::format("a message from node {}, which is no other node of the cluster", index_of(received.from)));
+  Member& member = members_[index_of(received.from)];
+  if (received.gone) {
     member.gone = true;
     return;
   }
@@ -53,8 +53,8 @@ void TurnTaking::receive() {
     room = std::move(spare_.back());
     spare_.pop_back();
   }
-  room.assign(heard.bytes.begin(), heard.bytes.end());
-  member.unheard.push_back(std::move(room));
+  room.assign(received.bytes.begin(), received.bytes.end());
+  member.unread.push_back(std::move(room));
 }
 
 }  // namespace ttf::sim::processes

@@ -49,9 +49,9 @@ class Outlook {
     turn_ = promise.silent_until;
   }
 
-  void hears_flexray(Microticks now) { moves(now, promise_.after_flexray); }
-  void hears_can(Microticks now) { moves(now, promise_.after_can); }
-  void hears_trigger(Microticks now) { moves(now, promise_.after_trigger); }
+  void receives_flexray(Microticks now) { moves(now, promise_.after_flexray); }
+  void receives_can(Microticks now) { moves(now, promise_.after_can); }
+  void receives_trigger(Microticks now) { moves(now, promise_.after_trigger); }
 
  private:
   void moves(Microticks now, Microticks after) {
@@ -86,7 +86,7 @@ class TurnTaking {
   struct Member {
     Outlook outlook;
     std::uint32_t turns = 0;
-    std::deque<std::vector<std::byte>> unheard;  // turns to come, in their order
+    std::deque<std::vector<std::byte>> unread;  // turns to come, in their order
     bool gone = false;
   };
   void receive();
@@ -96,7 +96,7 @@ class TurnTaking {
   bus::ports::Exchange& exchange_;
   std::vector<Member> members_;                // by NodeId
   std::vector<std::vector<std::byte>> spare_;  // buffers for turns, to be used again
-  std::vector<std::byte> heard_;               // the turn that acts_ refers into
+  std::vector<std::byte> received_;            // the turn that acts_ refers into
   std::vector<Act> acts_;
   TurnWriter own_;
 };

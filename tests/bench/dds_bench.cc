@@ -49,27 +49,27 @@ class RoundMember {
   }
   bool round() {
     exchange_.send(message_);
-    return hear();
+    return receive();
   }
   // Answers: receives first.
   bool round_in_turn() {
-    if (!hear()) return false;
+    if (!receive()) return false;
     exchange_.send(message_);
     return true;
   }
 
  private:
   // A member is ahead by at most one message.
-  bool hear() {
+  bool receive() {
     ++round_;
     for (std::size_t left = others_ - ahead_, ahead = 0;;) {
       if (left == 0) {
         ahead_ = ahead;
         return true;
       }
-      const auto heard = exchange_.receive();
-      if (heard.gone) return false;
-      if (++count_[heard.from] > round_)
+      const auto received = exchange_.receive();
+      if (received.gone) return false;
+      if (++count_[received.from] > round_)
         ++ahead;
       else
         --left;

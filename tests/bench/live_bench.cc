@@ -45,7 +45,7 @@ constexpr std::uint32_t kLiveDomain = 19;  // used by no other test
 constexpr std::size_t kPayload = 32;
 
 struct Totals {
-  std::uint64_t sent = 0, heard = 0, lost = 0;
+  std::uint64_t sent = 0, received = 0, lost = 0;
   std::int64_t cpu_us = 0;
 };
 
@@ -83,9 +83,9 @@ void put(const std::vector<std::int64_t>& values) {
 }
 
 // Reads values in the order of put(); returns false when too few are left.
-class Told {
+class Reported {
  public:
-  explicit Told(std::string bytes) : bytes_(std::move(bytes)) {}
+  explicit Reported(std::string bytes) : bytes_(std::move(bytes)) {}
   bool get(void* into, std::size_t size) {
     if (bytes_.size() - at_ < size) return false;
     std::memcpy(into, bytes_.data() + at_, size);
@@ -123,7 +123,7 @@ class Member {
     const bus::ports::MachineTime end = begin + Duration::nanoseconds(job_.seconds * kSecond);
     const bus::ports::MachineTime silence = end + Duration::milliseconds(500);
     for (bus::ports::MachineTime now = bus::ports::host_now(); now < silence; now = bus::ports::host_now()) {
-      while (const auto heard = medium_.receive()) ways_.push_back((bus::ports::host_now() - heard->at).ns);
+      while (const auto received = medium_.receive()) ways_.push_back((bus::ports::host_now() - received->at).ns);
       const bool more = sends && next < end;
       if (more && now >= next) {
         send(next);
@@ -211,7 +211,7 @@ void DdsLivePaced(benchmark::State& state) {
   for (test::ChildProcess& child : children) child.await_ready();
   if (with_stopped) children.back().signal(SIGSTOP);
   const bus::ports::MachineTime begin = bus::ports::host_now() + Duration::milliseconds(200);
-  for (const test::ChildProcess& child : children) child.tell(std::to_string(begin.ns));
+  for (const test::ChildProcess& child : children) child.report(std::to_string(begin.ns));
   Totals all;
   std::vector<std::int64_t> ways, sends;
   for (auto _ : state) std::this_thread::sleep_for(1s);
@@ -219,13 +219,13 @@ void DdsLivePaced(benchmark::State& state) {
   for (std::size_t i = 0; i < kSenders; ++i) {
     Totals one;
     well = children[i].wait() == 0 && well;
-    Told told(children[i].said_after_ready());
-    well = well && told.get(&one, sizeof one) && told.get(ways) && told.get(sends);
-    all = {all.sent + one.sent, all.heard + one.heard, all.lost + one.lost, all.cpu_us + one.cpu_us};
+    Reported reported(children[i].said_after_ready());
+    well = well && reported.get(&one, sizeof one) && reported.get(ways) && reported.get(sends);
+    all = {all.sent + one.sent, all.received + one.received, all.lost + one.lost, all.cpu_us + one.cpu_us};
   }
   if (!well) return state.SkipWithError("a member has failed");
   state.counters["sent"] = static_cast<double>(all.sent);
-  state.counters["missing"] = static_cast<double>(all.sent * (kSenders - 1)) - static_cast<double>(all.heard);
+  state.counters["missing"] = static_cast<double>(all.sent * (kSenders - 1)) - static_cast<double>(all.received);
   state.counters["lost"] = static_cast<double>(all.lost);
   state.counters["cores"] = static_cast<double>(all.cpu_us) / 1e6 / static_cast<double>(seconds);
   state.counters["way_p50_us"] = share_us(ways, 0.5);

@@ -39,19 +39,19 @@ inline ports::Reception received(Channel channel, Microticks start, Microticks e
 struct Alone {
   schedules::model::Cluster cluster;
   NoPort port;
-  Heard heard;
+  Reports reports;
   controller::FlexRayController controller;
 
   explicit Alone(int node = 0, schedules::model::Cluster made = small_cluster(4))
-      : cluster(std::move(made)), controller(cluster, static_cast<NodeId>(node), port, heard) {
+      : cluster(std::move(made)), controller(cluster, static_cast<NodeId>(node), port, reports) {
     controller.start_integrated({{1000}, 0});
   }
 
   static Microticks at(std::int64_t cycle, std::int64_t macrotick) { return {1000 + 40 * (1000 * cycle + macrotick)}; }
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) { controller.advance(at(cycle, macrotick)); }
-  std::vector<Heard::Sent> sent_in(std::int64_t cycle) const {
-    std::vector<Heard::Sent> frames;
-    for (const auto& sent : heard.sent)
+  std::vector<Reports::Sent> sent_in(std::int64_t cycle) const {
+    std::vector<Reports::Sent> frames;
+    for (const auto& sent : reports.sent)
       if (sent.cycle == cycle) frames.push_back(sent);
     return frames;
   }

@@ -59,7 +59,7 @@ inline schedules::model::Cluster small_cluster(int nodes) {
 }
 
 // All of a controller's reports.
-struct Heard final : controller::ControllerEvents {
+struct Reports final : controller::ControllerEvents {
   struct Problem {
     std::int64_t cycle;
     int slot;
@@ -250,9 +250,9 @@ class Rig {
       std::vector<TrueTime> power_on)
       : cluster_(std::move(cluster)), medium_(oscillators(drifts_ppb), delay), power_on_(std::move(power_on)) {
     for (std::size_t n = 0; n < drifts_ppb.size(); ++n) {
-      heard_.push_back(std::make_unique<Heard>());
+      reports_.push_back(std::make_unique<Reports>());
       controllers_.push_back(std::make_unique<controller::FlexRayController>(cluster_, static_cast<NodeId>(n),
-                                                                             medium_.port(n), *heard_[n]));
+                                                                             medium_.port(n), *reports_[n]));
     }
   }
 
@@ -298,7 +298,7 @@ class Rig {
     return high - low;
   }
   controller::FlexRayController& controller(std::size_t node) { return *controllers_[node]; }
-  Heard& heard(std::size_t node) { return *heard_[node]; }
+  Reports& reports(std::size_t node) { return *reports_[node]; }
   const schedules::model::Cluster& cluster() const { return cluster_; }
 
   TestMedium& medium() { return medium_; }
@@ -323,7 +323,7 @@ class Rig {
   schedules::model::Cluster cluster_;
   TestMedium medium_;
   std::vector<TrueTime> power_on_;
-  std::vector<std::unique_ptr<Heard>> heard_;
+  std::vector<std::unique_ptr<Reports>> reports_;
   std::vector<std::unique_ptr<controller::FlexRayController>> controllers_;
 };
 

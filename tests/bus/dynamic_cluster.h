@@ -32,9 +32,9 @@ inline void write(Rig& rig, std::size_t node, std::uint32_t sequence) {
   rig.controller(node).outgoing(static_cast<PduId>(2 + node)).write(list.view());
 }
 
-inline std::vector<Heard::Sent> dynamic_frames(Rig& rig, std::size_t node, Channel channel = Channel::kA) {
-  std::vector<Heard::Sent> frames;
-  for (const auto& sent : rig.heard(node).sent)
+inline std::vector<Reports::Sent> dynamic_frames(Rig& rig, std::size_t node, Channel channel = Channel::kA) {
+  std::vector<Reports::Sent> frames;
+  for (const auto& sent : rig.reports(node).sent)
     if (sent.slot > 10 && sent.channel == channel) frames.push_back(sent);
   return frames;
 }
@@ -42,7 +42,7 @@ inline std::vector<Heard::Sent> dynamic_frames(Rig& rig, std::size_t node, Chann
 // The numbers of the lists that arrived at receiver `node`.
 inline std::vector<std::uint32_t> arrived(Rig& rig, std::size_t node, PduId pdu) {
   std::vector<std::uint32_t> sequences;
-  for (const auto& one : rig.heard(node).arrived)
+  for (const auto& one : rig.reports(node).arrived)
     if (one.pdu == pdu && one.effect == cni::ArrivalEffect::kCompleted) sequences.push_back(one.sequence);
   return sequences;
 }

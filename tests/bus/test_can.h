@@ -15,9 +15,9 @@ namespace ttf::bus {
 class TestCan {
  public:
   // Called for each controller that a frame reaches.
-  using Hear = std::function<void(std::size_t controller, const ttf::bus::ports::CanFrame& frame)>;
+  using Receive = std::function<void(std::size_t controller, const ttf::bus::ports::CanFrame& frame)>;
 
-  TestCan(std::size_t controllers, Hear hear) : hear_(std::move(hear)) {
+  TestCan(std::size_t controllers, Receive receive) : receive_(std::move(receive)) {
     for (std::size_t c = 0; c < controllers; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
   }
   std::size_t controllers() const { return ports_.size(); }
@@ -40,7 +40,7 @@ class TestCan {
     sending_
         .reset();  // the bus is idle before any node receives the frame, so an answer takes part in the next arbitration
     for (std::size_t c = 0; c < ports_.size(); ++c)
-      if (c != frame.sender) hear_(c, {frame.identifier, frame.flexible_data_rate, frame.data});
+      if (c != frame.sender) receive_(c, {frame.identifier, frame.flexible_data_rate, frame.data});
   }
   void run_until_idle() {
     for (begin(); sending_; begin()) end();
@@ -63,7 +63,7 @@ class TestCan {
     }
   };
 
-  Hear hear_;
+  Receive receive_;
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Frame> waiting_;
   std::optional<Frame> sending_;

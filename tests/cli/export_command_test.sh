@@ -45,7 +45,7 @@ expect 2 '--out = .*tt.mcap: must be another file than the input' export "$work"
 
 # A trace for Perfetto.
 expect 0 '"flows": [1-9]' export "$work/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"
-told=$(sed -n '/^{/,/^}/p' <<<"$output" | python3 -c 'import json, sys; t = json.load(sys.stdin); print("%d slices, %d instants, %d counts, %d flows" %
+stated=$(sed -n '/^{/,/^}/p' <<<"$output" | python3 -c 'import json, sys; t = json.load(sys.stdin); print("%d slices, %d instants, %d counts, %d flows" %
     (t["slices"], t["instants"], t["counter_values"], t["flows"]))')
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$work/cut.pftrace"
 protoc --decode=ttfusion.perfetto.Trace -I "$source/recording/exports" "$source/recording/exports/perfetto.proto" \
@@ -53,7 +53,7 @@ protoc --decode=ttfusion.perfetto.Trace -I "$source/recording/exports" "$source/
   grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
 # As other programs read it, by Perfetto's own numbers: valid, and complete by the export's own count.
 said=$(python3 "$source/tests/cli/perfetto_reader.py" "$work/drive.pftrace") || fail "drive.pftrace: $said"
-[[ $said == *" tracks, $told" ]] || fail "the trace has $said, the export says $told"
+[[ $said == *" tracks, $stated" ]] || fail "the trace has $said, the export says $stated"
 cat "$work/cut.pftrace" "$work/cut.pftrace" >"$work/twice.pftrace"
 python3 "$source/tests/cli/perfetto_reader.py" "$work/twice.pftrace" >"$work/said" && fail "two traces in one are sound"
 python3 "$source/tests/cli/perfetto_reader.py" "$work/cut.pftrace" >"$work/said" || fail "cut.pftrace: $(cat "$work/said")"

@@ -74,9 +74,9 @@ def main(path: str) -> int:
             if uuid == 0 or uuid in tracks or not name:
                 problems.append(f"track {uuid} {name!r}: no id of its own, or no name")
             tracks[uuid] = (name, 8 in track)
-        if (told := one(packet, 11, BYTES)) is None:
+        if (bytes_of_event := one(packet, 11, BYTES)) is None:
             continue
-        event, at = fields(told), one(packet, 8, VARINT, 0)
+        event, at = fields(bytes_of_event), one(packet, 8, VARINT, 0)
         kind, uuid = one(event, 9, VARINT, 0), one(event, 11, VARINT, 0)
         if at < now:
             problems.append(f"{at} comes after {now}")

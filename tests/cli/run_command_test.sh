@@ -83,9 +83,9 @@ expect 0 '^ +paper_scenario1 +paper_scenario2$' run "${both[@]}" --strategy tt -
 says '^measure +tt +tt$' '^paper_scenario1: A car ahead' "^wrote $work/both/paper_scenario1$" "^wrote $work/both/paper_scenario2$"
 cmp -s "$work/a/tt.mcap" "$work/both/paper_scenario2/tt.mcap" || fail "a scenario beside another one has another log"
 "$program" run "${both[@]}" --no-log --json --duration 1.6 --out "$work/all" 2>/dev/null | python3 -c 'import json, sys
-told = json.load(sys.stdin)
-assert [one["scenario"] for one in told] == ["paper_scenario1", "paper_scenario2"], told
-assert [len(one["strategies"]) for one in told] == [3, 3]' || fail "--json of two scenarios is no list of both"
+reported = json.load(sys.stdin)
+assert [one["scenario"] for one in reported] == ["paper_scenario1", "paper_scenario2"], reported
+assert [len(one["strategies"]) for one in reported] == [3, 3]' || fail "--json of two scenarios is no list of both"
 expect 0 '' run "${both[@]}" --no-log --duration 1.6 --out "$work/all"
 awk 'length > 100' <<<"$output" | grep -v '^paper_scenario' && fail "a table of two scenarios is wider than 100 columns"
 [[ $(grep -c '^measure ' <<<"$output") -eq 2 ]] || fail "two scenarios with three strategies are not two blocks"

@@ -41,7 +41,7 @@ TEST(Csv, CountsLinesThatArePassedOver) {
   EXPECT_FALSE(lines.next());
 }
 
-TEST(Csv, ABrokenLineIsToldAndTheNextIsWhole) {
+TEST(Csv, ABrokenLineIsReportedAndTheNextIsWhole) {
   CsvLines lines("\"a\n\"b\"c\nd\n");
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.broken(), "must end its quoted field on the same line");

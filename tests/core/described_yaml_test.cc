@@ -41,7 +41,7 @@ KeyQuestion asked(KeyValue answer, const std::function<void(YamlMap&)>& read) {
 
 const KeyValue kSeven = std::int64_t{7};
 
-TEST(DescribedYaml, NumbersTellRangeUnitAndFallback) {
+TEST(DescribedYaml, NumbersStateRangeUnitAndFallback) {
   KeyQuestion question = asked(kSeven, [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 9}, "cycles"), 7); });
   EXPECT_EQ(question.type, KeyType::kInteger);
   EXPECT_FALSE(question.optional);
@@ -77,7 +77,7 @@ TEST(DescribedYaml, NumbersTellRangeUnitAndFallback) {
   EXPECT_EQ(question.unit, "bits");
 }
 
-TEST(DescribedYaml, FlagsTextsAndWordsTellTheirFallback) {
+TEST(DescribedYaml, FlagsTextsAndWordsStateTheirFallback) {
   KeyQuestion question = asked(true, [](YamlMap& m) { EXPECT_TRUE(m.boolean("v")); });
   EXPECT_EQ(question.type, KeyType::kBoolean);
   EXPECT_FALSE(question.optional);

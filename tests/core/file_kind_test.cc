@@ -18,7 +18,7 @@ std::string refusal(const std::string& text, FileKind wanted) {
   return support::refusal_of([&] { expect_kind(StrictYaml::parse(text, "a.yaml"), wanted); }, "left to the loader");
 }
 
-TEST(FileKind, IsToldByKeysThatNoOtherKindHas) {
+TEST(FileKind, IsRecognisedByKeysThatNoOtherKindHas) {
   EXPECT_EQ(kind("name: a\nclusters: {tt: b}\nfaults: []\n"), FileKind::kScenario);
   EXPECT_EQ(kind("world: {}\n"), FileKind::kScenario);
   EXPECT_EQ(kind("name: a\nnodes: {}\nsensors: {}\n"), FileKind::kCluster);
@@ -27,7 +27,7 @@ TEST(FileKind, IsToldByKeysThatNoOtherKindHas) {
   EXPECT_EQ(kind("strategy: tt\nother: 1\n"), FileKind::kTrack);
 }
 
-TEST(FileKind, IsToldByHavingNoOtherKeys) {
+TEST(FileKind, IsRecognisedByHavingNoOtherKeys) {
   EXPECT_EQ(kind("tracker: {}\n"), FileKind::kTrack);
   EXPECT_EQ(kind("sensors: {}\ntracker: {}\n"), FileKind::kTrack);
   EXPECT_EQ(kind("faults: []\n"), FileKind::kFaults);
@@ -60,7 +60,7 @@ std::string refusal_of_file(const std::string& path, FileKind wanted) {
   return support::refusal_of([&] { (void)load_of_kind(path, wanted); }, "left to the loader");
 }
 
-TEST(FileKind, FormatsOfExchangeAreTold) {
+TEST(FileKind, FormatsOfExchangeAreRecognised) {
   const std::string fibex = written("bus.xml",
                                     "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- ours -->\n"
                                     "<F:FIBEX xmlns:F=\"http://www.asam.net/xml/fbx\"/>\n");

@@ -327,7 +327,7 @@ TEST(StrictYaml, OtherMapsAreThoseOfTheNamesNotAskedFor) {
   EXPECT_THAT(sentences, ElementsAre(HasSubstr("a.yaml:3: a.w: is not a known key here")));
 }
 
-TEST(StrictYaml, AMappingTellsItsOwnKeysFromInheritedOnes) {
+TEST(StrictYaml, AMappingSeparatesItsOwnKeysFromInheritedOnes) {
   const auto sentences = read("a: {x: 1, lik: b}\nb: {y: 9, unread: 3}\n", [](YamlMap& map) {
     YamlMap a = map.map("a"), b = map.map("b");
     a.inherit(b);

@@ -47,7 +47,7 @@ TEST(YamlMerge, ANewKeyFollowsTheKeyBeforeItInItsOwnText) {
             "n:\n  a: {p: 1}\n  x: {p: 3}\n  b: {p: 2}\n");
 }
 
-TEST(YamlMerge, LinesKnowTheirFile) {
+TEST(YamlMerge, LinesHaveTheirFile) {
   const MergedYaml all = merge_yaml({{"a: 1\nb:\n  c: 2\n  l:\n    - {x: 1}\n    - y: 2\n      z: 3\n", "low.yaml"},
                                      {"# words\nb:\n  c: 4\n  d: 5\n", "high.yaml"}},
                                     "extends");

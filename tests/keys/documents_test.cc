@@ -83,7 +83,7 @@ TEST(Documents, AKeyWithoutADefaultHasAnExample) {
 }
 
 // core/file_kind.h distinguishes kinds by keys; the loaders have the last word on them.
-TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
+TEST(Documents, TheKindOfAFileFollowsFromItsOwnKeys) {
   const std::map<FileKind, std::string> kinds{{FileKind::kScenario, "scenario"},
                                               {FileKind::kCluster, "cluster"},
                                               {FileKind::kExperiment, "experiment"},
@@ -102,15 +102,15 @@ TEST(Documents, TheKindOfAFileIsToldByItsOwnKeys) {
   EXPECT_TRUE(of_plans.contains("plan"));
   EXPECT_FALSE(known.contains("plan"));
   for (const auto& [key, of] : known) EXPECT_EQ(of_plans.contains(key), of.contains("cluster")) << key;
-  std::set<FileKind> told;
+  std::set<FileKind> reported;
   for (const auto& [key, of] : known) {
     // Beside a key that no kind has, only a kind's own keys identify it.
     const auto kind = kind_of(StrictYaml::parse(key + ": 1\nno_key: 1\n", "key.yaml"));
     if (!kind) continue;
-    told.insert(*kind);
+    reported.insert(*kind);
     EXPECT_EQ(of, std::set{kinds.at(*kind)}) << key;
   }
-  EXPECT_EQ(told.size(), 4u) << "a fault list has no key of its own";
+  EXPECT_EQ(reported.size(), 4u) << "a fault list has no key of its own";
 }
 
 TEST(Documents, ShippedFilesAreOfTheirKind) {

@@ -62,7 +62,7 @@ template <class Bench> class CanPortLaws : public testing::Test {
   void send(std::size_t sender, std::uint32_t identifier, const std::vector<std::byte>& bytes) {
     bench_.port(sender).send({identifier, bench_.flexible_data_rate(), bytes});
   }
-  std::vector<CanLabel> heard() const {  // by controller 2
+  std::vector<CanLabel> received() const {  // by controller 2
     std::vector<CanLabel> labels;
     for (const CanReached& reached : bench_.reached())
       if (reached.controller == 2)
@@ -107,7 +107,7 @@ TYPED_TEST_P(CanPortLaws, L1_EveryFrameReachesEveryOtherControllerOnceUnchanged)
   }
 }
 
-TYPED_TEST_P(CanPortLaws, L2_AControllerDoesNotHearItself) {
+TYPED_TEST_P(CanPortLaws, L2_AControllerDoesNotReceiveItself) {
   for (std::size_t sender = 0; sender < this->bench_.controllers(); ++sender)
     this->send(sender, 7, this->data(sender, 1));
   this->bench_.run_until_idle();
@@ -125,7 +125,7 @@ TYPED_TEST_P(CanPortLaws, L3_TheLowestIdentifierWinsWheneverTheBusFallsIdle) {
   for (const std::uint32_t identifier : {0x600u, 0x010u, 0x7ffu, 0x300u, 0x000u})
     this->send(number % 2, identifier, this->data(number % 2, number)), ++number;
   this->bench_.run_until_idle();
-  EXPECT_EQ(this->heard(),
+  EXPECT_EQ(this->received(),
             (std::vector<CanLabel>{
                 {0x700, 0, 0}, {0x000, 1, 5}, {0x010, 0, 2}, {0x300, 0, 4}, {0x600, 1, 1}, {0x7ff, 1, 3}}));
 }
@@ -136,7 +136,7 @@ TYPED_TEST_P(CanPortLaws, L3_TiesGoToTheLowerNode) {
   this->send(1, 0x200, this->data(1, 1));
   this->send(0, 0x200, this->data(0, 2));
   this->bench_.run_until_idle();
-  EXPECT_EQ(this->heard(), (std::vector<CanLabel>{{0x100, 0, 0}, {0x200, 0, 2}, {0x200, 1, 1}}));
+  EXPECT_EQ(this->received(), (std::vector<CanLabel>{{0x100, 0, 0}, {0x200, 0, 2}, {0x200, 1, 1}}));
 }
 
 // Two lists of many frames each, handed over together, with others in between.
@@ -149,7 +149,7 @@ TYPED_TEST_P(CanPortLaws, L4_FramesOfOneIdentifierFromOneNodeKeepTheirOrder) {
   }
   this->bench_.run_until_idle();
   std::map<std::pair<std::uint32_t, std::size_t>, std::vector<std::size_t>> order;
-  for (const auto& [identifier, sender, number] : this->heard()) order[{identifier, sender}].push_back(number);
+  for (const auto& [identifier, sender, number] : this->received()) order[{identifier, sender}].push_back(number);
   EXPECT_EQ(order.size(), 5u);
   EXPECT_EQ((order[{0x200, 0}].size()), 20u);
   EXPECT_EQ((order[{0x300, 1}].size()), 20u);
@@ -168,7 +168,7 @@ TYPED_TEST_P(CanPortLaws, L5_TheMediumKeepsNoReferenceToTheData) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(CanPortLaws, L1_EveryFrameReachesEveryOtherControllerOnceUnchanged,
-                            L2_AControllerDoesNotHearItself, L3_TheLowestIdentifierWinsWheneverTheBusFallsIdle,
+                            L2_AControllerDoesNotReceiveItself, L3_TheLowestIdentifierWinsWheneverTheBusFallsIdle,
                             L3_TiesGoToTheLowerNode, L4_FramesOfOneIdentifierFromOneNodeKeepTheirOrder,
                             L5_TheMediumKeepsNoReferenceToTheData);
 

@@ -51,27 +51,27 @@ template <class Bench> class ExchangeLaws : public testing::Test {
   }
   // Receives until it has received `count` messages of every other member. Each must be its sender's next,
   // without others in between.
-  void hear(std::size_t member, std::uint64_t count, test::Sizes sizes) {
+  void receive(std::size_t member, std::uint64_t count, test::Sizes sizes) {
     std::map<std::size_t, std::uint64_t> next;
     std::uint64_t left = count * (bench_.members() - 1);
     for (; left > 0; --left) {
-      const auto heard = bench_.member(member).receive();
-      const std::size_t from = index_of(heard.from);
+      const auto received = bench_.member(member).receive();
+      const std::size_t from = index_of(received.from);
       ASSERT_NE(from, member) << "hears itself";
       ASSERT_LT(from, bench_.members());
-      ASSERT_FALSE(heard.gone) << from;
-      const auto expected = test::message(heard.from, next[from]++, sizes);
-      ASSERT_TRUE(std::equal(heard.bytes.begin(), heard.bytes.end(), expected.begin(), expected.end()))
-          << "member " << member << " on message " << next[from] - 1 << " of " << from << ", " << heard.bytes.size()
+      ASSERT_FALSE(received.gone) << from;
+      const auto expected = test::message(received.from, next[from]++, sizes);
+      ASSERT_TRUE(std::equal(received.bytes.begin(), received.bytes.end(), expected.begin(), expected.end()))
+          << "member " << member << " on message " << next[from] - 1 << " of " << from << ", " << received.bytes.size()
           << " bytes for " << expected.size();
     }
-    for (const auto& [from, heard] : next) ASSERT_EQ(heard, count) << "of " << from;
+    for (const auto& [from, received] : next) ASSERT_EQ(received, count) << "of " << from;
   }
   void expect_gone(std::size_t member, std::size_t other) {
-    const auto heard = bench_.member(member).receive();
-    EXPECT_EQ(heard.from, node(other)) << "heard by " << member;
-    EXPECT_TRUE(heard.gone) << "heard by " << member;
-    EXPECT_TRUE(heard.bytes.empty());
+    const auto received = bench_.member(member).receive();
+    EXPECT_EQ(received.from, node(other)) << "heard by " << member;
+    EXPECT_TRUE(received.gone) << "heard by " << member;
+    EXPECT_TRUE(received.bytes.empty());
   }
 
   Bench bench_;
@@ -83,7 +83,7 @@ TYPED_TEST_P(ExchangeLaws, L1_EveryMessageReachesEveryOtherMemberOnceUnchanged) 
   static constexpr std::uint64_t kCount = 300;
   this->all([this](std::size_t member) {
     for (std::uint64_t i = 0; i < kCount; ++i) this->send(member, i, test::Sizes::kAll);
-    this->hear(member, kCount, test::Sizes::kAll);
+    this->receive(member, kCount, test::Sizes::kAll);
   });
   this->bench_.end(0);  // this comes next, so no message came twice
   this->all([this](std::size_t member) {
@@ -100,14 +100,14 @@ TYPED_TEST_P(ExchangeLaws, L2_InTheOrderInWhichTheyWereSentHoweverFarAhead) {
   this->all([this](std::size_t member) {
     if (member == 0) return;
     for (std::uint64_t i = 0; i < kCount; ++i) {
-      const auto heard = this->bench_.member(member).receive();
+      const auto received = this->bench_.member(member).receive();
       const auto expected = test::message(NodeId{0}, i, test::Sizes::kSmall);
-      ASSERT_TRUE(std::equal(heard.bytes.begin(), heard.bytes.end(), expected.begin(), expected.end())) << i;
+      ASSERT_TRUE(std::equal(received.bytes.begin(), received.bytes.end(), expected.begin(), expected.end())) << i;
     }
   });
 }
 
-TYPED_TEST_P(ExchangeLaws, L3_AMemberDoesNotHearItself) {
+TYPED_TEST_P(ExchangeLaws, L3_AMemberDoesNotReceiveItself) {
   static constexpr std::uint64_t kRounds = 200;  // in lockstep: each sends, then receives all others
   this->all([this](std::size_t member) {
     for (std::uint64_t round = 0; round < kRounds; ++round) {
@@ -139,7 +139,7 @@ TYPED_TEST_P(ExchangeLaws, L4_ReceiveSleepsUntilThereIsSomething) {
   });
 }
 
-TYPED_TEST_P(ExchangeLaws, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen) {
+TYPED_TEST_P(ExchangeLaws, L5_AGoneMemberIsReceivedNoMoreAndAllItSaidBeforeHasBeen) {
   static constexpr std::uint64_t kCount = 500;
   for (std::uint64_t i = 0; i < kCount; ++i) this->send(0, i, test::Sizes::kAll);
   for (std::size_t member = 1; member < this->bench_.members(); ++member)  // remaining members are not disturbed
@@ -151,9 +151,9 @@ TYPED_TEST_P(ExchangeLaws, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen) {
     bool gone = false;
     std::uint64_t left = kCount * (this->bench_.members() - 1) + 1;
     for (; left > 0; --left) {
-      const auto heard = this->bench_.member(member).receive();
-      const std::size_t from = index_of(heard.from);
-      if (heard.gone) {
+      const auto received = this->bench_.member(member).receive();
+      const std::size_t from = index_of(received.from);
+      if (received.gone) {
         ASSERT_EQ(from, 0u);
         ASSERT_EQ(next[0], kCount) << "member " << member << " lacks what was said before";
         gone = true;
@@ -161,8 +161,8 @@ TYPED_TEST_P(ExchangeLaws, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen) {
       }
       ASSERT_FALSE(from == 0 && gone) << "heard after it had gone";
       const auto sizes = from == 0 ? test::Sizes::kAll : test::Sizes::kSmall;
-      const auto expected = test::message(heard.from, next[from]++, sizes);
-      ASSERT_TRUE(std::equal(heard.bytes.begin(), heard.bytes.end(), expected.begin(), expected.end()));
+      const auto expected = test::message(received.from, next[from]++, sizes);
+      ASSERT_TRUE(std::equal(received.bytes.begin(), received.bytes.end(), expected.begin(), expected.end()));
     }
     EXPECT_TRUE(gone);
   });
@@ -170,7 +170,8 @@ TYPED_TEST_P(ExchangeLaws, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(ExchangeLaws, L1_EveryMessageReachesEveryOtherMemberOnceUnchanged,
-                            L2_InTheOrderInWhichTheyWereSentHoweverFarAhead, L3_AMemberDoesNotHearItself,
-                            L4_ReceiveSleepsUntilThereIsSomething, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen);
+                            L2_InTheOrderInWhichTheyWereSentHoweverFarAhead, L3_AMemberDoesNotReceiveItself,
+                            L4_ReceiveSleepsUntilThereIsSomething,
+                            L5_AGoneMemberIsReceivedNoMoreAndAllItSaidBeforeHasBeen);
 
 }  // namespace ttf::laws

@@ -114,7 +114,7 @@ TYPED_TEST_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOtherControllerOnc
   }
 }
 
-TYPED_TEST_P(FlexRayPortLaws, L2_AControllerDoesNotHearItself) {
+TYPED_TEST_P(FlexRayPortLaws, L2_AControllerDoesNotReceiveItself) {
   for (std::size_t sender = 0; sender < this->bench_.controllers(); ++sender) {
     const std::int64_t start = this->kFirst + static_cast<std::int64_t>(sender) * 20'000;
     for (const Channel channel : {Channel::kA, Channel::kB})
@@ -257,8 +257,8 @@ TYPED_TEST_P(FlexRayPortLaws, L7_TheCarrierIsSensedFromStartToDelivery) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOtherControllerOnceUnchanged,
-                            L2_AControllerDoesNotHearItself, L3_ReceptionsComeInTheOrderOfTheirEnd, L3_TiesGoByChannel,
-                            L4_AFrameIsDeliveredAtItsEnd, L5_TheMediumKeepsNoReferenceToTheBytes,
+                            L2_AControllerDoesNotReceiveItself, L3_ReceptionsComeInTheOrderOfTheirEnd,
+                            L3_TiesGoByChannel, L4_AFrameIsDeliveredAtItsEnd, L5_TheMediumKeepsNoReferenceToTheBytes,
                             L6_SignalsThatOverlapArriveAsOneUndecodable, L6_ABridgeBetweenTwoSignalsMakesThemOne,
                             L6_OverlappingCollisionAvoidanceSymbolsRemainOne, L6_OverlappingWakeupPatternsRemainOne,
                             L7_TheCarrierIsSensedFromStartToDelivery);

@@ -73,7 +73,7 @@ class LiveListener {
   // The first error; empty: no error.
   const std::string& wrong() const { return wrong_; }
   std::size_t said(bus::ports::Line line) const { return said_[line]; }
-  std::size_t heard(bus::ports::Line line, std::size_t from) const { return next_[line][from]; }
+  std::size_t received(bus::ports::Line line, std::size_t from) const { return next_[line][from]; }
   std::size_t missed(bus::ports::Line line, std::size_t from) const { return missed_[line][from]; }
   std::uint64_t received() const { return received_; }
   std::uint64_t refused() const { return refused_; }
@@ -98,16 +98,16 @@ class LiveListener {
   }
 
   // Receives the pending signals. `gaps`: some may be missing.
-  void hear(bool gaps = false) {
+  void receive(bool gaps = false) {
     while (const auto arrival = medium().receive()) take(*arrival, gaps);
   }
   // Receives until `count` utterances of this member on this line have arrived with their lateness. `meanwhile`
   // runs members without a thread; some media follow up when their sender receives its frame's confirmation.
-  void hear_until(
+  void receive_until(
       bus::ports::Line line, std::size_t from, std::size_t count, bool gaps = false,
       const std::function<void()>& meanwhile = [] {}) {
     const auto begin = std::chrono::steady_clock::now();
-    for (hear(gaps); next_[line][from] < count || waits_for_follow_up(line, from); meanwhile(), hear(gaps)) {
+    for (receive(gaps); next_[line][from] < count || waits_for_follow_up(line, from); meanwhile(), receive(gaps)) {
       if (!wrong_.empty()) return;
       if (std::chrono::steady_clock::now() - begin > bench_.patience())
         return complain(fmt::format("line {}: of member {} heard {} for {}{}", line, from, next_[line][from], count,
@@ -116,11 +116,11 @@ class LiveListener {
     }
   }
   // Receives until no signal comes any more.
-  void hear_out(bool gaps = false) {
+  void receive_rest(bool gaps = false) {
     for (std::uint64_t before = ~std::uint64_t{0}; before != received_;) {
       before = received_;
       std::this_thread::sleep_for(bench_.quiet());
-      hear(gaps);
+      receive(gaps);
     }
   }
 
@@ -135,20 +135,20 @@ class LiveListener {
     Duration late{};
   };
 
-  void take(const bus::ports::LiveArrival& heard, bool gaps) {
-    const bus::ports::Line line = line_of(heard);
-    const std::size_t from = speaker_of(heard, bench_.members());
+  void take(const bus::ports::LiveArrival& received, bool gaps) {
+    const bus::ports::Line line = line_of(received);
+    const std::size_t from = speaker_of(received, bench_.members());
     if (line >= bench_.lines() || !bench_.on(self_, line)) return complain(fmt::format("hears on line {}", line));
     if (from == self_) return complain(fmt::format("line {}: hears itself", line));
     if (from >= bench_.members()) return complain(fmt::format("line {}: hears what nobody said", line));
-    if (heard.kind == bus::ports::LiveArrival::Kind::kFollowUp) return take_follow_up(line, from, heard);
+    if (received.kind == bus::ports::LiveArrival::Kind::kFollowUp) return take_follow_up(line, from, received);
     ++received_;
     std::size_t& next = next_[line][from];
     for (const std::size_t first = next;; ++next, ++missed_[line][from]) {
       const Utterance expected(line, {from, bench_.members()}, next, traffic_, bench_.fast(line));
-      if (expected.is(heard)) {
+      if (expected.is(received)) {
         ++next;
-        return take_lateness(line, from, expected, heard.late);
+        return take_lateness(line, from, expected, received.late);
       }
       if (gaps && next < first + bench_.flood()) continue;
       return complain(fmt::format("line {}: what is heard of member {} is not its number {}", line, from, first));
@@ -159,15 +159,15 @@ class LiveListener {
     if (late) return check_lateness(*late, *expected.late());
     if (expected.late()) waiting_[{line, from}].push_back({expected.slot(), expected.cycle(), *expected.late()});
   }
-  void take_follow_up(bus::ports::Line line, std::size_t from, const bus::ports::LiveArrival& heard) {
+  void take_follow_up(bus::ports::Line line, std::size_t from, const bus::ports::LiveArrival& received) {
     auto& waiting = waiting_[{line, from}];
     if (waiting.empty()) return complain(fmt::format("line {}: a follow-up of nothing from {}", line, from));
     const SyncFrame frame = waiting.front();
     waiting.pop_front();
-    if (heard.signal.slot != frame.slot || heard.cycle_counter != frame.cycle || !heard.late)
+    if (received.signal.slot != frame.slot || received.cycle_counter != frame.cycle || !received.late)
       return complain(fmt::format("line {}: a follow-up of slot {} in cycle {}, for slot {} in {}", line,
-                                  heard.signal.slot, heard.cycle_counter, frame.slot, frame.cycle));
-    check_lateness(*heard.late, frame.late);
+                                  received.signal.slot, received.cycle_counter, frame.slot, frame.cycle));
+    check_lateness(*received.late, frame.late);
   }
   // It cannot be earlier than it was handed over.
   void check_lateness(Duration late, Duration least) {

@@ -41,7 +41,7 @@ inline std::optional<bus::ports::LiveArrival> await(
     LiveBench& bench, std::size_t member, const std::function<void()>& meanwhile = [] {}) {
   const auto begin = std::chrono::steady_clock::now();
   for (;;) {
-    if (auto heard = bench.member(member).receive()) return heard;
+    if (auto received = bench.member(member).receive()) return received;
     if (std::chrono::steady_clock::now() - begin > bench.patience()) return {};
     meanwhile();
     std::this_thread::sleep_for(kGlance);
@@ -73,11 +73,11 @@ inline void say_on_all_lines(LiveBench& bench, LiveListener& member, std::size_t
     for (bus::ports::Line line = 0; line < bench.lines(); ++line)
       if (bench.on(member.self(), line)) member.say(line);
 }
-inline void hear_all_of(
+inline void receive_all_of(
     LiveBench& bench, LiveListener& member, std::size_t count, const std::function<void()>& meanwhile = [] {}) {
   for (bus::ports::Line line = 0; line < bench.lines(); ++line)
     for (const std::size_t other : bench.others(member.self(), line))
-      if (bench.on(member.self(), line)) member.hear_until(line, other, count, false, meanwhile);
+      if (bench.on(member.self(), line)) member.receive_until(line, other, count, false, meanwhile);
 }
 
 // L1, and the lateness that departures have. Every member talks on all lines, in rounds, each member in its
@@ -87,28 +87,28 @@ inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
   auto members = listeners(bench, Traffic::kAll);
   std::atomic<bool> stop = false;
   const auto say = [&](LiveListener& member) { say_on_all_lines(bench, member, kEach); };
-  const auto all_hear = [&] {
+  const auto all_receive = [&] {
     if (in_threads) return;
-    for (LiveListener& member : members) member.hear();
+    for (LiveListener& member : members) member.receive();
   };
-  const auto hear = [&](LiveListener& member, std::size_t round) {
-    hear_all_of(bench, member, (round + 1) * kEach, all_hear);
+  const auto receive = [&](LiveListener& member, std::size_t round) {
+    receive_all_of(bench, member, (round + 1) * kEach, all_receive);
     if (!member.wrong().empty()) stop = true;
   };
   if (in_threads) {
     std::vector<std::thread> threads;
     for (LiveListener& member : members)
-      threads.emplace_back([&say, &hear, &stop, &member] {
-        for (std::size_t round = 0; round < kRounds && !stop; ++round) say(member), hear(member, round);
+      threads.emplace_back([&say, &receive, &stop, &member] {
+        for (std::size_t round = 0; round < kRounds && !stop; ++round) say(member), receive(member, round);
       });
     for (std::thread& thread : threads) thread.join();
   } else {
     for (std::size_t round = 0; round < kRounds && !stop; ++round) {
       for (LiveListener& member : members) say(member);
-      for (LiveListener& member : members) hear(member, round);
+      for (LiveListener& member : members) receive(member, round);
     }
   }
-  for (LiveListener& member : members) member.hear_out();  // no signal comes twice
+  for (LiveListener& member : members) member.receive_rest();  // no signal comes twice
   std::string wrong = first_wrong(members);
   for (const LiveListener& member : members)
     if (wrong.empty()) wrong = check_counts(bench, member);
@@ -124,13 +124,13 @@ inline std::string missing_is_counted(LiveBench& bench) {
   for (std::size_t i = 0; i < bench.flood(); ++i) {
     speaker.try_to_say(line);
     for (LiveListener& member : members)
-      if (member.self() > 1) member.hear_until(line, 0, speaker.said(line));
+      if (member.self() > 1) member.receive_until(line, 0, speaker.said(line));
     if (auto wrong = first_wrong(members); !wrong.empty()) return wrong;
   }
   LiveListener& sleeper = members[1];
-  sleeper.hear_out(true);
+  sleeper.receive_rest(true);
   speaker.say(line);  // shows that an earlier one is missing
-  sleeper.hear_until(line, 0, speaker.said(line), true);
+  sleeper.receive_until(line, 0, speaker.said(line), true);
   if (!sleeper.wrong().empty()) return sleeper.wrong();
   const std::uint64_t lost = sleeper.medium().counts().lost, missing = sleeper.missed(line, 0);
   if (missing == 0 && speaker.refused() == 0) return "the flood was none: nothing is missing";
@@ -142,14 +142,14 @@ inline std::string missing_is_counted(LiveBench& bench) {
 }
 
 // L2: a lone speaker receives nothing, on any line.
-inline std::string does_not_hear_itself(LiveBench& bench) {
+inline std::string does_not_receive_itself(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kAll);
   for (LiveListener& speaker : members) {
     say_on_all_lines(bench, speaker, 20);
     for (LiveListener& other : members)
       for (bus::ports::Line line = 0; line < bench.lines(); ++line)
         if (&other != &speaker && bench.on(speaker.self(), line) && bench.on(other.self(), line))
-          other.hear_until(line, speaker.self(), 20, false, [&] { speaker.hear(); });
+          other.receive_until(line, speaker.self(), 20, false, [&] { speaker.receive(); });
     if (speaker.medium().receive()) return fmt::format("member {} hears itself", speaker.self());
   }
   return first_wrong(members);
@@ -159,10 +159,10 @@ inline std::string does_not_hear_itself(LiveBench& bench) {
 inline std::string keeps_the_order(LiveBench& bench) {
   auto members = listeners(bench, Traffic::kAll);
   for (LiveListener& member : members) say_on_all_lines(bench, member, 24);
-  const auto all_hear = [&] {
-    for (LiveListener& member : members) member.hear();
+  const auto all_receive = [&] {
+    for (LiveListener& member : members) member.receive();
   };
-  for (LiveListener& member : members) hear_all_of(bench, member, 24, all_hear);
+  for (LiveListener& member : members) receive_all_of(bench, member, 24, all_receive);
   return first_wrong(members);
 }
 
@@ -175,19 +175,19 @@ inline std::string arrives_when_it_says(LiveBench& bench) {
     const Utterance utterance(i % 2, {0, bench.members()}, i, Traffic::kFrames);
     if (utterance.send(bench.member(0)) != bus::ports::LiveStatus::kDone) return "has no room";
     if (late) std::this_thread::sleep_for(kNap);
-    const auto heard = await(bench, 1);
+    const auto received = await(bench, 1);
     const bus::ports::MachineTime end = bus::ports::host_now();
-    if (!heard || !utterance.is(*heard)) return "hears something else";
-    if (heard->at < begin || heard->at > end)
-      return fmt::format("arrives {} ns after it was sent, {} ns before it is received", (heard->at - begin).ns,
-                         (end - heard->at).ns);
-    if (heard->received < heard->at || heard->received > end)
+    if (!received || !utterance.is(*received)) return "hears something else";
+    if (received->at < begin || received->at > end)
+      return fmt::format("arrives {} ns after it was sent, {} ns before it is received", (received->at - begin).ns,
+                         (end - received->at).ns);
+    if (received->received < received->at || received->received > end)
       return fmt::format("was in hand {} ns after it arrived, {} ns before it is received",
-                         (heard->received - heard->at).ns, (end - heard->received).ns);
-    if (heard->left && (*heard->left < begin || *heard->left > heard->received))
-      return fmt::format("left {} ns after it was sent, {} ns before it was in hand", (*heard->left - begin).ns,
-                         (heard->received - *heard->left).ns);
-    if (late && end - heard->at < Duration::milliseconds(kNap.count() / 4))
+                         (received->received - received->at).ns, (end - received->received).ns);
+    if (received->left && (*received->left < begin || *received->left > received->received))
+      return fmt::format("left {} ns after it was sent, {} ns before it was in hand", (*received->left - begin).ns,
+                         (received->received - *received->left).ns);
+    if (late && end - received->at < Duration::milliseconds(kNap.count() / 4))
       return "is said to arrive when it is looked for";
   }
   return {};
@@ -207,12 +207,12 @@ inline std::string keeps_what_is_its_own(LiveBench& bench) {
     return Utterance(0, {0, bench.members()}, number, Traffic::kFrames);
   };
   for (std::size_t i = 0; i < kCount; ++i) {
-    const auto heard = await(bench, 1);
-    if (!heard || !expected(i).is(*heard)) return fmt::format("number {} is not what was sent", i);
+    const auto received = await(bench, 1);
+    if (!received || !expected(i).is(*received)) return fmt::format("number {} is not what was sent", i);
     if (i + 1 < kCount) continue;
     for (std::size_t more = 1; more <= 100; ++more) expected(i + more).send(bench.member(0));
     std::this_thread::sleep_for(bench.quiet());
-    if (!expected(i).is(*heard)) return "what was received has changed";
+    if (!expected(i).is(*received)) return "what was received has changed";
   }
   return {};
 }
@@ -233,7 +233,7 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
     for (std::size_t i = 0; i < kCount && bench.on(0, line); ++i)
       utterances[line].emplace_back(line, Speaker{0, bench.members()}, i, Traffic::kAll, bench.fast(line));
   std::int64_t allocated = 0;
-  std::size_t heard = 0, said = 0;
+  std::size_t received = 0, said = 0;
   for (int round = 0; round < 2; ++round) {
     const std::int64_t before = support::allocations();
     for (bus::ports::Line line = 0; line < lines; ++line) {
@@ -247,7 +247,7 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
         bool something = true;
         while (something) {
           longest = std::max(longest, timed([&] { something = bench.member(i).receive().has_value(); }));
-          heard += something;
+          received += something;
           if (something) quiet = 0;
         }
       }
@@ -255,7 +255,7 @@ inline std::string never_blocks_nor_allocates(LiveBench& bench) {
     }
     allocated = support::allocations() - before;
   }
-  if (heard < said) return fmt::format("{} heard of {}", heard, said);
+  if (received < said) return fmt::format("{} heard of {}", received, said);
   if (longest > kAtOnce)
     return fmt::format("a call took {} ms", std::chrono::duration_cast<std::chrono::milliseconds>(longest).count());
   if (allocated != 0) return fmt::format("{} allocations on the way", allocated);
@@ -272,8 +272,8 @@ inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder w
     const std::size_t speaker = bench.on(0, line) ? 0 : bench.others(0, line).front();
     members[speaker].say(line);
     for (const std::size_t other : bench.others(speaker, line)) {
-      members[other].hear_until(line, speaker, 1);
-      members[other].hear_out();
+      members[other].receive_until(line, speaker, 1);
+      members[other].receive_rest();
       const bus::ports::LiveCounts counts = members[other].medium().counts();
       const bool foreign = what == LiveBench::Intruder::kForeign;
       const std::uint64_t counted =
@@ -291,8 +291,8 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
   using namespace std::chrono_literals;
   for (bus::ports::Line line = 0; line < bench.lines(); ++line) {
     const std::size_t speaker = bench.on(0, line) ? 0 : bench.others(0, line).front();
-    const std::size_t hearer = bench.others(speaker, line).front();
-    bus::ports::LiveMedium& medium = bench.member(hearer);
+    const std::size_t receiver = bench.others(speaker, line).front();
+    bus::ports::LiveMedium& medium = bench.member(receiver);
     const auto say = [&](std::size_t number) {
       return Utterance(line, {speaker, bench.members()}, number, Traffic::kFrames, bench.fast(line))
                  .send(bench.member(speaker)) == bus::ports::LiveStatus::kDone;
@@ -306,8 +306,9 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
     if (!say(0) || !readable(medium, line, bench.patience())) return complaint("is not readable");
     if (!say(1)) return complaint("has no room");
     std::this_thread::sleep_for(bench.quiet());
-    if (!await(bench, hearer) || !readable(medium, line, 0ms)) return complaint("is not readable while there is more");
-    if (!await(bench, hearer) || medium.receive()) return complaint("hears too little or too much");
+    if (!await(bench, receiver) || !readable(medium, line, 0ms))
+      return complaint("is not readable while there is more");
+    if (!await(bench, receiver) || medium.receive()) return complaint("hears too little or too much");
     if (readable(medium, line, 0ms)) return complaint("is readable after everything was handed over");
     medium.watch(line, false);
     if (!say(2)) return complaint("has no room");
@@ -315,7 +316,7 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
     medium.watch(line, true);
     if (!readable(medium, line, bench.patience()))
       return complaint("is not readable where it came before it was watched");
-    if (!await(bench, hearer)) return complaint("hears nothing");
+    if (!await(bench, receiver)) return complaint("hears nothing");
     medium.watch(line, false);
     for (std::size_t i = 0; i < bench.members(); ++i)  // the others have received it too
       while (bench.member(i).receive()) {
@@ -335,9 +336,9 @@ inline std::string says_how_late_it_left(LiveBench& bench) {
     const bus::ports::MachineTime end = bus::ports::host_now();
     for (std::size_t member = 1; member < bench.members(); ++member) {
       std::optional<Duration> late;
-      const auto heard = await(bench, member);
-      if (!heard || !utterance.is(*heard)) return "hears something else";
-      late = heard->late;
+      const auto received = await(bench, member);
+      if (!received || !utterance.is(*received)) return "hears something else";
+      late = received->late;
       if (!late) {
         const auto follow_up = await(bench, member, [&] { bench.member(0).receive(); });
         if (follow_up && follow_up->kind == bus::ports::LiveArrival::Kind::kFollowUp) late = follow_up->late;

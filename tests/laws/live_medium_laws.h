@@ -31,7 +31,7 @@ TYPED_TEST_P(LiveMediumLaws, L1_AlsoWhereEveryNodeHasAThread) { EXPECT_EQ(once_a
 TYPED_TEST_P(LiveMediumLaws, L1_OrIsCountedAsLostWhereNobodyListens) {
   EXPECT_EQ(missing_is_counted(this->bench_), "");
 }
-TYPED_TEST_P(LiveMediumLaws, L2_ANodeDoesNotHearItself) { EXPECT_EQ(does_not_hear_itself(this->bench_), ""); }
+TYPED_TEST_P(LiveMediumLaws, L2_ANodeDoesNotReceiveItself) { EXPECT_EQ(does_not_receive_itself(this->bench_), ""); }
 TYPED_TEST_P(LiveMediumLaws, L3_InTheOrderInWhichTheyWereSent) { EXPECT_EQ(keeps_the_order(this->bench_), ""); }
 TYPED_TEST_P(LiveMediumLaws, L4_ItArrivesBetweenSendAndReceive) { EXPECT_EQ(arrives_when_it_says(this->bench_), ""); }
 TYPED_TEST_P(LiveMediumLaws, L5_BytesAreKeptAsLongAsTheyAreNeeded) {
@@ -53,7 +53,7 @@ TYPED_TEST_P(LiveMediumLaws, Departure_ASyncFrameSaysHowLateItLeft) {
 
 REGISTER_TYPED_TEST_SUITE_P(LiveMediumLaws, L1_EverySignalReachesEveryOtherNodeOnceUnchanged,
                             L1_AlsoWhereEveryNodeHasAThread, L1_OrIsCountedAsLostWhereNobodyListens,
-                            L2_ANodeDoesNotHearItself, L3_InTheOrderInWhichTheyWereSent,
+                            L2_ANodeDoesNotReceiveItself, L3_InTheOrderInWhichTheyWereSent,
                             L4_ItArrivesBetweenSendAndReceive, L5_BytesAreKeptAsLongAsTheyAreNeeded,
                             L6_NothingBlocksNorAllocates, L7_WhatIsForeignIsCounted, L7_WhatIsMalformedIsCounted,
                             L8_WhatIsWatchedIsReadableUntilItIsHandedOver, Departure_ASyncFrameSaysHowLateItLeft);

@@ -46,7 +46,7 @@ class Utterance {
             .slot = slot(),
             .duration = duration_,
             .bytes = std::span(bytes_).first(size_),
-            .tells_late = late_.has_value()};
+            .states_late = late_.has_value()};
   }
   bus::ports::CanFrame can() const {
     return {static_cast<std::uint32_t>(number_ % 100 * speaker_.members + speaker_.index), fast_,
@@ -65,16 +65,16 @@ class Utterance {
   void scribble() { bytes_.fill(std::byte{0xEE}); }
 
   // Returns whether this has arrived; ignores sync frames' lateness.
-  bool is(const bus::ports::LiveArrival& heard) const {
+  bool is(const bus::ports::LiveArrival& received) const {
     if (is_can())
-      return heard.kind == bus::ports::LiveArrival::Kind::kCan && bus::ports::line_of_can(heard.can_bus) == line_ &&
-             heard.can.identifier == can().identifier && heard.can.flexible_data_rate == fast_ &&
-             std::ranges::equal(heard.can.data, can().data);
-    if (heard.kind != bus::ports::LiveArrival::Kind::kFlexRay || bus::ports::line_of(heard.signal.channel) != line_ ||
-        heard.signal.signal != what_)
+      return received.kind == bus::ports::LiveArrival::Kind::kCan &&
+             bus::ports::line_of_can(received.can_bus) == line_ && received.can.identifier == can().identifier &&
+             received.can.flexible_data_rate == fast_ && std::ranges::equal(received.can.data, can().data);
+    if (received.kind != bus::ports::LiveArrival::Kind::kFlexRay ||
+        bus::ports::line_of(received.signal.channel) != line_ || received.signal.signal != what_)
       return false;
-    if (what_ != bus::ports::Signal::kFrame) return heard.signal.duration == duration_;
-    return heard.signal.slot == slot() && std::ranges::equal(heard.signal.bytes, signal().bytes);
+    if (what_ != bus::ports::Signal::kFrame) return received.signal.duration == duration_;
+    return received.signal.slot == slot() && std::ranges::equal(received.signal.bytes, signal().bytes);
   }
 
  private:
@@ -122,17 +122,17 @@ class Utterance {
   std::array<std::byte, bus::wire::kMaxFrameBytes> bytes_{};
 };
 
-inline bus::ports::Line line_of(const bus::ports::LiveArrival& heard) {
-  return heard.kind == bus::ports::LiveArrival::Kind::kCan ? bus::ports::line_of_can(heard.can_bus)
-                                                           : bus::ports::line_of(heard.signal.channel);
+inline bus::ports::Line line_of(const bus::ports::LiveArrival& received) {
+  return received.kind == bus::ports::LiveArrival::Kind::kCan ? bus::ports::line_of_can(received.can_bus)
+                                                              : bus::ports::line_of(received.signal.channel);
 }
 
 // The speaker of an utterance above.
-inline std::size_t speaker_of(const bus::ports::LiveArrival& heard, std::size_t members) {
-  if (heard.kind == bus::ports::LiveArrival::Kind::kCan) return heard.can.identifier % members;
-  if (heard.kind == bus::ports::LiveArrival::Kind::kFollowUp || heard.signal.signal == bus::ports::Signal::kFrame)
-    return static_cast<std::size_t>(heard.signal.slot - 1) % members;
-  return static_cast<std::size_t>(heard.signal.duration.ns / 1'000'000 - 1);
+inline std::size_t speaker_of(const bus::ports::LiveArrival& received, std::size_t members) {
+  if (received.kind == bus::ports::LiveArrival::Kind::kCan) return received.can.identifier % members;
+  if (received.kind == bus::ports::LiveArrival::Kind::kFollowUp || received.signal.signal == bus::ports::Signal::kFrame)
+    return static_cast<std::size_t>(received.signal.slot - 1) % members;
+  return static_cast<std::size_t>(received.signal.duration.ns / 1'000'000 - 1);
 }
 
 }  // namespace ttf::laws

@@ -20,8 +20,8 @@ has run.html 'A car ahead accelerates along the sensor vehicle'
 # The first sentence has the summary's errors, to three digits.
 errors=$(python3 - <<'END'
 import json, math
-told = {s["strategy"]: s["rmse_truth"]["position_m"] for s in json.load(open("seed1/summary.json"))["strategies"]}
-text = {name: f"{error:.{2 - math.floor(math.log10(error))}f}" for name, error in told.items()}
+reported = {s["strategy"]: s["rmse_truth"]["position_m"] for s in json.load(open("seed1/summary.json"))["strategies"]}
+text = {name: f"{error:.{2 - math.floor(math.log10(error))}f}" for name, error in reported.items()}
 print(f"buff is off by {text['buff']} m in position, adva by {text['adva']} m, tt by {text['tt']} m")
 END
 )
@@ -39,8 +39,8 @@ python3 - <<'END' || fail "the scenes of the page are not those of the logs"
 import base64, json, re
 page = open("run.html", encoding="utf-8").read()
 scenes = json.loads(re.search(r'<script type="application/json" id="scenes">(.*?)</script>', page, re.S)[1])
-told = json.load(open("seed1/summary.json"))["strategies"]
-assert [s["label"] for s in scenes] == [s["strategy"] for s in told]
+reported = json.load(open("seed1/summary.json"))["strategies"]
+assert [s["label"] for s in scenes] == [s["strategy"] for s in reported]
 for scene in scenes:
     assert scene["note"] == "" and [s["name"] for s in scene["sensors"]] == ["laser", "camera"]
     assert all(len(s["edge"]) > 30 for s in scene["sensors"])
@@ -76,11 +76,11 @@ plots = json.loads(re.search(r'<script type="application/json" id="plots">(.*?)<
 curves = next(plot for plot in plots if plot["heading"] == "Error over time")["views"][0]["curves"]
 summary = json.load(open("seed1/summary.json"))["strategies"]
 assert [c["label"] for c in curves] == [s["strategy"] for s in summary]
-for curve, told in zip(curves, summary):
+for curve, reported in zip(curves, summary):
     judged = [y for x, y in zip(curve["x"], curve["y"]) if x >= 1.501]
     rmse = math.sqrt(sum(y * y for y in judged) / len(judged))
-    if len(judged) != told["objects"]["compared"] or abs(rmse - told["rmse_truth"]["position_m"]) > 1e-5:
-        sys.exit(f"{curve['label']}: {len(judged)} {rmse}, {told['rmse_truth']}")
+    if len(judged) != reported["objects"]["compared"] or abs(rmse - reported["rmse_truth"]["position_m"]) > 1e-5:
+        sys.exit(f"{curve['label']}: {len(judged)} {rmse}, {reported['rmse_truth']}")
 END
 
 # ---- several runs: paired intervals over their seeds
@@ -171,7 +171,7 @@ mkdir changed away
 sed 's/^replications: .*/replications: 5/' small.yaml >changed/small.yaml
 (cd changed && "$program" report ../small -o page.html >/dev/null 2>said) || fail "no page where the file is another"
 grep -q '^warning: No drive is shown here: small.yaml, or a file that it names, has changed' changed/said ||
-  fail "another file is not told of: $(cat changed/said)"
+  fail "another file is not reported of: $(cat changed/said)"
 has changed/page.html 'No drive is shown here: small.yaml, or a file that it names, has changed'
 lacks changed/page.html 'class="diagram"'
 (cd away && "$program" report ../small -o page.html >/dev/null 2>&1) || fail "no page where there is no file"

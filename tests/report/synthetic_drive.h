@@ -63,9 +63,9 @@ struct SyntheticDrive {
   }
 
   void task(recording::records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node,
-            int number, bool met = true) const {
+            int number, bool in_time = true) const {
     sink.on(recording::records::TaskRun{stamp(start, node), static_cast<std::uint8_t>(number), stamp(activated, node),
-                                        stamp(end, node), met});
+                                        stamp(end, node), in_time});
   }
 
   void can(recording::records::Sink& sink, std::int64_t start, std::int64_t end, int bus, int sender, int pdu,

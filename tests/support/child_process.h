@@ -49,7 +49,7 @@ class ChildProcess {
 
   void signal(int number) const { kill(process_, number); }
   // Writes a line to its input.
-  void tell(const std::string& line) const {
+  void report(const std::string& line) const {
     const std::string text = line + '\n';
     TTF_CHECK(write(input_, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   }

@@ -64,13 +64,13 @@ class MemoryExchange {
       const std::scoped_lock lock(mutex);
       Member& member = members.at(node);
       if (std::exchange(member.gone, true)) return;
-      tell_others({node, nullptr});
+      report_to_others({node, nullptr});
       for (auto& other : members) other.second.something.notify_one();  // also members that have no partner left
     }
     void send(NodeId from, std::span<const std::byte> message) {
       auto bytes = std::make_shared<const std::vector<std::byte>>(message.begin(), message.end());
       const std::scoped_lock lock(mutex);
-      if (!members.at(from).gone) tell_others({from, std::move(bytes)});
+      if (!members.at(from).gone) report_to_others({from, std::move(bytes)});
     }
     Item receive(NodeId node) {
       std::unique_lock lock(mutex);
@@ -89,7 +89,7 @@ class MemoryExchange {
       return std::all_of(members.begin(), members.end(),
                          [node](const auto& entry) { return entry.first == node || entry.second.gone; });
     }
-    void tell_others(const Item& item) {
+    void report_to_others(const Item& item) {
       begun = true;
       for (auto& [node, member] : members) {
         if (node == item.from) continue;
@@ -103,7 +103,7 @@ class MemoryExchange {
    public:
     Endpoint(std::shared_ptr<Hub> hub, NodeId node) : hub_(std::move(hub)), node_(node) { hub_->join(node); }
     void send(std::span<const std::byte> message) override { hub_->send(node_, message); }
-    Heard receive() override {
+    Received receive() override {
       last_ = hub_->receive(node_);
       if (last_.bytes == nullptr) return {last_.from, true, {}};
       return {last_.from, false, *last_.bytes};

@@ -31,11 +31,11 @@
 
 namespace ttf::test {
 
-enum class Told { kWithTheFrame, kInAFollowUp };  // how late a sync frame left
+enum class Reported { kWithTheFrame, kInAFollowUp };  // how late a sync frame left
 
 struct MemoryLiveBusOptions {
   std::vector<bool> can_buses;  // whether each carries CAN FD: only the laws use it
-  Told told = Told::kWithTheFrame;
+  Reported reported = Reported::kWithTheFrame;
   std::size_t room = 1024;  // signals and follow-ups on each line of each member
   std::function<bus::ports::MachineTime()> now = bus::ports::host_now;
 };
@@ -145,9 +145,9 @@ class MemoryLiveBus {
       arrival.left = now;
       arrival.signal = signal;
       arrival.signal.bytes = {};
-      const bool tells = signal.tells_late;
-      const bool follows = tells && hub_->options.told == Told::kInAFollowUp;
-      if (tells && !follows) arrival.late = now - due;
+      const bool states = signal.states_late;
+      const bool follows = states && hub_->options.reported == Reported::kInAFollowUp;
+      if (states && !follows) arrival.late = now - due;
       carry(arrival, bus::ports::line_of(signal.channel), signal.bytes);
       if (follows) {
         bus::ports::LiveArrival follow_up = arrival;

@@ -69,7 +69,7 @@ kill "${ears[@]}"
 wait "${ears[@]}" || true
 
 echo "what candump recorded of a channel is what all nodes sent there"
-"$peer" listen "$a" A 500 >"$run/heard" 2>"$run/ready" &
+"$peer" listen "$a" A 500 >"$run/received" 2>"$run/ready" &
 listener=$!
 wait_for listening "$run/ready"
 canplayer -I "$run/channel.log" "$a=$a"
@@ -77,10 +77,10 @@ wait "$listener"
 frames_of "$run/drive/tt.mcap" >"$run/drive.csv"
 # Slot, cycle counter and payload of each frame.
 awk -F, '$2 == "FlexRay" && $3 == "A" { print $5, $4 % 64, $13 }' "$run/drive.csv" | sort >"$run/logged"
-awk '$1 == "slot" && $NF != "late" { print $2, $4, $NF }' "$run/heard" | sort >"$run/decoded"
+awk '$1 == "slot" && $NF != "late" { print $2, $4, $NF }' "$run/received" | sort >"$run/decoded"
 [[ -s $run/logged ]] || fail "no frames in the log"
 diff "$run/logged" "$run/decoded" >"$run/difference" || fail "other frames than in the log: $(head "$run/difference")"
-follow_ups=$(grep -c " ns late$" "$run/heard") sync_frames=$(grep -c "sync" <(grep "^[^,]*,FlexRay,A" "$run/drive.csv"))
+follow_ups=$(grep -c " ns late$" "$run/received") sync_frames=$(grep -c "sync" <(grep "^[^,]*,FlexRay,A" "$run/drive.csv"))
 [[ $follow_ups -eq $sync_frames ]] || fail "$follow_ups follow-ups of $sync_frames sync frames"
 
 echo "canplayer takes the laser's place: what it recorded of it gives the same observations"

@@ -36,22 +36,22 @@ for channel in A:vcan0 B:vcan1; do
   candump -T 1000 vcan1 >"$run/shown" &
   candump -L -T 1000 vcan1 >"$run/recorded" &
   wait_for_receivers vcan1 2
-  "$peer" listen vcan0 "${channel%:*}" 500 vcan1 >"$run/heard" 2>"$run/ready" &
+  "$peer" listen vcan0 "${channel%:*}" 500 vcan1 >"$run/received" 2>"$run/ready" &
   wait_for listening "$run/ready"
   as_cansend <"$run/expected" | while read -r frame; do cansend vcan0 "$frame"; done
   wait
   diff <(shown "$run/shown") "$run/expected" || fail "candump sees another frame on channel ${channel%:*}"
-  grep -q ' foreign 0 malformed 0 displaced 0 abandoned 0 lost 0' "$run/heard" || fail "$(tail -1 "$run/heard")"
+  grep -q ' foreign 0 malformed 0 displaced 0 abandoned 0 lost 0' "$run/received" || fail "$(tail -1 "$run/received")"
   # canplayer replays candump's recording.
   "$peer" listen vcan0 "${channel%:*}" 500 >"$run/replayed" 2>"$run/ready" &
   wait_for listening "$run/ready"
   canplayer -I "$run/recorded" vcan0=vcan1
   wait
-  diff "$run/heard" "$run/replayed" || fail "a replay is something else"
+  diff "$run/received" "$run/replayed" || fail "a replay is something else"
 done
 
 echo "strangers' frames are counted and ignored, while three of ours go on"
-"$peer" listen vcan0 A 5000 >"$run/heard" 2>"$run/ready" &
+"$peer" listen vcan0 A 5000 >"$run/received" 2>"$run/ready" &
 listener=$!
 wait_for listening "$run/ready"
 start=$(($(date +%s) + 2))
@@ -66,24 +66,24 @@ cangen vcan0 -g 2 -n 100 -I i -L 8 -D r -e
 cangen vcan0 -g 2 -n 100 -I i -L i -D r -f
 for node in "${nodes[@]}"; do wait "$node" || fail "a node lost frames: $(tail -qn1 "$run"/node_*)"; done
 wait "$listener"
-read -r _ complete _ _ _ foreign _ malformed _ displaced _ _ _ lost <<<"$(tail -1 "$run/heard")"
+read -r _ complete _ _ _ foreign _ malformed _ displaced _ _ _ lost <<<"$(tail -1 "$run/received")"
 [[ $complete -eq 600 && $foreign -eq 200 && $((malformed + displaced)) -eq 100 && $lost -eq 0 ]] ||
-  fail "600 complete, 200 foreign, 100 malformed: $(tail -1 "$run/heard")"
+  fail "600 complete, 200 foreign, 100 malformed: $(tail -1 "$run/received")"
 
 echo "what nobody reads is counted"
 "$peer" deaf vcan0 64 3000 >"$run/deaf" 2>"$run/ready" &
 wait_for listening "$run/ready"
 cangen vcan0 -g 0 -n 500 -I i -L 64 -f
 wait
-read -r _ heard _ lost <"$run/deaf"
-[[ $heard -ge 64 && $lost -gt 0 && $((heard + lost)) -eq 500 ]] || fail "500 sent, $(cat "$run/deaf")"
+read -r _ received _ lost <"$run/deaf"
+[[ $received -ge 64 && $lost -gt 0 && $((received + lost)) -eq 500 ]] || fail "500 sent, $(cat "$run/deaf")"
 
 if [[ $(id -u) -eq 0 ]]; then
   echo "an interface that goes down ends in a clear sentence"
   ip link del dev vcan98 2>/dev/null || true
   ip link add dev vcan98 type vcan
   ip link set vcan98 mtu 72 up
-  "$peer" listen vcan98 A 60000 >"$run/heard" 2>"$run/ready" &
+  "$peer" listen vcan98 A 60000 >"$run/received" 2>"$run/ready" &
   listener=$!
   wait_for listening "$run/ready"
   ip link set vcan98 down

@@ -48,8 +48,9 @@ std::string hex(std::span<const std::byte> bytes) {
 }
 
 std::string described(Channel channel, const bus::socketcan::Arrival& arrival) {
-  if (const auto& told = arrival.follow_up)
-    return fmt::format("slot {} cycle {} left {} ns late", told->slot, told->cycle_counter, told->late.ns);
+  if (const auto& follow_up = arrival.follow_up)
+    return fmt::format("slot {} cycle {} left {} ns late", follow_up->slot, follow_up->cycle_counter,
+                       follow_up->late.ns);
   if (arrival.signal != bus::ports::Signal::kFrame)
     return fmt::format("{} of {} ns",
                        arrival.signal == bus::ports::Signal::kCas      ? "CAS"
@@ -143,8 +144,8 @@ class Alarm {
 };
 
 // Prints everything sent until that instant.
-bool hear_until(bus::socketcan::Socket& socket, Channel channel, bus::socketcan::Reassembly& reassembly, Alarm& alarm,
-                std::int64_t until) {
+bool receive_until(bus::socketcan::Socket& socket, Channel channel, bus::socketcan::Reassembly& reassembly,
+                   Alarm& alarm, std::int64_t until) {
   alarm.set(until);
   for (;;) {
     bus::socketcan::Received received;
@@ -167,10 +168,11 @@ int node(const std::string& interface, Channel channel, int slot, int nodes, int
   bus::socketcan::Reassembly reassembly(channel);
   Alarm alarm;
   for (int cycle = 0; cycle < cycles; ++cycle) {
-    if (!hear_until(socket, channel, reassembly, alarm, start + cycle * kCycle + slot * kSlot)) return failed(socket);
+    if (!receive_until(socket, channel, reassembly, alarm, start + cycle * kCycle + slot * kSlot))
+      return failed(socket);
     if (!send_frame(socket, channel, slot, cycle)) return failed(socket);
   }
-  if (!hear_until(socket, channel, reassembly, alarm, start + cycles * kCycle + kCycle)) return failed(socket);
+  if (!receive_until(socket, channel, reassembly, alarm, start + cycles * kCycle + kCycle)) return failed(socket);
   const auto expected = static_cast<std::uint64_t>((nodes - 1) * cycles);
   fmt::print("complete {} of {} lost {}\n", reassembly.count(bus::socketcan::Outcome::kComplete), expected,
              socket.lost());
@@ -182,9 +184,9 @@ int deaf(const std::string& interface, int frames, std::int64_t ms) {
   fmt::print(stderr, "listening\n");
   const timespec pause{.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1'000'000};
   nanosleep(&pause, nullptr);
-  int heard = 0;
-  for (bus::socketcan::Received received; socket.receive(received) == bus::socketcan::Status::kDone;) ++heard;
-  fmt::print("heard {} lost {}\n", heard, socket.lost());
+  int count = 0;
+  for (bus::socketcan::Received received; socket.receive(received) == bus::socketcan::Status::kDone;) ++count;
+  fmt::print("heard {} lost {}\n", count, socket.lost());
   return 0;
 }
 

@@ -24,7 +24,7 @@ def answer(*differences, failed=0):
 
 
 class SeedsSentence(unittest.TestCase):
-    def test_no_winner_that_the_seeds_cannot_tell(self):
+    def test_no_winner_that_the_seeds_cannot_decide(self):
         lines = seeds_sentence.sentences(answer((-0.0033, 0.0043, False), (0.5, 0.4, False))).splitlines()
         self.assertEqual(lines[0], "20 seeds of each drive cannot tell who is better or worse than tt "
                                    "(2 comparisons, 95 %).")
@@ -32,7 +32,7 @@ class SeedsSentence(unittest.TestCase):
         self.assertEqual(lines[2], "  bend0: tt 0.093 ± 0.051, adva - tt -0.0033 ± 0.0043")
         self.assertEqual(lines[3], "  bend1: tt 0.093 ± 0.051, adva - tt +0.50 ± 0.40")
 
-    def test_a_certain_difference_is_told_with_its_drive(self):
+    def test_a_certain_difference_is_reported_with_its_drive(self):
         text = seeds_sentence.sentences(answer((-0.0033, 0.0043, False), (0.5, 0.1, True)))
         self.assertTrue(text.startswith("20 seeds of each drive tell for certain: adva has more than tt in bend1 (2"), text)
         text = seeds_sentence.sentences(answer((-0.5, 0.1, True)))

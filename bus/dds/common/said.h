@@ -26,7 +26,7 @@ enum class Kind : std::uint8_t {
   kAgain,     // control, holder: sample `first` of `about`, whose kind is `inner`
   kAllAgain,  // control, holder: all of `about` has been repeated in this `round`
   kClosed,    // control, member: the sender has received all of `about` up to the end of this `round`
-  kHeard,     // control, member, now and then: its counts of samples received (bus/dds/exchange/heard.h)
+  kReceived,  // control, member, now and then: its counts of samples received (bus/dds/exchange/received_counts.h)
 };
 inline constexpr std::uint8_t kKinds = 11;
 

@@ -20,7 +20,7 @@ void Exchange::wait_ready(std::chrono::milliseconds patience) { member_->wait_re
 
 void Exchange::send(std::span<const std::byte> message) { member_->send(message); }
 
-ports::Exchange::Heard Exchange::receive() { return member_->receive(); }
+ports::Exchange::Received Exchange::receive() { return member_->receive(); }
 
 void Exchange::leave() { member_->leave(); }
 

@@ -39,7 +39,7 @@ class Exchange final : public ports::Exchange {
   void send(std::span<const std::byte> message) override;
   // Besides the port's errors: throws std::runtime_error if samples were lost or if all others are gone. So it
   // does if the supervisor has gone or has announced this member gone.
-  Heard receive() override;
+  Received receive() override;
 
   // Says goodbye to the others. Waits until all have it, but only briefly for members that do not answer.
   void leave();

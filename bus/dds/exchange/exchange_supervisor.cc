@@ -55,7 +55,7 @@ class ExchangeSupervisor::Watch {
   void without(NodeId node);
   void finish_agreements();
   void look_for_lost();
-  void tell(What what, NodeId node, std::uint64_t samples = 0);
+  void report(What what, NodeId node, std::uint64_t samples = 0);
 
   const common::Session session_;
   common::Participant participant_;
@@ -144,13 +144,13 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
   switch (said.kind) {
     case common::Kind::kHello:
       hello_.insert(node);
-      tell(What::kJoined, node);
+      report(What::kJoined, node);
       return;
-    case common::Kind::kReady: tell(What::kReady, node); return;
+    case common::Kind::kReady: report(What::kReady, node); return;
     case common::Kind::kBye:
       left_.insert(node);
       without(node);
-      tell(What::kLeft, node);
+      report(What::kLeft, node);
       return;
     case common::Kind::kReport:
       if (const auto agreement = agreements_.find(said.about); agreement != agreements_.end())
@@ -162,7 +162,7 @@ void ExchangeSupervisor::Watch::on_control(const common::Said& said) {
       return;
     case common::Kind::kAgain:
     case common::Kind::kAllAgain:
-    case common::Kind::kHeard: return;  // for the members
+    case common::Kind::kReceived: return;  // for the members
     case common::Kind::kFence:
     case common::Kind::kClose:
     case common::Kind::kMessage:
@@ -202,7 +202,7 @@ void ExchangeSupervisor::Watch::finish_agreements() {
       ++entry;
       continue;
     }
-    tell(What::kGone, entry->first, entry->second.end());
+    report(What::kGone, entry->first, entry->second.end());
     entry = agreements_.erase(entry);
   }
 }
@@ -211,14 +211,14 @@ void ExchangeSupervisor::Watch::look_for_lost() {
   for (const NodeId node : hello_) {
     if (dead_.contains(node) || left_.contains(node)) continue;
     if (control_.lost(node)) {
-      if (lost_.insert(node).second) tell(What::kLost, node);
+      if (lost_.insert(node).second) report(What::kLost, node);
     } else if (lost_.erase(node) > 0) {
-      tell(What::kBack, node);
+      report(What::kBack, node);
     }
   }
 }
 
-void ExchangeSupervisor::Watch::tell(What what, NodeId node, std::uint64_t samples) {
+void ExchangeSupervisor::Watch::report(What what, NodeId node, std::uint64_t samples) {
   const std::scoped_lock lock(mutex_);
   if (what == What::kJoined) joined_.insert(node);
   if (what == What::kReady) ready_.insert(node);

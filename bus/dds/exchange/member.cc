@@ -33,7 +33,7 @@ Exchange::Member::Member(const common::Session& session, NodeId self)
     : session_(validate(session)), self_(self), participant_(session.domain, session.lease),
       data_(participant_, common::kDataTopic, session.name),
       control_(participant_, common::kControlTopic, session.name), waiter_(participant_, data_, &control_),
-      heard_table_(without(session.members, self)) {
+      received_table_(without(session.members, self)) {
   for (const NodeId id : session.members)
     if (id != self) others_.try_emplace(id, Stream(id, session.supervised ? kRetainBytes : 0));
   TTF_CHECK(others_.size() + 1 == session.members.size(), "node {} is not a member", index_of(self));
@@ -53,8 +53,8 @@ void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
   while (!all_ready_) {
     if (take()) continue;
     if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been removed by the supervisor");
-    const bool supervisor_heard = !session_.supervised || control_hello_.contains(common::kSupervisor);
-    if (!said && supervisor_heard && everybody(data_hello_) && everybody(control_hello_)) {
+    const bool supervisor_received = !session_.supervised || control_hello_.contains(common::kSupervisor);
+    if (!said && supervisor_received && everybody(data_hello_) && everybody(control_hello_)) {
       say(control_, common::Kind::kReady);
       said = true;
     }
@@ -87,7 +87,7 @@ void Exchange::Member::send(std::span<const std::byte> message) {
   data_.say({.sender = self_, .kind = common::Kind::kMessage, .bytes = message});
 }
 
-ports::Exchange::Heard Exchange::Member::receive() {
+ports::Exchange::Received Exchange::Member::receive() {
   for (;;) {
     if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been removed by the supervisor");
     if (!coming_.empty()) {

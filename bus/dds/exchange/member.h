@@ -16,8 +16,8 @@
 #include "bus/dds/common/session.h"
 #include "bus/dds/exchange/channel.h"
 #include "bus/dds/exchange/exchange.h"
-#include "bus/dds/exchange/heard.h"
 #include "bus/dds/exchange/numbering.h"
+#include "bus/dds/exchange/received_counts.h"
 #include "bus/dds/exchange/stream.h"
 #include "bus/dds/exchange/waiter.h"
 #include "bus/ports/exchange.h"
@@ -31,7 +31,7 @@ class Exchange::Member {
 
   void wait_ready(std::chrono::milliseconds patience);
   void send(std::span<const std::byte> message);
-  ports::Exchange::Heard receive();
+  ports::Exchange::Received receive();
   void leave();
 
  private:
@@ -59,7 +59,7 @@ class Exchange::Member {
   void on_again(const common::Said& said);
   void deliver(NodeId from);  // delivers entries_
   void confirm(NodeId of, Other& other);
-  void tell_heard();
+  void report_received();
   Other& other(NodeId node);
 
   void say(Channel& channel, common::Kind kind) { channel.say({.sender = self_, .kind = kind}); }
@@ -81,8 +81,8 @@ class Exchange::Member {
 
   Numbering control_numbers_;
   std::map<NodeId, Other> others_;
-  HeardTable heard_table_;
-  std::size_t heard_bytes_ = 0;                          // since the last kHeard
+  ReceivedTable received_table_;
+  std::size_t received_bytes_ = 0;                       // since the last kReceived
   std::set<NodeId> data_hello_, control_hello_, ready_;  // members that have said it
   std::set<NodeId> gone_;                                // known here; receive() may still have to report it
   std::map<NodeId, Clock::time_point> lost_;             // until when it may come back

@@ -22,17 +22,17 @@ std::string lost(NodeId sender, std::uint64_t first, std::uint64_t end) {
 
 }  // namespace
 
-void Stream::accept(common::Entry entry, std::vector<common::Entry>& heard) {
+void Stream::accept(common::Entry entry, std::vector<common::Entry>& received) {
   if (closed() || entry.number < next_) return;  // received before, or beyond the agreed end
   switch (phase_) {
     case Phase::kOpen:
       if (entry.number > next_) throw std::runtime_error(lost(sender_, next_, entry.number));
-      hear(std::move(entry), heard);
+      receive(std::move(entry), received);
       return;
     case Phase::kFenced:
     case Phase::kClosing:
       waiting_.try_emplace(entry.number, entry);
-      if (phase_ == Phase::kClosing) hear_waiting(heard);
+      if (phase_ == Phase::kClosing) receive_waiting(received);
       return;
     case Phase::kClosed: return;
   }
@@ -43,12 +43,12 @@ std::uint64_t Stream::fence() {
   return next_;
 }
 
-void Stream::close(std::uint64_t end, std::vector<common::Entry>& heard) {
+void Stream::close(std::uint64_t end, std::vector<common::Entry>& received) {
   TTF_CHECK(end >= next_, "node {} ends at {}, but {} were heard", index_of(sender_), end, next_);
   if (closed()) return;
   phase_ = Phase::kClosing;
   end_ = end;
-  hear_waiting(heard);
+  receive_waiting(received);
 }
 
 std::string Stream::missing() const {
@@ -64,20 +64,20 @@ std::vector<common::Entry> Stream::again(std::uint64_t first) const {
   return {kept_.begin() + static_cast<std::ptrdiff_t>(first - oldest), kept_.end()};
 }
 
-void Stream::hear(common::Entry entry, std::vector<common::Entry>& heard) {
+void Stream::receive(common::Entry entry, std::vector<common::Entry>& received) {
   keep(entry);
   ++next_;
   if (entry.kind == common::Kind::kBye) phase_ = Phase::kClosed;
-  heard.push_back(std::move(entry));
+  received.push_back(std::move(entry));
 }
 
-void Stream::hear_waiting(std::vector<common::Entry>& heard) {
+void Stream::receive_waiting(std::vector<common::Entry>& received) {
   while (!closed() && next_ < end_ && !waiting_.empty() && waiting_.begin()->first == next_)
-    hear(std::move(waiting_.extract(waiting_.begin()).mapped()), heard);
+    receive(std::move(waiting_.extract(waiting_.begin()).mapped()), received);
   if (closed() || next_ < end_) return;
   phase_ = Phase::kClosed;
   waiting_.clear();
-  heard.push_back({next_, common::Kind::kBye, nullptr});  // in place of the goodbye
+  received.push_back({next_, common::Kind::kBye, nullptr});  // in place of the goodbye
 }
 
 void Stream::keep(const common::Entry& entry) {

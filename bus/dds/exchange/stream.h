@@ -27,18 +27,18 @@ class Stream {
   // `retain_bytes`: how much is kept for repetition; 0: nothing.
   Stream(NodeId sender, std::size_t retain_bytes) : sender_(sender), retain_bytes_(retain_bytes) {}
 
-  // Takes a sample from the sender itself, or a repeated one. Appends to `heard` the samples that can now be
+  // Takes a sample from the sender itself, or a repeated one. Appends to `received` the samples that can now be
   // received, in order; the last is of kind kBye. Throws std::runtime_error if the sender skipped a number:
   // samples are lost.
-  void accept(common::Entry entry, std::vector<common::Entry>& heard);
+  void accept(common::Entry entry, std::vector<common::Entry>& received);
   // Forgets the samples before number `settled`, which all members have received.
   void settle(std::uint64_t settled);
   // Stops receiving until close(). Returns the number of samples received so far.
   std::uint64_t fence();
   // Ends the stream before number `end`, which is never before a received sample.
-  void close(std::uint64_t end, std::vector<common::Entry>& heard);
+  void close(std::uint64_t end, std::vector<common::Entry>& received);
 
-  std::uint64_t heard() const { return next_; }  // the number of samples
+  std::uint64_t received() const { return next_; }  // the number of samples
   bool closed() const { return phase_ == Phase::kClosed; }
   // Returns whether the stream waits for repeated samples.
   bool wanting() const { return phase_ == Phase::kClosing; }
@@ -50,8 +50,8 @@ class Stream {
  private:
   enum class Phase { kOpen, kFenced, kClosing, kClosed };
 
-  void hear(common::Entry entry, std::vector<common::Entry>& heard);
-  void hear_waiting(std::vector<common::Entry>& heard);
+  void receive(common::Entry entry, std::vector<common::Entry>& received);
+  void receive_waiting(std::vector<common::Entry>& received);
   void keep(const common::Entry& entry);
   void forget();  // drops the oldest kept sample
 

@@ -7,7 +7,7 @@ namespace ttf::bus::dds::live {
 ports::MachineTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t sent,
                                       ports::MachineTime received) {
   Host& from = find(host);
-  from.heard = received;
+  from.received = received;
   const Duration delay{received.ns - sent};
   const ports::MachineTime at = received - (delay - from.delay.least(received, delay));
   ports::MachineTime& last = last_[index_of(sender)];
@@ -20,8 +20,8 @@ ArrivalInstant::Host& ArrivalInstant::find(std::uint64_t identity) {
       std::find_if(hosts_.begin(), hosts_.end(), [identity](const Host& host) { return host.identity == identity; });
   if (found != hosts_.end()) return *found;
   if (hosts_.size() < most_hosts_) return hosts_.emplace_back(Host{identity, {}, {}});
-  const auto silent =
-      std::min_element(hosts_.begin(), hosts_.end(), [](const Host& a, const Host& b) { return a.heard < b.heard; });
+  const auto silent = std::min_element(hosts_.begin(), hosts_.end(),
+                                       [](const Host& a, const Host& b) { return a.received < b.received; });
   return *silent = Host{identity, {}, {}};
 }
 

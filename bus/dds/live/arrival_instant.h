@@ -29,7 +29,7 @@ class ArrivalInstant {
  private:
   struct Host {
     std::uint64_t identity = 0;
-    ports::MachineTime heard{};
+    ports::MachineTime received{};
     LeastDelay delay;
   };
   Host& find(std::uint64_t identity);

@@ -45,7 +45,7 @@ ports::LiveStatus LiveLine::send(const ports::LiveSignal& signal, ports::Machine
   sample.kind = static_cast<std::uint8_t>(signal.signal);
   sample.slot = static_cast<std::uint16_t>(signal.slot);
   sample.duration = signal.duration.ns;
-  sample.tells_late = signal.tells_late ? 1 : 0;
+  sample.tells_late = signal.states_late ? 1 : 0;
   return write(signal.bytes, due);
 }
 
@@ -82,7 +82,7 @@ std::string LiveLine::failure() const {
   return error == 0 ? std::string() : fmt::format("DDS: cannot read from {}: {}", topic_, dds_strretcode(-error));
 }
 
-std::vector<NodeId> LiveLine::unheard() const { return all_but(reception_.heard()); }
+std::vector<NodeId> LiveLine::missing_senders() const { return all_but(reception_.senders()); }
 
 std::vector<NodeId> LiveLine::deaf() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);

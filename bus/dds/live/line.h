@@ -52,7 +52,7 @@ class LiveLine {
   std::string failure() const;
 
   // Nodes on this line that this node awaits: those that it does not receive yet, or that do not receive it.
-  std::vector<NodeId> unheard() const;
+  std::vector<NodeId> missing_senders() const;
   std::vector<NodeId> deaf() const;
 
  private:

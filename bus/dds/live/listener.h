@@ -21,9 +21,9 @@ class DdsListener final : public ports::Listener {
   // Uses the session's domain, name and lease. `lines`: each once, with all its nodes; lines without received identifiers
   // are left out. Throws InputError on an invalid session, std::runtime_error if DDS cannot.
   DdsListener(const common::Session& session, const std::vector<LiveLinePlan>& lines,
-              const ports::HeardIdentifiers& identifiers);
+              const ports::ReceivedIdentifiers& identifiers);
 
-  std::optional<ports::Heard> hear() override;
+  std::optional<ports::ReceivedFrame> receive() override;
   std::uint64_t lost() const override;
   const std::string& failure() const override;
 
@@ -32,12 +32,12 @@ class DdsListener final : public ports::Listener {
     LiveLinePlan plan;
     std::unique_ptr<Reception> reception;
   };
-  ports::Heard on_channel();
+  ports::ReceivedFrame on_channel();
 
   common::Participant participant_;
   std::vector<OnLine> lines_;
-  LiveItem last_;  // the last result of hear()
-  std::optional<ports::Heard> follow_up_;
+  LiveItem last_;  // the last result of receive()
+  std::optional<ports::ReceivedFrame> follow_up_;
   mutable std::string failure_;
 };
 

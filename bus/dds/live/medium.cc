@@ -37,7 +37,7 @@ void DdsMedium::wait_ready(std::chrono::milliseconds patience) const {
     std::vector<NodeId> absent, deaf;
     for (const auto& line : lines_) {
       if (line == nullptr) continue;
-      merge(absent, line->unheard());
+      merge(absent, line->missing_senders());
       merge(deaf, line->deaf());
     }
     if (absent.empty() && deaf.empty()) return;

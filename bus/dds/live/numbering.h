@@ -15,7 +15,7 @@ class LiveNumbering {
   // A restarted sender counts anew, and so does one received for the first time: its earlier samples do not count.
   std::optional<std::uint64_t> missing_before(NodeId sender, std::uint64_t incarnation, std::uint64_t number) {
     Next& next = next_[index_of(sender)];
-    const bool known = next.heard && next.incarnation == incarnation;
+    const bool known = next.received && next.incarnation == incarnation;
     if (known && number < next.number) return {};
     const std::uint64_t missing = known ? number - next.number : 0;
     next = {true, incarnation, number + 1};
@@ -24,7 +24,7 @@ class LiveNumbering {
 
  private:
   struct Next {
-    bool heard = false;
+    bool received = false;
     std::uint64_t incarnation = 0;
     std::uint64_t number = 0;
   };

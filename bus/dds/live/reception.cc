@@ -105,8 +105,8 @@ void Reception::accept(std::size_t box, ports::MachineTime now) {
   if (!is_can(setting_.line)) {
     arrival.signal.signal = static_cast<ports::Signal>(sample.kind);
     arrival.signal.duration = Duration::nanoseconds(sample.duration);
-    arrival.signal.tells_late = sample.tells_late == 1;
-    if (arrival.signal.tells_late) arrival.late = Duration::nanoseconds(sample.late);
+    arrival.signal.states_late = sample.tells_late == 1;
+    if (arrival.signal.states_late) arrival.late = Duration::nanoseconds(sample.late);
   }
   item->size = sample.bytes._length;
   std::copy_n(reinterpret_cast<const std::byte*>(sample.bytes._buffer), item->size, item->bytes.begin());
@@ -147,7 +147,7 @@ LiveItem* Reception::room_for(std::size_t box) {
   return item;
 }
 
-std::vector<NodeId> Reception::heard() const {
+std::vector<NodeId> Reception::senders() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
   const auto count = common::checked(dds_get_matched_publications(reader_, matched.data(), matched.size()),
                                      "cannot list the nodes on " + topic_);

@@ -58,7 +58,7 @@ class Reception {
   std::int32_t error() const { return take_error_.load(); }  // DDS' return code, 0 without one
 
   // Returns the nodes whose writers this reader has found.
-  std::vector<NodeId> heard() const;
+  std::vector<NodeId> senders() const;
 
  private:
   struct Boxes;  // DDS' own form of a sample

@@ -221,15 +221,15 @@ class Listener {
   void listen() {
     checked(dds_waitset_wait(set_, nullptr, 0, DDS_MSECS(100)), "cannot wait");
     take_publications();
-    for (auto& [topic, heard] : heard_) {
-      take_events(topic, heard);
-      take_samples(topic, heard);
+    for (auto& [topic, subscription] : subscriptions_) {
+      take_events(topic, subscription);
+      take_samples(topic, subscription);
     }
     std::fflush(stdout);
   }
 
  private:
-  struct Heard {
+  struct Subscription {
     dds_entity_t reader = 0;
     void (*print)(const void* sample) = nullptr;
   };
@@ -260,8 +260,8 @@ class Listener {
     print_event("publication", endpoint.topic_name);
     std::printf(", \"type\": %s, \"deadline_ns\": %" PRId64 ", \"lease_ns\": %" PRId64 "}\n",
                 quoted(endpoint.type_name).c_str(), deadline, lease);
-    Heard& heard = heard_[endpoint.topic_name];
-    if (heard.reader != 0) return;
+    Subscription& subscription = subscriptions_[endpoint.topic_name];
+    if (subscription.reader != 0) return;
     dds_qos_t* qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, 0);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1000);
@@ -269,51 +269,51 @@ class Listener {
     dds_qset_liveliness(qos, kind, lease);
     const dds_entity_t topic = checked(
         dds_create_topic(participant_, known.type, endpoint.topic_name, nullptr, nullptr), "cannot make the topic");
-    heard.reader = checked(dds_create_reader(participant_, topic, qos, nullptr), "cannot read");
-    heard.print = known.print;
+    subscription.reader = checked(dds_create_reader(participant_, topic, qos, nullptr), "cannot read");
+    subscription.print = known.print;
     dds_delete_qos(qos);
-    attach(heard.reader, DDS_DATA_AVAILABLE_STATUS | DDS_REQUESTED_DEADLINE_MISSED_STATUS |
-                             DDS_LIVELINESS_CHANGED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS);
+    attach(subscription.reader, DDS_DATA_AVAILABLE_STATUS | DDS_REQUESTED_DEADLINE_MISSED_STATUS |
+                                    DDS_LIVELINESS_CHANGED_STATUS | DDS_REQUESTED_INCOMPATIBLE_QOS_STATUS);
   }
 
-  void take_events(const std::string& topic, const Heard& heard) {
+  void take_events(const std::string& topic, const Subscription& subscription) {
     dds_requested_deadline_missed_status_t missed{};
-    checked(dds_get_requested_deadline_missed_status(heard.reader, &missed), "cannot ask");
+    checked(dds_get_requested_deadline_missed_status(subscription.reader, &missed), "cannot ask");
     if (missed.total_count_change != 0) {
       print_event("deadline_missed", topic);
       std::printf(", \"total\": %" PRIu32 "}\n", missed.total_count);
     }
     dds_liveliness_changed_status_t alive{};
-    checked(dds_get_liveliness_changed_status(heard.reader, &alive), "cannot ask");
+    checked(dds_get_liveliness_changed_status(subscription.reader, &alive), "cannot ask");
     if (alive.alive_count_change != 0 || alive.not_alive_count_change != 0) {
       print_event("liveliness", topic);
       std::printf(", \"alive\": %" PRIu32 ", \"not_alive\": %" PRIu32 "}\n", alive.alive_count, alive.not_alive_count);
     }
     dds_requested_incompatible_qos_status_t other{};
-    checked(dds_get_requested_incompatible_qos_status(heard.reader, &other), "cannot ask");
+    checked(dds_get_requested_incompatible_qos_status(subscription.reader, &other), "cannot ask");
     if (other.total_count_change != 0) {
       print_event("another_publisher_promises_less", topic);
       std::printf(", \"policy\": %" PRIu32 "}\n", other.last_policy_id);
     }
   }
 
-  static void take_samples(const std::string& topic, const Heard& heard) {
+  static void take_samples(const std::string& topic, const Subscription& subscription) {
     void* sample = nullptr;
     dds_sample_info_t info;
-    while (checked(dds_take(heard.reader, &sample, &info, 1, 1), "cannot read") == 1) {
+    while (checked(dds_take(subscription.reader, &sample, &info, 1, 1), "cannot read") == 1) {
       if (info.valid_data) {
         print_event("sample", topic);
-        heard.print(sample);
+        subscription.print(sample);
         std::printf("}\n");
       }
-      dds_return_loan(heard.reader, &sample, 1);
+      dds_return_loan(subscription.reader, &sample, 1);
     }
   }
 
   dds_entity_t participant_ = 0;
   dds_entity_t set_ = 0;
   dds_entity_t publications_ = 0;
-  std::map<std::string, Heard> heard_;  // by topic
+  std::map<std::string, Subscription> subscriptions_;  // by topic
 };
 
 }  // namespace

@@ -62,8 +62,8 @@ std::string table_text(const std::vector<Account>& accounts) {
                account.first ? fmt::format("{:.3f}", account.first->seconds()) : "-", state_text(account)});
     if (const std::string these = kinds_text(counts); !these.empty())
       below += fmt::format("malformed frames of {}: {}\n", account.node, these);
-    if (!account.never_heard.empty())
-      below += fmt::format("never heard of {}: {}\n", account.node, joined(account.never_heard));
+    if (!account.never_received.empty())
+      below += fmt::format("never heard of {}: {}\n", account.node, joined(account.never_received));
   }
   return table.text() + below;
 }
@@ -73,20 +73,22 @@ std::string wrongs_text(const std::vector<Account>& accounts) {
   for (const Account& account : accounts) {
     std::vector<std::string> wrongs;
     if (const std::string counted = parts_text(wrongs_of(account.counts)); !counted.empty()) wrongs.push_back(counted);
-    for (const std::string& name : account.never_heard) wrongs.push_back(name + " never heard");
+    for (const std::string& name : account.never_received) wrongs.push_back(name + " never heard");
     if (!wrongs.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", account.node, joined(wrongs));
   }
   return text;
 }
 
-std::vector<drive::ExternalNode> told(const std::vector<Account>& accounts) {
+std::vector<drive::ExternalNode> reported(const std::vector<Account>& accounts) {
   std::vector<drive::ExternalNode> all;
   for (const Account& account : accounts) {
     const Counts& counts = account.counts;
     drive::ExternalNode& one = all.emplace_back();
-    one = {account.node,        counts.in_window, counts.early,
-           counts.late,         counts.missing,   {{"all", counts.all_malformed()}},
-           account.never_heard, std::nullopt,     state_text(account)};
+    one = {account.node,           counts.in_window,
+           counts.early,           counts.late,
+           counts.missing,         {{"all", counts.all_malformed()}},
+           account.never_received, std::nullopt,
+           state_text(account)};
     for (std::size_t kind = 0; kind < kMalformedKinds; ++kind)
       one.malformed.emplace_back(text_of(static_cast<Malformed>(kind)), counts.malformed[kind]);
     if (account.first) one.first_after_s = account.first->seconds();

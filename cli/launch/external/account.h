@@ -14,9 +14,9 @@ namespace ttf::cli::launch::external {
 struct Account {
   std::string node;
   Counts counts;
-  std::optional<Duration> first;              // the first frame, from the begin of the drive
-  std::optional<Duration> silent;             // for how long, if for too long
-  std::vector<std::string> never_heard = {};  // lists and lines of a node that was received
+  std::optional<Duration> first;                 // the first frame, from the begin of the drive
+  std::optional<Duration> silent;                // for how long, if for too long
+  std::vector<std::string> never_received = {};  // lists and lines of a node that was received
 };
 
 // Returns "waiting", "sending", "silent for 1.2 s".
@@ -30,6 +30,6 @@ std::string table_text(const std::vector<Account>& accounts);
 // Returns what was not as it should be, for the verdict: "camera_pre: 3 early, 1 late; camera: 2 missing". Empty if
 // nothing.
 std::string wrongs_text(const std::vector<Account>& accounts);
-std::vector<drive::ExternalNode> told(const std::vector<Account>& accounts);
+std::vector<drive::ExternalNode> reported(const std::vector<Account>& accounts);
 
 }  // namespace ttf::cli::launch::external

@@ -62,7 +62,7 @@ void CycleGrid::follow_up(schedules::model::Channel channel, int slot, std::uint
   if (frame.cycle_counter != cycle_counter) return;
   frame.cycle_counter.reset();
   const MachineTime start = frame.at - late - in_cycle(action_point(slot));
-  last_heard_ = std::max(last_heard_.value_or(frame.at), frame.at);
+  last_received_ = std::max(last_received_.value_or(frame.at), frame.at);
   // The middle of the cycle is the farthest from every doubt about its ends.
   const MachineTime middle = start + Duration{nominal_.ns / 2};
   take(known() ? nearest(middle, cycle_counter) : cycle_counter, start);

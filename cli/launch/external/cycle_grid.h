@@ -39,8 +39,8 @@ class CycleGrid {
   std::int64_t cycle_at(MachineTime at) const;
   std::int64_t nearest(MachineTime at, std::uint8_t cycle_counter) const;
   // Returns the last cycle in which the cluster was received, and when; no value before the first.
-  std::optional<std::int64_t> last_heard_cycle() const { return last_cycle_; }
-  std::optional<MachineTime> last_heard() const { return last_heard_; }
+  std::optional<std::int64_t> last_received_cycle() const { return last_cycle_; }
+  std::optional<MachineTime> last_received() const { return last_received_; }
   // Returns the action point of a slot or another macrotick, from the begin of its cycle.
   Duration in_cycle(Macroticks offset) const;
   Macroticks action_point(int slot) const;
@@ -64,7 +64,7 @@ class CycleGrid {
   std::optional<Reference> reference_;
   bool measured_ = false;  // the reference was received, not given
   std::optional<std::int64_t> last_cycle_;
-  std::optional<MachineTime> last_heard_;
+  std::optional<MachineTime> last_received_;
   std::int64_t collecting_ = 0;  // the cycle whose begins are in starts_
   std::vector<MachineTime> starts_;
   std::array<std::vector<Awaited>, 2> awaited_;  // by channel and slot - 1

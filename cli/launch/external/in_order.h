@@ -13,7 +13,7 @@ namespace ttf::cli::launch::external {
 class InOrder {
  public:
   // Keeps the frame with a copy of its bytes.
-  void add(const bus::ports::Heard& heard);
+  void add(const bus::ports::ReceivedFrame& received);
 
   // Hands over all frames, the earliest first, and forgets them. The frames of a line keep their order, even if the
   // machine's clock does not.
@@ -21,8 +21,9 @@ class InOrder {
     std::ranges::stable_sort(kept_, {}, &Kept::key);
     for (Kept& kept : kept_) {
       const auto bytes = std::span<const std::byte>(bytes_).subspan(kept.from, kept.size);
-      (kept.heard.form == bus::ports::Heard::Form::kCan ? kept.heard.can.data : kept.heard.bytes) = bytes;
-      to(kept.heard);
+      (kept.received.form == bus::ports::ReceivedFrame::Form::kCan ? kept.received.can.data : kept.received.bytes) =
+          bytes;
+      to(kept.received);
     }
     clear();
   }
@@ -30,7 +31,7 @@ class InOrder {
  private:
   struct Kept {
     bus::ports::MachineTime key{};  // no earlier than that of the frame before on its line
-    bus::ports::Heard heard;
+    bus::ports::ReceivedFrame received;
     std::size_t from = 0, size = 0;  // in bytes_
   };
   void clear();

@@ -13,7 +13,7 @@
 namespace ttf::cli::launch::external {
 namespace {
 
-using bus::ports::Heard;
+using bus::ports::ReceivedFrame;
 using schedules::check::stretched;
 using schedules::model::Channel;
 using schedules::model::FrameSlot;
@@ -112,8 +112,8 @@ void Judge::add_cans(std::size_t node) {
   }
 }
 
-bus::ports::HeardIdentifiers Judge::identifiers() const {
-  bus::ports::HeardIdentifiers all;
+bus::ports::ReceivedIdentifiers Judge::identifiers() const {
+  bus::ports::ReceivedIdentifiers all;
   for (std::size_t slot = 0; slot < others_sync_.size(); ++slot)
     if (others_sync_[slot]) all.slots.push_back(static_cast<int>(slot));
   for (const Turn& turn : turns_) all.slots.push_back(turn.frame->slot);
@@ -124,15 +124,15 @@ bus::ports::HeardIdentifiers Judge::identifiers() const {
   return all;
 }
 
-void Judge::hear(const Heard& heard) {
-  switch (heard.form) {
-    case Heard::Form::kFrame: return hear_frame(heard);
-    case Heard::Form::kFollowUp:
-      if (is_sync_of_others(heard.slot))
-        grid_.follow_up(static_cast<Channel>(heard.line), heard.slot, heard.cycle_counter, heard.late);
+void Judge::receive(const ReceivedFrame& received) {
+  switch (received.form) {
+    case ReceivedFrame::Form::kFrame: return receive_frame(received);
+    case ReceivedFrame::Form::kFollowUp:
+      if (is_sync_of_others(received.slot))
+        grid_.follow_up(static_cast<Channel>(received.line), received.slot, received.cycle_counter, received.late);
       return;
-    case Heard::Form::kCan: return hear_can(heard);
-    case Heard::Form::kMalformed: return hear_malformed(heard);
+    case ReceivedFrame::Form::kCan: return receive_can(received);
+    case ReceivedFrame::Form::kMalformed: return receive_malformed(received);
   }
 }
 
@@ -141,7 +141,7 @@ bool Judge::is_sync_of_others(int slot) const {
          others_sync_[static_cast<std::size_t>(slot)];
 }
 
-Judge::Node& Judge::heard_of(std::size_t number, MachineTime at) {
+Judge::Node& Judge::received_from(std::size_t number, MachineTime at) {
   Node& node = nodes_[number];
   if (!node.counts.first) node.counts.first = at;
   node.counts.last = at;
@@ -151,43 +151,43 @@ Judge::Node& Judge::heard_of(std::size_t number, MachineTime at) {
 
 void Judge::count(Node& node, Malformed kind) { ++node.counts.malformed[static_cast<std::size_t>(kind)]; }
 
-void Judge::hear_malformed(const Heard& heard) {
-  if (heard.line <= bus::ports::line_of(Channel::kB)) {
-    if (const Turn* turn = turn_of(heard.slot, static_cast<Channel>(heard.line), std::nullopt))
-      count(heard_of(turn->node, heard.at), Malformed::kForm);
-  } else if (CanFrames* const frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier)) {
-    frames->heard = true;
-    count(heard_of(frames->node, heard.at), Malformed::kForm);
+void Judge::receive_malformed(const ReceivedFrame& received) {
+  if (received.line <= bus::ports::line_of(Channel::kB)) {
+    if (const Turn* turn = turn_of(received.slot, static_cast<Channel>(received.line), std::nullopt))
+      count(received_from(turn->node, received.at), Malformed::kForm);
+  } else if (CanFrames* const frames = frames_of(received.line - bus::ports::line_of_can(0), received.can.identifier)) {
+    frames->received = true;
+    count(received_from(frames->node, received.at), Malformed::kForm);
   }
 }
 
-void Judge::hear_frame(const Heard& heard) {
-  const auto channel = static_cast<Channel>(heard.line);
-  const bus::wire::DecodedFrame frame = bus::wire::decode_frame(channel, heard.bytes);
-  if (is_sync_of_others(heard.slot)) {
+void Judge::receive_frame(const ReceivedFrame& received) {
+  const auto channel = static_cast<Channel>(received.line);
+  const bus::wire::DecodedFrame frame = bus::wire::decode_frame(channel, received.bytes);
+  if (is_sync_of_others(received.slot)) {
     if (frame.error == bus::wire::FrameError::kNone && frame.header.sync)
-      grid_.sync_frame(channel, heard.slot, frame.header.cycle, heard.at);
+      grid_.sync_frame(channel, received.slot, frame.header.cycle, received.at);
     return;
   }
-  const Turn* const any = turn_of(heard.slot, channel, std::nullopt);
+  const Turn* const any = turn_of(received.slot, channel, std::nullopt);
   if (any == nullptr) return;
-  Node& node = heard_of(any->node, heard.at);
+  Node& node = received_from(any->node, received.at);
   if (!has_header(frame)) return count(node, Malformed::kForm);
   // With a sound header the frame was sent in its cycle, whatever its frame CRC.
   const bool broken = frame.error != bus::wire::FrameError::kNone;
   const auto count_as = [&](Malformed kind) { count(node, broken ? Malformed::kFrameCrc : kind); };
-  Turn* const turn = turn_of(heard.slot, channel, frame.header.cycle);
+  Turn* const turn = turn_of(received.slot, channel, frame.header.cycle);
   if (turn == nullptr || !is_of(*turn->frame, frame.header)) return count_as(Malformed::kContent);
   if (!grid_.known()) return broken ? count(node, Malformed::kFrameCrc) : void(++node.counts.early);
-  const std::int64_t cycle = grid_.nearest(heard.at, frame.header.cycle), here = grid_.cycle_at(heard.at);
+  const std::int64_t cycle = grid_.nearest(received.at, frame.header.cycle), here = grid_.cycle_at(received.at);
   if (cycle < here - 1 || cycle > here + 1) return count_as(Malformed::kContent);
   if (turn->last == cycle) return count_as(Malformed::kRepeated);
   node.counts.missing += missed(node, turn->frame->base_cycle, turn->frame->repetition, turn->last, cycle);
   turn->last = std::max(turn->last.value_or(cycle), cycle);
   if (broken) return count(node, Malformed::kFrameCrc);
   if (const auto fault = fault_of(*turn->frame, frame)) return count(node, *fault);
-  const Duration due = grid_.in_cycle(grid_.action_point(heard.slot));
-  judge_instant(node, cycle < 0 ? kLongBefore : heard.at - (grid_.start_of(cycle) + due));
+  const Duration due = grid_.in_cycle(grid_.action_point(received.slot));
+  judge_instant(node, cycle < 0 ? kLongBefore : received.at - (grid_.start_of(cycle) + due));
 }
 
 bool Judge::is_of(const FrameSlot& slot, const bus::wire::FrameHeader& header) const {
@@ -217,22 +217,22 @@ std::optional<Malformed> Judge::fault_of(bus::cni::ArrivalEffect effect) {
   return std::nullopt;
 }
 
-void Judge::hear_can(const Heard& heard) {
-  CanFrames* const frames = frames_of(heard.line - bus::ports::line_of_can(0), heard.can.identifier);
+void Judge::receive_can(const ReceivedFrame& received) {
+  CanFrames* const frames = frames_of(received.line - bus::ports::line_of_can(0), received.can.identifier);
   if (frames == nullptr) return;
-  Node& node = heard_of(frames->node, heard.at);
-  frames->heard = true;
-  if (heard.can.flexible_data_rate != frames->flexible_data_rate || heard.can.data.size() != frames->length)
+  Node& node = received_from(frames->node, received.at);
+  frames->received = true;
+  if (received.can.flexible_data_rate != frames->flexible_data_rate || received.can.data.size() != frames->length)
     return count(node, Malformed::kForm);
-  if (frames->list) return judge_list(heard, *frames, node);
+  if (frames->list) return judge_list(received, *frames, node);
   if (!frames->at) return void(++node.counts.in_window);  // a strobe, or the trigger of a sensor that follows
   if (!grid_.known()) return void(++node.counts.early);
-  judge_trigger(heard, *frames, node);
+  judge_trigger(received, *frames, node);
 }
 
-void Judge::judge_list(const Heard& heard, CanFrames& frames, Node& node) {
+void Judge::judge_list(const ReceivedFrame& received, CanFrames& frames, Node& node) {
   const schedules::model::PduLayout& layout = cluster_.pdu(frames.message->pdu);
-  const auto effect = frames.list->arrive(heard.can.data.first(static_cast<std::size_t>(layout.fragment_bytes)));
+  const auto effect = frames.list->arrive(received.can.data.first(static_cast<std::size_t>(layout.fragment_bytes)));
   // No other channel brings a list again, and no cycle does.
   if (effect == bus::cni::ArrivalEffect::kDuplicate) return count(node, Malformed::kRepeated);
   const auto fault = fault_of(effect);
@@ -241,21 +241,21 @@ void Judge::judge_list(const Heard& heard, CanFrames& frames, Node& node) {
   const bool begins = frames.sequence != sequence;
   const Duration shortest = stretched(frames.message->shortest_period, time_scale_ppm_);
   // The sender's own lateness may lie between two lists.
-  const bool early = begins && frames.sequence && heard.at - frames.began + window_.late < shortest;
+  const bool early = begins && frames.sequence && received.at - frames.began + window_.late < shortest;
   if (begins) {
     frames.sequence = sequence;
-    frames.began = heard.at;
+    frames.began = received.at;
   }
   if (fault) return count(node, *fault);
   ++(early ? node.counts.early : node.counts.in_window);
 }
 
 // A trigger states no cycle: it is that of the nearest instant.
-void Judge::judge_trigger(const Heard& heard, CanFrames& frames, Node& node) {
+void Judge::judge_trigger(const ReceivedFrame& received, CanFrames& frames, Node& node) {
   const Duration offset = grid_.in_cycle(frames.at->offset);
-  const std::int64_t here = grid_.cycle_at(heard.at), repetition = frames.at->repetition;
+  const std::int64_t here = grid_.cycle_at(received.at), repetition = frames.at->repetition;
   const std::int64_t since = ((here - frames.at->base_cycle) % repetition + repetition) % repetition;
-  const auto behind = [&](std::int64_t cycle) { return heard.at - (grid_.start_of(cycle) + offset); };
+  const auto behind = [&](std::int64_t cycle) { return received.at - (grid_.start_of(cycle) + offset); };
   const std::int64_t before = here - since, next = before + repetition;
   const std::int64_t cycle = -behind(next) < behind(before) ? next : before;
   if (frames.last == cycle) return count(node, Malformed::kRepeated);
@@ -296,7 +296,7 @@ Judge::CanFrames* Judge::frames_of(std::size_t can_bus, std::uint32_t identifier
 
 Counts Judge::counts(std::size_t number) const {
   Counts counts = nodes_[number].counts;
-  const auto until = grid_.last_heard_cycle();
+  const auto until = grid_.last_received_cycle();
   if (!until) return counts;
   for (const Turn& turn : turns_)
     if (turn.node == number)
@@ -307,11 +307,11 @@ Counts Judge::counts(std::size_t number) const {
   return counts;
 }
 
-std::vector<std::string> Judge::never_heard(std::size_t number) const {
+std::vector<std::string> Judge::never_received(std::size_t number) const {
   std::vector<std::string> names;
   if (!nodes_[number].counts.first) return names;
   for (const CanFrames& frames : cans_)
-    if (frames.node == number && !frames.at && !frames.heard) names.push_back(frames.name);
+    if (frames.node == number && !frames.at && !frames.received) names.push_back(frames.name);
   return names;
 }
 

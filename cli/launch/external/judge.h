@@ -58,20 +58,20 @@ class Judge {
         schedules::model::Channels channels = schedules::model::Channels::kAB);
 
   // Returns the frames to be received: the real nodes', and the sync frames of the others.
-  bus::ports::HeardIdentifiers identifiers() const;
+  bus::ports::ReceivedIdentifiers identifiers() const;
   void begin(MachineTime cycle_0) { grid_.begin(cycle_0); }
   // The instants must be in order over all lines (in_order.h).
-  void hear(const bus::ports::Heard& heard);
+  void receive(const bus::ports::ReceivedFrame& received);
 
   // By the index in `nodes`.
   Counts counts(std::size_t node) const;
   // Returns the lists and lines on private CANs that never came from a node that was received: "camera_objects",
   // "camera strobe". Scheduled triggers count as missing instead.
-  std::vector<std::string> never_heard(std::size_t node) const;
+  std::vector<std::string> never_received(std::size_t node) const;
   // Returns the longest time that the node may be silent: three of its longest periods, but half a second at least.
   Duration longest_silence(std::size_t node) const { return nodes_[node].longest_silence; }
   // Returns when the other nodes were last received.
-  std::optional<MachineTime> cluster_heard() const { return grid_.last_heard(); }
+  std::optional<MachineTime> cluster_received() const { return grid_.last_received(); }
 
  private:
   struct Node {
@@ -93,7 +93,7 @@ class Judge {
     bool flexible_data_rate = false;
     std::size_t length = 0;
     std::string name = {};
-    bool heard = false;
+    bool received = false;
     const schedules::model::CanMessage* message = nullptr;  // a list's
     std::optional<schedules::model::CycleInstant> at = {};  // a scheduled trigger's
     std::unique_ptr<bus::cni::IncomingList> list = {};
@@ -104,14 +104,14 @@ class Judge {
 
   void add_slots(std::size_t node);
   void add_cans(std::size_t node);
-  void hear_frame(const bus::ports::Heard& heard);
-  void hear_can(const bus::ports::Heard& heard);
-  void hear_malformed(const bus::ports::Heard& heard);
-  void judge_list(const bus::ports::Heard& heard, CanFrames& frames, Node& node);
-  void judge_trigger(const bus::ports::Heard& heard, CanFrames& frames, Node& node);
+  void receive_frame(const bus::ports::ReceivedFrame& received);
+  void receive_can(const bus::ports::ReceivedFrame& received);
+  void receive_malformed(const bus::ports::ReceivedFrame& received);
+  void judge_list(const bus::ports::ReceivedFrame& received, CanFrames& frames, Node& node);
+  void judge_trigger(const bus::ports::ReceivedFrame& received, CanFrames& frames, Node& node);
   void judge_instant(Node& node, Duration behind) const;
   static void count(Node& node, Malformed kind);
-  Node& heard_of(std::size_t node, MachineTime at);
+  Node& received_from(std::size_t node, MachineTime at);
 
   bool is_sync_of_others(int slot) const;
   bool is_of(const schedules::model::FrameSlot& slot, const bus::wire::FrameHeader& header) const;

@@ -167,7 +167,7 @@ FaultOutcome run_trial(const Setting& setting, const Variant& variant, const Dra
   if (bit_by_bit) trial.go_bit_by_bit();
   trial.run_until(TrueTime{} + setting.campaign.duration);
   const CanJudgement& judgement = trial.finish();
-  if (story != nullptr) tell(judgement, evaluation::faults::kAllCanChecks, *story);
+  if (story != nullptr) report(judgement, evaluation::faults::kAllCanChecks, *story);
   return outcome_of(judgement, trial.activation());
 }
 

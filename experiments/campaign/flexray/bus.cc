@@ -42,7 +42,7 @@ class StoryInWords final : public TrialStory {
                Story::Of::kGuardians);
   }
   void judged(const evaluation::faults::Judgement& judgement) override {
-    tell(judgement, evaluation::faults::kAllChecks, story_);
+    report(judgement, evaluation::faults::kAllChecks, story_);
   }
 
  private:

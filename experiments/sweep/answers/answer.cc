@@ -47,7 +47,7 @@ std::string with_unit(const std::string& text, const Expectation& expectation) {
   return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
 
-Verdict undecided(const std::string& why) { return {Outcome::kCannotTell, "cannot tell: " + why}; }
+Verdict undecided(const std::string& why) { return {Outcome::kUndecided, "cannot tell: " + why}; }
 
 // Compares the two measures drive by drive.
 Verdict agree(const SweepFile& sweep, const Expectation& expectation, const PointDrives& drives) {

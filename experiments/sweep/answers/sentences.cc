@@ -152,44 +152,44 @@ std::string places(const SweepFile& sweep, const std::vector<std::uint32_t>& poi
   return joined(labels, " and ");
 }
 
-enum class Told : std::uint8_t { kMore, kLess, kNothing };
+enum class Direction : std::uint8_t { kMore, kLess, kNothing };
 
-Told told_of(const InteractionPoint& here) {
-  return !here.stays ? Told::kNothing : here.interaction.mean < 0.0 ? Told::kMore : Told::kLess;
+Direction direction_of(const InteractionPoint& here) {
+  return !here.stays ? Direction::kNothing : here.interaction.mean < 0.0 ? Direction::kMore : Direction::kLess;
 }
 
-std::string begin_of(Told told, const std::string& first, bool lowers) {
-  switch (told) {
-    case Told::kMore: return lowers ? "Yes" : fmt::format("No, it only raises {} less", first);
-    case Told::kLess: return "No";
-    case Told::kNothing: break;
+std::string begin_of(Direction direction, const std::string& first, bool lowers) {
+  switch (direction) {
+    case Direction::kMore: return lowers ? "Yes" : fmt::format("No, it only raises {} less", first);
+    case Direction::kLess: return "No";
+    case Direction::kNothing: break;
   }
   return std::string("There is ") + kNoDifference;
 }
 
-std::string beside(const SweepFile& sweep, const Interaction& of, const InteractionPoint& here, Told told) {
+std::string beside(const SweepFile& sweep, const Interaction& of, const InteractionPoint& here, Direction direction) {
   const std::string &first = sweep.paradigms[of.first].name, &second = sweep.paradigms[of.second].name;
   const bool ratio = of.scale == Scale::kRatio;
   if (std::isnan(here.interaction.half_width)) return "";
   const std::string effect = interaction_effect(sweep, of, here);
-  if (told == Told::kNothing) return fmt::format(" {} against {}: {}.", first, second, effect);
+  if (direction == Direction::kNothing) return fmt::format(" {} against {}: {}.", first, second, effect);
   return fmt::format(
-      " Beside that of {}, {}'s becomes {} by {}.", second, first, told == Told::kMore ? "less" : "more",
+      " Beside that of {}, {}'s becomes {} by {}.", second, first, direction == Direction::kMore ? "less" : "more",
       ratio ? percent_size(results::exponential(here.interaction)) : size_of(sweep, of.measure, here.interaction));
 }
 
 std::string interaction_at_one(const SweepFile& sweep, const Interaction& of, const InteractionPoint& here) {
   const std::string &first = sweep.paradigms[of.first].name, &second = sweep.paradigms[of.second].name;
-  const Told told = told_of(here);
+  const Direction direction = direction_of(here);
   return fmt::format("{}: {} changes {} of {} by {}, and that of {} by {}.{}\n",
-                     begin_of(told, first, here.first.difference.mean < 0.0), change_name(sweep, of),
+                     begin_of(direction, first, here.first.difference.mean < 0.0), change_name(sweep, of),
                      sweep.measures[of.measure], first, change_effect(sweep, of, here.first), second,
-                     change_effect(sweep, of, here.second), beside(sweep, of, here, told));
+                     change_effect(sweep, of, here.second), beside(sweep, of, here, direction));
 }
 
 // Points at which an interaction is reported alike, and the first paradigm's change has the same sign.
 struct Alike {
-  Told told = Told::kNothing;
+  Direction direction = Direction::kNothing;
   bool lowers = false;
   std::vector<std::uint32_t> points;
   Range first, second, both;  // the changes, and the first one against the second
@@ -203,13 +203,14 @@ std::vector<Alike> alike_of(const SweepFile& sweep, const Interaction& of, const
   const Range range{unit_of(sweep, of.measure, by_ratio)};
   std::vector<Alike> groups;
   for (const InteractionPoint& here : answer.points) {
-    const Told told = told_of(here);
-    const bool lowers = told != Told::kNothing && here.first.difference.mean < 0.0;
-    auto group = std::ranges::find_if(groups, [&](const Alike& g) { return g.told == told && g.lowers == lowers; });
+    const Direction direction = direction_of(here);
+    const bool lowers = direction != Direction::kNothing && here.first.difference.mean < 0.0;
+    auto group =
+        std::ranges::find_if(groups, [&](const Alike& g) { return g.direction == direction && g.lowers == lowers; });
     if (group == groups.end())
       group = groups.insert(
           groups.end(),
-          Alike{told, lowers, {}, range, range, Range{unit_of(sweep, of.measure, of.scale == Scale::kRatio)}});
+          Alike{direction, lowers, {}, range, range, Range{unit_of(sweep, of.measure, of.scale == Scale::kRatio)}});
     group->points.push_back(here.point);
     group->first.add(by_ratio ? in_percent(here.first.ratio.value) : here.first.difference.mean);
     group->second.add(by_ratio ? in_percent(here.second.ratio.value) : here.second.difference.mean);
@@ -226,13 +227,14 @@ std::string against(const SweepFile& sweep, const Interaction& of, const Alike& 
   return fmt::format(" {}{}'s {} is {}{} {} {}'s.", where, sweep.paradigms[of.first].name,
                      of.scale == Scale::kRatio ? "factor" : "change",
                      sizes.find(" to ") == std::string::npos ? "" : "estimated ", sizes,
-                     group.told == Told::kMore ? "below" : "above", sweep.paradigms[of.second].name);
+                     group.direction == Direction::kMore ? "below" : "above", sweep.paradigms[of.second].name);
 }
 
 // Whether the same can be said of all points.
 bool one_for_all(const std::vector<Alike>& groups) {
   return std::ranges::all_of(groups, [&](const Alike& group) {
-    return group.told == groups[0].told && (group.told != Told::kMore || group.lowers == groups[0].lowers);
+    return group.direction == groups[0].direction &&
+           (group.direction != Direction::kMore || group.lowers == groups[0].lowers);
   });
 }
 
@@ -248,21 +250,21 @@ std::string interaction_at_many(const SweepFile& sweep, const Interaction& of, c
       ones.add(group.first);
       others.add(group.second);
     }
-    text = fmt::format("{}, at {} {}: {} changes {} of {}{} and of {}{}",
-                       begin_of(groups[0].told, first, groups[0].lowers),
-                       groups[0].told == Told::kNothing ? "any of" : "all", counted(answer.points.size(), "point"),
-                       change, measure, first, ones.in_brackets(), second, others.in_brackets());
+    text = fmt::format(
+        "{}, at {} {}: {} changes {} of {}{} and of {}{}", begin_of(groups[0].direction, first, groups[0].lowers),
+        groups[0].direction == Direction::kNothing ? "any of" : "all", counted(answer.points.size(), "point"), change,
+        measure, first, ones.in_brackets(), second, others.in_brackets());
   } else {
     bool yes = false, no = false;
     std::vector<std::string> clauses;
     for (const Alike& group : groups) {
-      if (group.told == Told::kNothing) {
+      if (group.direction == Direction::kNothing) {
         nothing = fmt::format("; at {} there is {}", places(sweep, group.points, of.axis), kNoDifference);
         continue;
       }
-      const bool lowers_more = group.told == Told::kMore && group.lowers;
+      const bool lowers_more = group.direction == Direction::kMore && group.lowers;
       (lowers_more ? yes : no) = true;
-      const bool by_more = (group.told == Told::kMore) == group.lowers;
+      const bool by_more = (group.direction == Direction::kMore) == group.lowers;
       clauses.push_back(fmt::format("{} {} of {}{} {} than that of {}{} at {}", group.lowers ? "lowers" : "raises",
                                     measure, first, group.first.in_brackets(), by_more ? "more" : "less", second,
                                     group.second.in_brackets(), places(sweep, group.points, of.axis)));
@@ -274,10 +276,10 @@ std::string interaction_at_many(const SweepFile& sweep, const Interaction& of, c
                        change, joined(clauses, ", and "), nothing);
   }
   for (const Alike& group : groups)
-    if (group.told != Told::kNothing && !group.both.empty())
+    if (group.direction != Direction::kNothing && !group.both.empty())
       behind += against(sweep, of, group,
                         groups.size() == 1 ? "" : fmt::format("At {} ", places(sweep, group.points, of.axis)));
-  if (groups[0].told == Told::kNothing && groups.size() == 1 && !groups[0].both.empty())
+  if (groups[0].direction == Direction::kNothing && groups.size() == 1 && !groups[0].both.empty())
     behind = fmt::format(" {} against {}: {}.", first, second, groups[0].both.estimates());
   return text + '.' + behind + '\n';
 }

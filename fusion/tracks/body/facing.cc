@@ -28,7 +28,7 @@ Facing facing_of(const linear::Gaussian<2>& velocity, const Heading& axis) {
   double reversed = 0.0;
   if (axis.known && axis.front != 0) {
     // A course that noise cannot make counts against it: the axis has turned unseen.
-    const bool sure = moving && speed > kTellsFront * std::sqrt(along.dot(velocity.p * along));
+    const bool sure = moving && speed > kResolvesFront * std::sqrt(along.dot(velocity.p * along));
     front_ahead = sure ? course_ahead : axis.front > 0;
   } else if (axis.known) {
     const double ahead = ahead_by(axis, velocity);

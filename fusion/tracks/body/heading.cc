@@ -37,7 +37,7 @@ double ahead_by(const Heading& heading, const linear::Gaussian<2>& velocity) {
 void update_front(Heading& heading, const linear::Gaussian<2>& velocity) {
   if (!heading.known) return;
   const double ahead = ahead_by(heading, velocity);
-  if (std::abs(ahead) > kTellsFront) heading.front = ahead > 0.0 ? 1 : -1;
+  if (std::abs(ahead) > kResolvesFront) heading.front = ahead > 0.0 ? 1 : -1;
 }
 
 void take_front(Heading& heading, const Heading& other) {

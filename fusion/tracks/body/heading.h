@@ -56,7 +56,7 @@ void correct(Heading& heading, double measured, double sigma, double likely, dou
 
 // A velocity of so many standard deviations along the axis tells the front. Noise alone has so much in one estimate of two
 // million.
-inline constexpr double kTellsFront = 5.0;
+inline constexpr double kResolvesFront = 5.0;
 
 // Remembers the front of a known heading, if this velocity tells it.
 void update_front(Heading& heading, const linear::Gaussian<2>& velocity);

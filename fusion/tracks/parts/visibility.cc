@@ -72,7 +72,7 @@ Visibility::Visibility(const config::TrackerConfig& config, std::size_t max_trac
   visible_.reserve(max_tracks);
   sights_.reserve(max_tracks);
   outlines_.reserve(2 * max_tracks);
-  met_.reserve(2 * max_tracks);
+  crossed_.reserve(2 * max_tracks);
 }
 
 void Visibility::judge(const std::vector<Track>& tracks, const estimators::Estimator& estimator, SensorId sensor,
@@ -153,27 +153,27 @@ void Visibility::hide() {
   widest = std::min(widest, kWidest * kWidest);
   for (Outline& outline : outlines_) {
     const double beside = kBeside * std::sqrt(outline.variance + widest);
-    outline.met_from = outline.low - beside;
-    outline.met_to = outline.high + beside;
+    outline.crossed_from = outline.low - beside;
+    outline.crossed_to = outline.high + beside;
   }
   std::sort(sights_.begin(), sights_.end(), [](const Sight& a, const Sight& b) {
     return a.bearing != b.bearing ? a.bearing < b.bearing : a.track < b.track;
   });
   std::sort(outlines_.begin(), outlines_.end(), [&](const Outline& a, const Outline& b) {
-    return a.met_from != b.met_from ? a.met_from < b.met_from : a.track < b.track;
+    return a.crossed_from != b.crossed_from ? a.crossed_from < b.crossed_from : a.track < b.track;
   });
   const auto nearer = [](const Outline* a, const Outline* b) {
     return a->range != b->range ? a->range < b->range : a->track < b->track;
   };
-  met_.clear();
+  crossed_.clear();
   auto next = outlines_.begin();
   for (const Sight& sight : sights_) {
-    std::erase_if(met_, [&](const Outline* outline) { return outline->met_to < sight.bearing; });
-    for (; next != outlines_.end() && next->met_from <= sight.bearing; ++next)
-      if (next->met_to >= sight.bearing)
-        met_.insert(std::upper_bound(met_.begin(), met_.end(), &*next, nearer), &*next);
+    std::erase_if(crossed_, [&](const Outline* outline) { return outline->crossed_to < sight.bearing; });
+    for (; next != outlines_.end() && next->crossed_from <= sight.bearing; ++next)
+      if (next->crossed_to >= sight.bearing)
+        crossed_.insert(std::upper_bound(crossed_.begin(), crossed_.end(), &*next, nearer), &*next);
     double& visible = visible_[sight.track];
-    for (const Outline* outline : met_) {
+    for (const Outline* outline : crossed_) {
       if (visible <= kHardly) break;
       if (outline->track != sight.track) visible *= 1.0 - outline->exists * hidden(sight, *outline);
     }

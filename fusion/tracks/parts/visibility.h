@@ -58,8 +58,8 @@ class Visibility {
   // An outline that hides what is behind it, between the bearings low <= high. Both may be a turn off.
   struct Outline {
     double low = 0.0, high = 0.0, variance = 0.0;
-    double met_from = 0.0, met_to = 0.0;  // by lines of sight of these bearings
-    double range = 0.0;                   // [m], to its centre
+    double crossed_from = 0.0, crossed_to = 0.0;  // by lines of sight of these bearings
+    double range = 0.0;                           // [m], to its centre
     double exists = 1.0;
     linear::Vector<2> centre, axis, half;  // from the sensor; along the length; half of length and width [m]
     std::size_t track = 0;
@@ -74,10 +74,10 @@ class Visibility {
   const sensors::KnownSensor* sensor_ = nullptr;  // the present one
   sensors::Mounting from_;                        // its place at the list's instant
   bool sees_all_ = true;
-  std::vector<double> visible_;      // by track
-  std::vector<Sight> sights_;        // to tracks in the field, by bearing
-  std::vector<Outline> outlines_;    // by met_from
-  std::vector<const Outline*> met_;  // those near the present line of sight, by range
+  std::vector<double> visible_;          // by track
+  std::vector<Sight> sights_;            // to tracks in the field, by bearing
+  std::vector<Outline> outlines_;        // by crossed_from
+  std::vector<const Outline*> crossed_;  // those near the present line of sight, by range
 };
 
 }  // namespace ttf::fusion::tracks::parts

@@ -60,7 +60,7 @@ std::optional<Lane> OwnLane::look(const host::StepContext& context) {
     std::optional<LaneLine> expected;
     if (line_ && fits)
       expected = seen_from(after(*line_, lane.speed, lane.yaw_rate, (seen_at - seen_at_).seconds()), config_.ahead_m);
-    if (const auto found = fits ? met(marks, expected) : std::nullopt) {
+    if (const auto found = fits ? matched(marks, expected) : std::nullopt) {
       line_ = seen_from(*found, -config_.ahead_m);
       seen_at_ = seen_at;
     }
@@ -73,7 +73,7 @@ std::optional<Lane> OwnLane::look(const host::StepContext& context) {
 
 // Returns the lane's middle where marks are measured. It lies between the nearest marks to either side of the vehicle,
 // or of its expected place. One mark is enough.
-std::optional<LaneLine> OwnLane::met(const host::Input& marks, const std::optional<LaneLine>& expected) {
+std::optional<LaneLine> OwnLane::matched(const host::Input& marks, const std::optional<LaneLine>& expected) {
   const double middle = expected ? expected->offset : 0.0;
   std::optional<LaneLine> left, right;
   const int count = host::element_count(*marks.layout, *marks.list);

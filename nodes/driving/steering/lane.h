@@ -53,7 +53,7 @@ class OwnLane {
   std::optional<Lane> look(const host::StepContext& context);
 
  private:
-  std::optional<LaneLine> met(const host::Input& marks, const std::optional<LaneLine>& expected);
+  std::optional<LaneLine> matched(const host::Input& marks, const std::optional<LaneLine>& expected);
 
   LaneConfig config_;
   Duration round_;

@@ -61,8 +61,8 @@ bool Line::catch_up(std::chrono::milliseconds patience) {
   return record_.whole();
 }
 
-void Line::tell(const host::Actuation& actuation) {
-  send_to_all(record_.tell({TrueTime{} + (actuation.from - start_), actuation.acceleration, actuation.steering}));
+void Line::report(const host::Actuation& actuation) {
+  send_to_all(record_.report({TrueTime{} + (actuation.from - start_), actuation.acceleration, actuation.steering}));
 }
 
 void Line::take_in() {

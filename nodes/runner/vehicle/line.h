@@ -44,7 +44,7 @@ class Line {
   bool catch_up(std::chrono::milliseconds patience);
 
   // Adds an actuation of this process to the record, and reports it to all others. It is in the drive's time.
-  void tell(const host::Actuation& actuation);
+  void report(const host::Actuation& actuation);
   // Takes in the messages that have come, and answers them.
   void take_in();
   int descriptor() const { return socket_; }  // readable when a message has come

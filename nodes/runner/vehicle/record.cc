@@ -30,12 +30,12 @@ bool is_sound(const Actuation& one) {
 
 }  // namespace
 
-std::span<const std::byte> Record::tell(const Actuation& actuation) {
+std::span<const std::byte> Record::report(const Actuation& actuation) {
   (void)driven_.insert(actuation);
   std::shift_left(newest_.begin(), newest_.end(), 1);
   newest_.back() = actuation;
-  ++counts_.told;
-  return written(Kind::kTold, 0, std::span(newest_).last(std::min<std::size_t>(counts_.told, kRepeated)));
+  ++counts_.reported;
+  return written(Kind::kReported, 0, std::span(newest_).last(std::min<std::size_t>(counts_.reported, kRepeated)));
 }
 
 std::span<const std::byte> Record::ask() { return written(Kind::kQuestion, complete_to_, {}); }
@@ -45,17 +45,17 @@ Record::Reaction Record::take(std::span<const std::byte> message) {
     ++counts_.malformed;
     return {};
   }
-  const std::span<const Actuation> heard(in_.actuations.data(), in_.count);
+  const std::span<const Actuation> received(in_.actuations.data(), in_.count);
   switch (in_.kind) {
-    case Kind::kTold: return told(heard);
+    case Kind::kReported: return reported(received);
     case Kind::kQuestion: return {counts_.whole ? answer(in_.after) : std::span<const std::byte>{}, false};
     case Kind::kAnswer:
     case Kind::kLastAnswer: {
-      add(heard);
+      add(received);
       if (counts_.whole || in_.after > complete_to_) return {};
       // Several processes answer. One of them is enough to ask for the next page.
-      const bool further = !heard.empty() && heard.back().from.ns > complete_to_;
-      if (further) complete_to_ = heard.back().from.ns;
+      const bool further = !received.empty() && received.back().from.ns > complete_to_;
+      if (further) complete_to_ = received.back().from.ns;
       counts_.whole = in_.kind == Kind::kLastAnswer && complete_to_ >= needed_to_;
       return {{}, further && in_.kind == Kind::kAnswer};
     }
@@ -65,28 +65,28 @@ Record::Reaction Record::take(std::span<const std::byte> message) {
 
 // Nothing is missing if the oldest of the repeated ones is known, or is the first that there was. As long as something
 // is missing, each message is an occasion to ask again.
-Record::Reaction Record::told(std::span<const Actuation> heard) {
-  if (heard.empty()) return {};
+Record::Reaction Record::reported(std::span<const Actuation> received) {
+  if (received.empty()) return {};
   const std::span<const Actuation> known = driven_.actuations();
-  const bool first_of_all = known.empty() && heard.size() < kRepeated;
-  if (counts_.whole && !first_of_all && !knows(heard.front())) {
+  const bool first_of_all = known.empty() && received.size() < kRepeated;
+  if (counts_.whole && !first_of_all && !has(received.front())) {
     counts_.whole = false;
     ++counts_.gaps;
     complete_to_ = known.empty() ? 0 : known.back().from.ns;
-    needed_to_ = heard.front().from.ns;
+    needed_to_ = received.front().from.ns;
   }
-  add(heard);
+  add(received);
   return {{}, !counts_.whole};
 }
 
-bool Record::knows(const Actuation& actuation) const {
+bool Record::has(const Actuation& actuation) const {
   return std::ranges::binary_search(driven_.actuations(), actuation.from, {}, &Actuation::from);
 }
 
-void Record::add(std::span<const Actuation> heard) {
-  for (const Actuation& one : heard) {
+void Record::add(std::span<const Actuation> received) {
+  for (const Actuation& one : received) {
     const Inserted how = driven_.insert(one);
-    counts_.heard += how == Inserted::kNew || how == Inserted::kLate;
+    counts_.received += how == Inserted::kNew || how == Inserted::kLate;
     counts_.late += how == Inserted::kLate;
   }
 }
@@ -119,7 +119,7 @@ bool Record::read(std::span<const std::byte> bytes) {
   const std::byte* at = bytes.data();
   if (taken<std::uint32_t>(at) != kMagic) return false;
   const auto kind = taken<std::uint32_t>(at);
-  if (kind < static_cast<std::uint32_t>(Kind::kTold) || kind > static_cast<std::uint32_t>(Kind::kLastAnswer))
+  if (kind < static_cast<std::uint32_t>(Kind::kReported) || kind > static_cast<std::uint32_t>(Kind::kLastAnswer))
     return false;
   in_.kind = static_cast<Kind>(kind);
   in_.after = taken<std::int64_t>(at);

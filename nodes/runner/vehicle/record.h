@@ -22,11 +22,11 @@
 namespace ttf::nodes::runner::vehicle {
 
 struct Counts {
-  std::uint64_t told = 0, heard = 0;  // actuations: of this process; of others, each once
-  std::uint64_t late = 0;             // among those received
-  std::uint64_t gaps = 0;             // times that the record was found not to be whole
-  std::uint64_t malformed = 0;        // messages
-  bool whole = true;                  // now
+  std::uint64_t reported = 0, received = 0;  // actuations: of this process; of others, each once
+  std::uint64_t late = 0;                    // among those received
+  std::uint64_t gaps = 0;                    // times that the record was found not to be whole
+  std::uint64_t malformed = 0;               // messages
+  bool whole = true;                         // now
 };
 
 class Record {
@@ -42,7 +42,7 @@ class Record {
   void begins_later() { counts_.whole = false; }
 
   // Adds an actuation of this process. Returns the message for all others; valid until the next call of a member.
-  std::span<const std::byte> tell(const sim::world::vehicle::Actuation& actuation);
+  std::span<const std::byte> report(const sim::world::vehicle::Actuation& actuation);
   // Returns the question about missing actuations, to all others.
   std::span<const std::byte> ask();
 
@@ -58,7 +58,7 @@ class Record {
 
  private:
   using Actuation = sim::world::vehicle::Actuation;
-  enum class Kind : std::uint32_t { kTold = 1, kQuestion = 2, kAnswer = 3, kLastAnswer = 4 };
+  enum class Kind : std::uint32_t { kReported = 1, kQuestion = 2, kAnswer = 3, kLastAnswer = 4 };
   struct Message {
     Kind kind{};
     std::int64_t after = 0;  // [ns]: questions and answers are about actuations after this instant
@@ -67,9 +67,9 @@ class Record {
   };
   std::span<const std::byte> written(Kind kind, std::int64_t after, std::span<const Actuation> actuations);
   bool read(std::span<const std::byte> bytes);
-  bool knows(const Actuation& actuation) const;
-  void add(std::span<const Actuation> heard);
-  Reaction told(std::span<const Actuation> heard);
+  bool has(const Actuation& actuation) const;
+  void add(std::span<const Actuation> received);
+  Reaction reported(std::span<const Actuation> received);
   std::span<const std::byte> answer(std::int64_t after);
 
   sim::world::vehicle::Driven& driven_;

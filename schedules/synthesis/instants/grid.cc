@@ -20,10 +20,10 @@ Ticks next_on_grid(const Grid& grid, Ticks earliest) {
 }
 
 Ticks in_the_way(const Activity& one, Ticks at, const Activity& other, Ticks there, bool earlier) {
-  const Ticks common = meeting_time(one, other);
+  const Ticks common = common_period(one, other);
   const Ticks behind = modulo(at - there, common);  // from the other's beginning to this one's
-  const bool meets = behind < other.duration || common - behind < one.duration;
-  if (!meets || one.duration == 0 || other.duration == 0) return 0;
+  const bool overlaps = behind < other.duration || common - behind < one.duration;
+  if (!overlaps || one.duration == 0 || other.duration == 0) return 0;
   // Earlier: it ends where the other begins. Later: it begins where the other ends.
   if (earlier) return behind < other.duration ? behind + one.duration : one.duration - (common - behind);
   return behind < other.duration ? other.duration - behind : common - behind + other.duration;

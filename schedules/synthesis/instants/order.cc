@@ -60,8 +60,8 @@ std::set<std::pair<std::size_t, Ticks>> behind_end(const Reading& reading, const
 }
 
 // Whether only other fusions and its own successors may be in a fusion's way.
-bool meets_fusions_alone(const Reading& reading, const Graph& graph, const std::vector<bool>& main,
-                         std::size_t fusing) {
+bool shares_with_fusions_alone(const Reading& reading, const Graph& graph, const std::vector<bool>& main,
+                               std::size_t fusing) {
   const std::vector<Activity>& all = reading.problem.activities;
   for (std::size_t b = 0; b < all.size(); ++b) {
     const bool fuses =
@@ -102,13 +102,13 @@ std::optional<bool> fused_in_order(const Reading& reading, const std::vector<Tic
   return measure_in_order(reading, std::vector<bool>(at.size(), true), at) && at == before;
 }
 
-bool all_orders_meet(const Reading& reading, const Graph& graph, const std::vector<bool>& main) {
+bool all_orders_agree(const Reading& reading, const Graph& graph, const std::vector<bool>& main) {
   const std::vector<Activity>& all = reading.problem.activities;
   for (const Fused& a : reading.fused)
     for (const Fused& b : reading.fused) {
       if (a.node != b.node || a.fusing == b.fusing) continue;
       if (all[a.fusing].fixed || all[b.fusing].fixed) return false;
-      if (!meets_fusions_alone(reading, graph, main, a.fusing)) return false;
+      if (!shares_with_fusions_alone(reading, graph, main, a.fusing)) return false;
       if (behind_end(reading, graph, main, a.fusing) != behind_end(reading, graph, main, b.fusing)) return false;
     }
   return true;

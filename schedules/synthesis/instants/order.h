@@ -20,6 +20,6 @@ std::optional<bool> fused_in_order(const Reading& reading, const std::vector<Tic
 // Returns whether placements as late as may be, one after the other, meet every order of two fusions of a node. Where two
 // must end at different times, or something else is between them, one of the orders may need a fusion that begins earlier
 // than it must. `main`: by activity, whether it is placed so.
-bool all_orders_meet(const Reading& reading, const Graph& graph, const std::vector<bool>& main);
+bool all_orders_agree(const Reading& reading, const Graph& graph, const std::vector<bool>& main);
 
 }  // namespace ttf::schedules::synthesis::instants

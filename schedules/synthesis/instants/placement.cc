@@ -346,7 +346,7 @@ class Engine {
 
   bool exact() const {
     if (found_.best && best_worst_ == least_worst_) return true;
-    if (cut_ || !one_anchor_ || !all_positions_ || dropped_ || !all_orders_meet(reading_, graph_, main_)) return false;
+    if (cut_ || !one_anchor_ || !all_positions_ || dropped_ || !all_orders_agree(reading_, graph_, main_)) return false;
     // A later place in one cycle may be in the way of others in another cycle.
     for (std::size_t a = 0; a < problem_.activities.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)

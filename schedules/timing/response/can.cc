@@ -82,7 +82,7 @@ std::optional<PriorityOrder> audsley_can(const CanBus& bus, std::span<const CanM
                    std::int64_t longest_lower = 0;
                    for (const std::size_t one : lower)
                      longest_lower = std::max(longest_lower, messages[one].one_frame());
-                   return can_response(bus, above, messages[message], longest_lower).meets(messages[message].deadline);
+                   return can_response(bus, above, messages[message], longest_lower).keeps(messages[message].deadline);
                  });
 }
 

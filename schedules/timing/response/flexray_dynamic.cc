@@ -76,7 +76,7 @@ std::vector<DynamicResponse> dynamic_responses(const DynamicSegment& segment, st
     const auto searched = endless ? std::nullopt : searched_response(segment, by_slot, i);
     if (searched) {
       const Response& bound = answer.response.response;
-      TTF_CHECK(!bound.bounded() || searched->response.meets(bound.longest), "searched {}, bound {}",
+      TTF_CHECK(!bound.bounded() || searched->response.keeps(bound.longest), "searched {}, bound {}",
                 searched->response.longest, bound.longest);
       answer.response = *searched;
       answer.delay.reset();

@@ -49,7 +49,7 @@ std::optional<PriorityOrder> audsley(std::size_t count, const Fits& fits) {
 
 std::optional<PriorityOrder> audsley_preemptive(std::span<const TaskTimes> tasks) {
   return audsley(tasks.size(), [&](std::size_t task, std::span<const std::size_t> higher, auto) {
-    return preemptive_response(chosen_tasks(tasks, higher), tasks[task]).meets(tasks[task].deadline);
+    return preemptive_response(chosen_tasks(tasks, higher), tasks[task]).keeps(tasks[task].deadline);
   });
 }
 
@@ -58,7 +58,7 @@ std::optional<PriorityOrder> audsley_non_preemptive(std::span<const TaskTimes> t
                                    std::span<const std::size_t> lower) {
     std::int64_t longest_lower = 0;
     for (const std::size_t one : lower) longest_lower = std::max(longest_lower, tasks[one].work);
-    return non_preemptive_response(chosen_tasks(tasks, higher), tasks[task], longest_lower).meets(tasks[task].deadline);
+    return non_preemptive_response(chosen_tasks(tasks, higher), tasks[task], longest_lower).keeps(tasks[task].deadline);
   });
 }
 

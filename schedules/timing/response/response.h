@@ -24,7 +24,7 @@ struct Response {
   std::int64_t longest = 0;  // 0 if unbounded
 
   bool bounded() const { return quality != Quality::kUnbounded; }
-  bool meets(std::int64_t deadline) const { return bounded() && longest <= deadline; }
+  bool keeps(std::int64_t deadline) const { return bounded() && longest <= deadline; }
   bool operator==(const Response&) const = default;
 };
 

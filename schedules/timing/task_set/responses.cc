@@ -250,12 +250,12 @@ class Analysis {
   bool activates(std::size_t t) const {
     const Task& task = set_.tasks[t];
     if (unknown_[t] || !found_.tasks[t].bounded()) return false;
-    return task.communication != Communication::kLet || found_.tasks[t].response.meets(task.deadline->ns);
+    return task.communication != Communication::kLet || found_.tasks[t].response.keeps(task.deadline->ns);
   }
 
   bool all_in_time(std::size_t r) const {
     return std::ranges::all_of(found_.resources[r].by_priority,
-                               [&](std::size_t t) { return meets_deadline(set_, found_, t); });
+                               [&](std::size_t t) { return keeps_deadline(set_, found_, t); });
   }
 
   std::optional<std::vector<std::size_t>> other_order(std::size_t r) const {
@@ -282,10 +282,10 @@ class Analysis {
 
 Responses responses_of(const TaskSet& set) { return Analysis(set).run(); }
 
-bool meets_deadline(const TaskSet& set, const Responses& responses, std::size_t task) {
+bool keeps_deadline(const TaskSet& set, const Responses& responses, std::size_t task) {
   const response::Response& found = responses.tasks[task].response;
   if (!set.tasks[task].deadline) return found.bounded();
-  return found.meets(set.tasks[task].deadline->ns);
+  return found.keeps(set.tasks[task].deadline->ns);
 }
 
 std::string words(Assignment assignment) {

@@ -57,7 +57,7 @@ struct Responses {
 Responses responses_of(const TaskSet& set);
 
 // Returns whether the task's deadline, if it has one, is met.
-bool meets_deadline(const TaskSet& set, const Responses& responses, std::size_t task);
+bool keeps_deadline(const TaskSet& set, const Responses& responses, std::size_t task);
 
 // Returns words for people: "as given", "deadline monotonic".
 std::string words(Assignment assignment);

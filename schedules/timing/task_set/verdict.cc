@@ -80,7 +80,7 @@ class Stages {
     if (!responses_.resources[task.resource].overlap.empty())
       return fmt::format("jobs overlap on {}", set_.resources[task.resource].name);
     if (!responses_.tasks[t].bounded()) return fmt::format("no bound found for the response of {}", task.name);
-    if (task.communication == Communication::kLet && !meets_deadline(set_, responses_, t))
+    if (task.communication == Communication::kLet && !keeps_deadline(set_, responses_, t))
       return fmt::format("{} may not have ended when it is to write", task.name);
     return "";
   }
@@ -199,7 +199,7 @@ void judge_resource(const TaskSet& set, std::size_t r, Verdict& verdict) {
 void judge_task(const TaskSet& set, std::size_t t, Verdict& verdict) {
   const Task& task = set.tasks[t];
   const response::Response& found = verdict.responses.tasks[t].response;
-  if (meets_deadline(set, verdict.responses, t)) return;
+  if (keeps_deadline(set, verdict.responses, t)) return;
   if (!verdict.responses.resources[task.resource].overlap.empty()) return;  // said once
   verdict.misses.push_back(found.bounded()
                                ? fmt::format("{}: a response of {} misses its deadline of {}", task.name,
@@ -210,7 +210,7 @@ void judge_task(const TaskSet& set, std::size_t t, Verdict& verdict) {
 void judge_chain(const Chain& chain, const ChainTiming& timing, Verdict& verdict) {
   if (!timing.times) {
     verdict.misses.push_back(fmt::format("{}: no times: {}", chain.name, timing.why_none));
-  } else if (!meets_age(chain, timing)) {
+  } else if (!keeps_age(chain, timing)) {
     const std::string largest = duration_words(*chain.largest_age);
     verdict.misses.push_back(
         timing.times->age
@@ -227,7 +227,7 @@ bool ignores_errors(const TaskSet& set, const Chain& chain) {
                              [&](std::size_t t) { return set.resources[set.tasks[t].resource].errors_per_s > 0; });
 }
 
-bool meets_age(const Chain& chain, const ChainTiming& timing) {
+bool keeps_age(const Chain& chain, const ChainTiming& timing) {
   if (!chain.largest_age) return true;
   return timing.times && timing.times->age && timing.times->age->time <= *chain.largest_age;
 }

@@ -33,7 +33,7 @@ struct ChainTiming {
 bool ignores_errors(const TaskSet& set, const Chain& chain);
 
 // Returns whether the data age is within the chain's limit, if it has one.
-bool meets_age(const Chain& chain, const ChainTiming& timing);
+bool keeps_age(const Chain& chain, const ChainTiming& timing);
 
 struct Verdict {
   Responses responses;

@@ -36,7 +36,7 @@ std::string task_text(const TaskSet& set, const Verdict& verdict, std::size_t t)
   const std::string text =
       fmt::format("  {:<36} {:>9} {:>9} {:>9} {:>9}  {}", task.name, milliseconds(set.period_of(t)),
                   milliseconds(timing.jitter), longest, milliseconds(task.deadline), quality);
-  return text + (meets_deadline(set, verdict.responses, t) ? "\n" : ", missed\n");
+  return text + (keeps_deadline(set, verdict.responses, t) ? "\n" : ", missed\n");
 }
 
 std::string resource_text(const TaskSet& set, const Verdict& verdict, std::size_t r) {
@@ -91,7 +91,7 @@ std::string chain_text(const TaskSet& set, const Chain& chain, const ChainTiming
                       milliseconds(time_of(times.reduced_age), "none"));
   if (chain.largest_age)
     text += fmt::format("  {:<40}{:>42}{}\n", "largest age allowed", milliseconds(chain.largest_age),
-                        meets_age(chain, timing) ? "" : "  missed");
+                        keeps_age(chain, timing) ? "" : "  missed");
   return text;
 }
 

@@ -73,12 +73,12 @@ TEST(FrameBits, HaveTheDurationsOfTheirFrames) {
 }
 
 // The decoder's verdict on bits, with the acknowledgement as a receiver gives it.
-struct Heard {
+struct Received {
   CanError error = CanError::kNone;
   std::size_t at = 0;  // the bit of the error, or of the acceptance
   bool accepted = false;
 };
-Heard hear(Decoder& decoder, bool flexible_data_rate, const FrameBits& frame, std::size_t inverted = 9'999) {
+Received receive(Decoder& decoder, bool flexible_data_rate, const FrameBits& frame, std::size_t inverted = 9'999) {
   decoder.begin(flexible_data_rate);
   for (std::size_t b = 0; b < frame.size(); ++b) {
     const bool level = frame[b].acknowledgement ? !decoder.acknowledges() : frame[b].recessive;
@@ -97,9 +97,9 @@ TEST(Decoder, ReadsWhatWasSent) {
     const auto data = drawn(stream, kDataLengths[static_cast<std::size_t>(stream.integer(0, flexible ? 15 : 8))]);
     const auto id = static_cast<std::uint32_t>(stream.integer(0, 2047));
     const FrameBits frame(flexible, id, data, run % 3 == 0);
-    const Heard heard = hear(decoder, flexible, frame);
-    ASSERT_TRUE(heard.accepted) << run << " error " << static_cast<int>(heard.error) << " at " << heard.at;
-    ASSERT_EQ(heard.at, frame.size() - 2);  // the last but one bit of the end of frame
+    const Received received = receive(decoder, flexible, frame);
+    ASSERT_TRUE(received.accepted) << run << " error " << static_cast<int>(received.error) << " at " << received.at;
+    ASSERT_EQ(received.at, frame.size() - 2);  // the last but one bit of the end of frame
     ASSERT_EQ(decoder.identifier(), id);
     ASSERT_TRUE(std::equal(data.begin(), data.end(), decoder.data().begin(), decoder.data().end()));
   }
@@ -115,13 +115,13 @@ TEST(Decoder, RefusesEveryInvertedBit) {
     const FrameBits frame(flexible, static_cast<std::uint32_t>(stream.integer(0, 2047)), data);
     for (std::size_t bit = 1; bit + 1 < frame.size(); ++bit) {
       if (frame[bit].acknowledgement || (!flexible && bit == 15 && frame[bit].stuff)) continue;
-      const Heard heard = hear(decoder, flexible, frame, bit);
-      ASSERT_FALSE(heard.accepted) << run << " bit " << bit;
-      ASSERT_GE(heard.at, heard.error == CanError::kNone ? 0 : bit);
+      const Received received = receive(decoder, flexible, frame, bit);
+      ASSERT_FALSE(received.accepted) << run << " bit " << bit;
+      ASSERT_GE(received.at, received.error == CanError::kNone ? 0 : bit);
     }
     const std::size_t delimiter = frame.size() - 10;
     for (const std::size_t bit : {delimiter, delimiter + 2, delimiter + 3, delimiter + 8})
-      ASSERT_EQ(hear(decoder, flexible, frame, bit).error, CanError::kForm) << bit;
+      ASSERT_EQ(receive(decoder, flexible, frame, bit).error, CanError::kForm) << bit;
   }
 }
 

@@ -337,7 +337,7 @@ TEST(IncomingList, AListIsWholeOrAbsentUnderLossAndRepetition) {
       MadeList& from = stream.integer(0, 9) == 0 ? sent.front() : sent.back();
       const auto fragment = static_cast<int>(stream.integer(0, from.fragments - 1));
       // Each slot brings the same, and a known fragment is neither stored nor counted again.
-      const bool known = incoming.knows(from.fragment(fragment), fragment);
+      const bool known = incoming.is_known(from.fragment(fragment), fragment);
       const IncomingList before = incoming;
       IncomingList in_slot = incoming;
       const ArrivalEffect effect = incoming.arrive(from.fragment(fragment));

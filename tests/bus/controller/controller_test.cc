@@ -36,8 +36,8 @@ TEST(ControllerSends, L3_InItsSlotsOnlyAndAlways) {
 TEST(ControllerSends, EveryFrameIsValidOnItsChannelWithTheClustersPayloadLength) {
   Alone node;
   node.run_to(70);
-  ASSERT_FALSE(node.heard.sent.empty());
-  for (const auto& sent : node.heard.sent) {
+  ASSERT_FALSE(node.reports.sent.empty());
+  for (const auto& sent : node.reports.sent) {
     const auto decoded = wire::decode_frame(sent.channel, sent.bytes);
     ASSERT_EQ(decoded.error, wire::FrameError::kNone);
     ASSERT_EQ(decoded.header.frame_id, sent.slot);
@@ -92,7 +92,7 @@ TEST(ControllerSends, AListWrittenWhileItsSlotsAreSentWaitsForTheNextCycle) {
   node.controller.outgoing(kList).write(new_list.view());
   node.run_to(2);
   int frames = 0;
-  for (const auto& sent : node.heard.sent) {
+  for (const auto& sent : node.reports.sent) {
     if (sent.pdu != kList) continue;
     ++frames;
     MadeList& expected = sent.cycle == 0 ? old_list : new_list;
@@ -110,9 +110,9 @@ TEST(ControllerSends, AListWrittenAtTheActionPointOfItsFirstSlotStillGoesOut) {
   MadeList list(node.cluster.pdus[0], 6, 10, 0);
   node.controller.outgoing(kList).write(list.view());
   node.run_to(0, 84 * 5);
-  ASSERT_FALSE(node.heard.sent.empty());
-  EXPECT_EQ(node.heard.sent.back().sequence, 6u);
-  EXPECT_FALSE(node.heard.sent.back().null_frame);
+  ASSERT_FALSE(node.reports.sent.empty());
+  EXPECT_EQ(node.reports.sent.back().sequence, 6u);
+  EXPECT_FALSE(node.reports.sent.back().null_frame);
 }
 
 TEST(ControllerSends, LastIsSaidOncePerListWithItsLastFragmentOnItsLastChannel) {
@@ -123,7 +123,7 @@ TEST(ControllerSends, LastIsSaidOncePerListWithItsLastFragmentOnItsLastChannel) 
     node.run_to(4 * sequence);  // four cycles each: sent again and again
   }
   std::vector<std::uint32_t> finished;
-  for (const auto& sent : node.heard.sent) {
+  for (const auto& sent : node.reports.sent) {
     if (!sent.last) continue;
     finished.push_back(sent.sequence);
     EXPECT_EQ(sent.fragment, 2);
@@ -142,7 +142,7 @@ TEST(ControllerSends, MultiplexingGoesByTheCycleCounter) {
   Alone node(1, cluster);
   node.run_to(16);
   std::vector<std::int64_t> cycles;
-  for (const auto& sent : node.heard.sent)
+  for (const auto& sent : node.reports.sent)
     if (sent.slot == 9) cycles.push_back(sent.cycle);
   EXPECT_EQ(cycles, (std::vector<std::int64_t>{1, 5, 7, 11, 13}));
 }
@@ -210,7 +210,7 @@ TEST(ControllerReceives, ListsFromBothChannels) {
     EXPECT_TRUE(std::equal(latest->bytes.begin(), latest->bytes.end(), list.bytes.begin(), list.bytes.end()));
     // Eight arrivals a cycle: one completes, three prepare it, all others repeat.
     int completed = 0, incomplete = 0, repeated = 0;
-    for (const auto& arrived : rig.heard(node).arrived) {
+    for (const auto& arrived : rig.reports(node).arrived) {
       if (arrived.pdu != kList) continue;
       EXPECT_EQ(arrived.sequence, 1u);
       completed += arrived.effect == cni::ArrivalEffect::kCompleted;
@@ -220,7 +220,7 @@ TEST(ControllerReceives, ListsFromBothChannels) {
     EXPECT_EQ(completed, 1);
     EXPECT_EQ(incomplete, 3);
     EXPECT_EQ(repeated, 28);
-    EXPECT_TRUE(rig.heard(node).problems.empty());
+    EXPECT_TRUE(rig.reports(node).problems.empty());
   }
   EXPECT_TRUE(rig.controller(2).incoming(kOddList).latest().has_value());
   EXPECT_TRUE(rig.controller(0).incoming(kOddList).latest().has_value());

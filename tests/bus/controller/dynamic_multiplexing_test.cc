@@ -24,7 +24,7 @@ std::vector<std::int64_t> cycles_of(Rig& rig, std::size_t node, Channel channel 
 }
 
 void expect_no_problems(Rig& rig, std::size_t nodes) {
-  for (std::size_t n = 0; n < nodes; ++n) EXPECT_TRUE(rig.heard(n).problems.empty()) << n;
+  for (std::size_t n = 0; n < nodes; ++n) EXPECT_TRUE(rig.reports(n).problems.empty()) << n;
 }
 
 // Slot 11 is node 0's in cycles 1, 5, 9.. and node 1's in even ones. Both have new data in every cycle.
@@ -63,13 +63,13 @@ TEST(DynamicMultiplexing, TheWrongCycleIsUnexpected) {
     frame.start = Alone::at(cycle, kSegment + 5 + 3).value;  // in minislot 2
     frame.length = 17 * 40;
     node.run_to(cycle, 841);
-    node.heard.problems.clear();
+    node.reports.problems.clear();
     frame.arrive(node);
-    ASSERT_EQ(node.heard.problems.size(), cycle == 0 ? 1u : 0u);
+    ASSERT_EQ(node.reports.problems.size(), cycle == 0 ? 1u : 0u);
     if (cycle == 0) {
-      EXPECT_EQ(node.heard.problems[0].status, kUnexpectedFrame);
+      EXPECT_EQ(node.reports.problems[0].status, kUnexpectedFrame);
     }
-    EXPECT_EQ(node.heard.arrived.size(), cycle == 0 ? 0u : 1u);
+    EXPECT_EQ(node.reports.arrived.size(), cycle == 0 ? 0u : 1u);
   }
 }
 
@@ -112,7 +112,7 @@ TEST(StaticMultiplexing, ChannelsAndCyclesOfASlotBelongToDifferentNodes) {
   rig.run_cycles(9);
   const auto sent = [&](std::size_t node, int slot, Channel channel) {
     std::vector<std::int64_t> cycles;
-    for (const auto& frame : rig.heard(node).sent)
+    for (const auto& frame : rig.reports(node).sent)
       if (frame.slot == slot && frame.channel == channel) cycles.push_back(frame.cycle);
     return cycles;
   };
@@ -135,14 +135,14 @@ TEST(KeySlotOnlyMode, HoldsInBothSegments) {
   rig.controller(0).outgoing(kList).write(list.view());
   write(rig, 0, 1);
   rig.run_cycles(4);
-  for (const auto& sent : rig.heard(0).sent) EXPECT_EQ(sent.slot, 1);
-  EXPECT_EQ(rig.heard(0).sent.size(), 8u);  // four cycles, two channels
+  for (const auto& sent : rig.reports(0).sent) EXPECT_EQ(sent.slot, 1);
+  EXPECT_EQ(rig.reports(0).sent.size(), 8u);  // four cycles, two channels
   const TrueTime middle = Rig::kStart + Duration::microseconds(4'020);
   rig.run_until(middle);
   rig.controller(0).command(poc::PocEventKind::kAllSlots, {middle.ns / 25});
   rig.run_cycles(6);
   std::vector<int> in_cycle_4, in_cycle_5;
-  for (const auto& sent : rig.heard(0).sent) {
+  for (const auto& sent : rig.reports(0).sent) {
     if (sent.channel != Channel::kA) continue;
     if (sent.cycle == 4) in_cycle_4.push_back(sent.slot);
     if (sent.cycle == 5) in_cycle_5.push_back(sent.slot);
@@ -164,7 +164,7 @@ schedules::model::Cluster with_message_ids() {
   return cluster;
 }
 
-TEST(MessageId, StandsFirstInThePayloadAndTellsListsApart) {
+TEST(MessageId, StandsFirstInThePayloadAndSeparatesLists) {
   Rig rig(with_message_ids(), {0, 0, 0});
   const MadeList list(rig.cluster().pdus[5], 9, 3, 700);
   rig.run_cycles(2);
@@ -213,11 +213,11 @@ TEST(MessageId, AnUnknownMissingOrUnexpectedOneMakesTheFrameUnexpected) {
     frame.start = Alone::at(0, kSegment + 5 * (one.slot - 11) + 3).value;
     frame.length = 18 * 40;
     node.run_to(0, 841);
-    node.heard.problems.clear();
+    node.reports.problems.clear();
     frame.arrive(node);
-    const SlotStatus status = node.heard.problems.empty() ? kValidFrame : node.heard.problems[0].status;
+    const SlotStatus status = node.reports.problems.empty() ? kValidFrame : node.reports.problems[0].status;
     EXPECT_EQ(status, one.status) << one.slot << (one.preamble ? " with" : " without");
-    EXPECT_EQ(node.heard.arrived.size(), one.status == kValidFrame ? 1u : 0u);
+    EXPECT_EQ(node.reports.arrived.size(), one.status == kValidFrame ? 1u : 0u);
   }
 }
 

@@ -36,7 +36,7 @@ struct Noisy {
     std::vector<int> minislots;
     for (std::size_t node = 0; node < 3; ++node) {
       minislots.push_back(0);
-      for (const Heard::Sent& sent : dynamic_frames(rig, node)) {
+      for (const Reports::Sent& sent : dynamic_frames(rig, node)) {
         if (sent.cycle != kCycle) continue;
         const auto macrotick = (rig.medium().oscillator(node).time_of(sent.start) - at(kCycle, 0)).ns / 1000;
         minislots.back() = static_cast<int>((macrotick - kSegment) / 5 + 1);
@@ -47,7 +47,7 @@ struct Noisy {
   // Every node received every list, and the dynamic segment had no errors.
   void expect_all_there() {
     for (std::size_t node = 0; node < 3; ++node) {
-      for (const auto& problem : rig.heard(node).problems) EXPECT_LE(problem.slot, 10) << "node " << node;
+      for (const auto& problem : rig.reports(node).problems) EXPECT_LE(problem.slot, 10) << "node " << node;
       for (std::size_t other = 0; other < 3; ++other) {
         if (other == node) continue;
         EXPECT_EQ(arrived(rig, node, static_cast<PduId>(2 + other)), std::vector<std::uint32_t>{1})

@@ -25,7 +25,7 @@ TEST(DynamicSegment, AListIsSentOnceAndArrives) {
   EXPECT_TRUE(dynamic_frames(rig, 1)[0].last || dynamic_frames(rig, 1, Channel::kB)[0].last);
   EXPECT_EQ(arrived(rig, 0, PduId{3}), std::vector<std::uint32_t>{7});
   EXPECT_EQ(arrived(rig, 2, PduId{3}), std::vector<std::uint32_t>{7});
-  for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.reports(n).problems.empty());
 }
 
 // A frame of 8 bytes lasts 172 bits = 17.2 us. It begins at the action point of minislot 1 (3 MT in) and
@@ -39,10 +39,10 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
   std::vector<std::int64_t> minislots;
   for (std::size_t node = 0; node < 3; ++node) {
     ASSERT_EQ(dynamic_frames(rig, node).size(), 1u);
-    const Heard::Sent sent = dynamic_frames(rig, node)[0];
-    const auto cycle = std::find_if(rig.heard(node).cycle_starts.begin(), rig.heard(node).cycle_starts.end(),
+    const Reports::Sent sent = dynamic_frames(rig, node)[0];
+    const auto cycle = std::find_if(rig.reports(node).cycle_starts.begin(), rig.reports(node).cycle_starts.end(),
                                     [&](const auto& started) { return started.first == sent.cycle; });
-    ASSERT_NE(cycle, rig.heard(node).cycle_starts.end());
+    ASSERT_NE(cycle, rig.reports(node).cycle_starts.end());
     const std::int64_t macrotick = ((sent.start - cycle->second).value + 20) / 40;
     EXPECT_EQ((macrotick - kSegment) % 5, 3);  // the minislot's action point
     minislots.push_back((macrotick - kSegment) / 5 + 1);
@@ -79,7 +79,7 @@ TEST(DynamicSegment, TheChannelsCountOnTheirOwn) {
   ASSERT_EQ(dynamic_frames(rig, 1, Channel::kB).size(), 1u);
   // On B slot 11 is unused: slot 12 comes one minislot later.
   EXPECT_GT(dynamic_frames(rig, 1, Channel::kA)[0].start, dynamic_frames(rig, 1, Channel::kB)[0].start);
-  for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.reports(n).problems.empty());
 }
 
 // Any load, any clocks: no collision, no loss. Every list reaches every node once, in order.
@@ -90,7 +90,7 @@ TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
     for (int n = 0; n < 4; ++n) drifts.push_back(draw.integer(-300'000, 300'000));
     Rig rig(dynamic_cluster(4), drifts, Duration{draw.integer(0, 800)});
     rig.run_cycles(20);  // until the rates agree
-    for (std::size_t n = 0; n < 4; ++n) rig.heard(n).problems.clear();
+    for (std::size_t n = 0; n < 4; ++n) rig.reports(n).problems.clear();
     std::vector<std::uint32_t> written(4, 0);
     for (int cycle = 20; cycle < 80; ++cycle) {
       for (std::size_t n = 0; n < 4; ++n)
@@ -99,9 +99,9 @@ TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
     }
     rig.run_cycles(90);
     for (std::size_t n = 0; n < 4; ++n) {
-      ASSERT_TRUE(rig.heard(n).problems.empty())
-          << "seed " << seed << " node " << n << " slot " << rig.heard(n).problems[0].slot << " status "
-          << to_text(rig.heard(n).problems[0].status);
+      ASSERT_TRUE(rig.reports(n).problems.empty())
+          << "seed " << seed << " node " << n << " slot " << rig.reports(n).problems[0].slot << " status "
+          << to_text(rig.reports(n).problems[0].status);
       for (std::size_t m = 0; m < 4; ++m) {
         if (m == n) continue;
         std::vector<std::uint32_t> all(written[m]);

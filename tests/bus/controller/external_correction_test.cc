@@ -20,12 +20,13 @@ schedules::model::Cluster correctable(schedules::model::Cluster cluster, int dam
 }
 
 // Length of a past cycle, in the node's microticks.
-std::int64_t length_of(const Heard& heard, std::size_t cycle) {
-  return (heard.cycle_starts[cycle + 1].second - heard.cycle_starts[cycle].second).value;
+std::int64_t length_of(const Reports& reports, std::size_t cycle) {
+  return (reports.cycle_starts[cycle + 1].second - reports.cycle_starts[cycle].second).value;
 }
-std::vector<std::int64_t> lengths(const Heard& heard) {
+std::vector<std::int64_t> lengths(const Reports& reports) {
   std::vector<std::int64_t> all;
-  for (std::size_t cycle = 0; cycle + 1 < heard.cycle_starts.size(); ++cycle) all.push_back(length_of(heard, cycle));
+  for (std::size_t cycle = 0; cycle + 1 < reports.cycle_starts.size(); ++cycle)
+    all.push_back(length_of(reports, cycle));
   return all;
 }
 
@@ -35,7 +36,7 @@ TEST(ExternalCorrection, TheOffsetTermIsAddedInOddCycles) {
     node.controller.set_external_correction(asked, 0);
     node.run_to(6, 100);
     // cycle_starts begins with cycle 1
-    EXPECT_EQ(lengths(node.heard),
+    EXPECT_EQ(lengths(node.reports),
               (std::vector<std::int64_t>{40'000 + given, 40'000, 40'000 + given, 40'000, 40'000 + given}))
         << asked;
   }
@@ -45,7 +46,7 @@ TEST(ExternalCorrection, ANodeThatAllowsNoneIsGivenNone) {
   Alone node;
   node.controller.set_external_correction(5, 5);
   node.run_to(6, 100);
-  for (const std::int64_t length : lengths(node.heard)) EXPECT_EQ(length, 40'000);
+  for (const std::int64_t length : lengths(node.reports)) EXPECT_EQ(length, 40'000);
 }
 
 // It starts after the static segment of the odd cycle and recurs every double cycle until withdrawn.
@@ -58,7 +59,7 @@ TEST(ExternalCorrection, TakesEffectWithTheNextComputation) {
   node.run_to(3, 850);
   node.controller.set_external_correction(0, 0);
   node.run_to(8, 100);
-  EXPECT_EQ(lengths(node.heard), (std::vector<std::int64_t>{40'001, 40'000, 40'002, 40'000, 40'000, 40'000, 40'000}));
+  EXPECT_EQ(lengths(node.reports), (std::vector<std::int64_t>{40'001, 40'000, 40'002, 40'000, 40'000, 40'000, 40'000}));
 }
 
 // Three sync frames come far too late. The computed offset is limited to 400; the external term is added to
@@ -73,10 +74,10 @@ TEST(ExternalCorrection, TheSumIsNotLimitedAndWhatIsReportedIsWithoutIt) {
     frame.arrive(node);
   }
   node.run_to(3, 100);
-  ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 400);
-  EXPECT_TRUE(node.heard.corrected[0].offset.limit_reached);
-  EXPECT_EQ(length_of(node.heard, 0), 40'407);
+  ASSERT_EQ(node.reports.corrected.size(), 1u);
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 400);
+  EXPECT_TRUE(node.reports.corrected[0].offset.limit_reached);
+  EXPECT_EQ(length_of(node.reports, 0), 40'407);
 }
 
 TEST(ExternalCorrection, TheRateTermStaysWithoutDampingAndAddsUp) {
@@ -116,9 +117,9 @@ TEST(ExternalCorrection, IsNotForStartup) {
     for (std::size_t n = 0; n < 3; ++n) rig.controller(n).set_external_correction(offset, 0);
     rig.run_cycles(60);
     EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kNormalActive);
-    return rig.heard(0);
+    return rig.reports(0);
   };
-  const Heard plain = start(0), given = start(7);
+  const Reports plain = start(0), given = start(7);
   ASSERT_EQ(plain.cycles, given.cycles);
   ASSERT_EQ(plain.changed.size(), given.changed.size());
   const auto active = std::find_if(plain.changed.begin(), plain.changed.end(),
@@ -148,7 +149,7 @@ TEST(ExternalCorrection, ClustersShiftTogether) {
   for (std::size_t n = 0; n < 4; ++n) {
     const std::int64_t behind = (plain.global_time(n, end) - shifted.global_time(n, end)).ns;
     EXPECT_NEAR(static_cast<double>(behind), 200.0 * 25.0, 300.0) << n;
-    EXPECT_TRUE(shifted.heard(n).problems.empty());
+    EXPECT_TRUE(shifted.reports(n).problems.empty());
   }
 }
 

@@ -1,6 +1,6 @@
 // The controller's fast ways against the plain one, on drawn receptions. One is a frame on both channels at
-// once (receive_on_both()). The other is a frame without new content, taken in before it arrives (knows(),
-// hear_known()).
+// once (receive_on_both()). The other is a frame without new content, taken in before it arrives (is_known(),
+// receive_known()).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace ttf::bus::controller {
 namespace {
 
 // All of a controller's reports to a host that wants no receptions.
-struct Told final : ControllerEvents {
+struct Reported final : ControllerEvents {
   std::vector<std::int64_t> entries;
   int problems = 0;
   template <class... Numbers> void write(Numbers... numbers) {
@@ -52,17 +52,17 @@ struct Arrived {
 // Node 1: it receives the list of node 0 and sends in slots 2 and 9.
 struct Seat {
   NoPort port;
-  Told told;
+  Reported reported;
   FlexRayController controller;
 
-  explicit Seat(const schedules::model::Cluster& cluster) : controller(cluster, NodeId{1}, port, told) {
+  explicit Seat(const schedules::model::Cluster& cluster) : controller(cluster, NodeId{1}, port, reported) {
     controller.start_integrated({{1000}, 0});
   }
   // Runs all events due before.
   void run_to(Microticks at) {
     while (controller.next_event() < at) controller.advance(controller.next_event());
   }
-  void hear_plainly(const Arrived& arrived) {
+  void receive_plainly(const Arrived& arrived) {
     run_to(arrived.reception.end);
     if (arrived.on_a) controller.receive(arrived.reception);
     if (arrived.on_b) controller.receive(ports::on_b(arrived.reception));
@@ -87,10 +87,10 @@ class Drawn {
       }
       // Behind the static segment, and before the next one.
       const Microticks behind = Alone::at(cycle, 900);
-      for (Seat* const seat : {&plain_, &both_, &knowing_}) seat->run_to(behind);
+      for (Seat* const seat : {&plain_, &both_, &early_}) seat->run_to(behind);
       compare_status();
     }
-    counts.problems += plain_.told.problems;
+    counts.problems += plain_.reported.problems;
   }
 
  private:
@@ -116,43 +116,43 @@ class Drawn {
     Arrived arrived{received(Channel::kA, {frame.start}, {frame.start + frame.length}, bytes)};
     if (odd()) arrived.reception.signal = draw_.uniform() < 0.5 ? ports::Signal::kUndecodable : ports::Signal::kCas;
     if (odd()) (draw_.uniform() < 0.5 ? arrived.on_a : arrived.on_b) = false;
-    hear(arrived, counts);
+    receive(arrived, counts);
   }
   bool odd() { return draw_.uniform() < 0.02; }
 
-  void hear(const Arrived& arrived, Counts& counts) {
+  void receive(const Arrived& arrived, Counts& counts) {
     plain_.run_to(arrived.reception.end);
     const Microticks due = plain_.controller.next_event();
     const poc::PocKind kind = plain_.controller.state().kind;
-    plain_.hear_plainly(arrived);
+    plain_.receive_plainly(arrived);
     const bool changes = plain_.controller.next_event() != due || plain_.controller.state().kind != kind;
     if (!arrived.on_a || !arrived.on_b) {
-      both_.hear_plainly(arrived);
-      knowing_.hear_plainly(arrived);
+      both_.receive_plainly(arrived);
+      early_.receive_plainly(arrived);
     } else {
       ++counts.on_both;
       both_.run_to(arrived.reception.end);
       EXPECT_EQ(both_.controller.receive_on_both(arrived.reception), changes);
-      knowing_.run_to(arrived.reception.start);
-      if (knowing_.controller.knows(arrived.reception)) {
+      early_.run_to(arrived.reception.start);
+      if (early_.controller.is_known(arrived.reception)) {
         ++counts.known;
         EXPECT_FALSE(changes);
-        knowing_.controller.hear_known(arrived.reception);
-        knowing_.run_to(arrived.reception.end);
+        early_.controller.receive_known(arrived.reception);
+        early_.run_to(arrived.reception.end);
       } else {
-        knowing_.hear_plainly(arrived);
+        early_.receive_plainly(arrived);
       }
     }
-    for (Seat* const seat : {&both_, &knowing_}) {
+    for (Seat* const seat : {&both_, &early_}) {
       ASSERT_EQ(seat->controller.next_event(), plain_.controller.next_event());
       ASSERT_EQ(seat->controller.state().kind, plain_.controller.state().kind);
-      ASSERT_EQ(seat->told.entries, plain_.told.entries);
+      ASSERT_EQ(seat->reported.entries, plain_.reported.entries);
     }
   }
 
   void compare_status() {
-    for (Seat* const seat : {&both_, &knowing_}) {
-      ASSERT_EQ(seat->told.entries, plain_.told.entries);
+    for (Seat* const seat : {&both_, &early_}) {
+      ASSERT_EQ(seat->reported.entries, plain_.reported.entries);
       for (int slot = 1; slot <= 10; ++slot)
         for (const Channel channel : {Channel::kA, Channel::kB})
           ASSERT_EQ(seat->controller.slot_status(slot, channel), plain_.controller.slot_status(slot, channel)) << slot;
@@ -168,7 +168,7 @@ class Drawn {
   schedules::model::Cluster cluster_ = small_cluster(4);
   RandomStream draw_;
   std::int64_t free_from_ = 0;
-  Seat plain_{cluster_}, both_{cluster_}, knowing_{cluster_};
+  Seat plain_{cluster_}, both_{cluster_}, early_{cluster_};
 };
 
 TEST(ControllerFastWays, AreAsThePlainOne) {

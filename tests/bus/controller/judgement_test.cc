@@ -14,7 +14,7 @@ SlotStatus status_of(const Frame& frame, int slot, std::int64_t cycle = 0) {
   Alone node;
   frame.arrive(node);
   node.run_to(cycle + 1);
-  for (const auto& problem : node.heard.problems)
+  for (const auto& problem : node.reports.problems)
     if (problem.cycle == cycle && problem.slot == slot && problem.channel == frame.channel) return problem.status;
   return kValidFrame;
 }
@@ -30,7 +30,7 @@ TEST(ControllerJudges, SilenceInAnOwnedSlotPerChannel) {
   Frame::status(2, 0).arrive(node);  // channel A only
   node.run_to(1);
   std::vector<std::pair<int, Channel>> silent;
-  for (const auto& problem : node.heard.problems) {
+  for (const auto& problem : node.reports.problems) {
     EXPECT_EQ(problem.status, kNoFrame);
     silent.emplace_back(problem.slot, problem.channel);
   }
@@ -38,7 +38,7 @@ TEST(ControllerJudges, SilenceInAnOwnedSlotPerChannel) {
   EXPECT_EQ(silent, (std::vector<std::pair<int, Channel>>{
                         {2, Channel::kB}, {3, Channel::kA}, {3, Channel::kB}, {4, Channel::kA}, {4, Channel::kB}}));
   node.run_to(2);
-  const auto& last = node.heard.problems.back();
+  const auto& last = node.reports.problems.back();
   EXPECT_EQ(last.slot, 9);
   EXPECT_EQ(last.channel, Channel::kA);  // B is not expected to carry it
 }
@@ -51,9 +51,9 @@ TEST(ControllerJudges, SyntaxErrors) {
     bytes[byte] ^= std::byte{0x10};
     node.controller.receive(received(Channel::kA, {frame.start}, {frame.start + 1000}, bytes));
     node.run_to(1);
-    ASSERT_FALSE(node.heard.problems.empty());
-    EXPECT_EQ(node.heard.problems[0].slot, 2);
-    EXPECT_EQ(node.heard.problems[0].status, kSyntaxError);
+    ASSERT_FALSE(node.reports.problems.empty());
+    EXPECT_EQ(node.reports.problems[0].slot, 2);
+    EXPECT_EQ(node.reports.problems[0].status, kSyntaxError);
   }
 }
 
@@ -63,10 +63,10 @@ TEST(ControllerJudges, AFrameOfTheOtherChannelIsASyntaxError) {
   const auto bytes = frame.bytes();
   node.controller.receive(received(Channel::kB, {frame.start}, {frame.start + 1000}, bytes));
   node.run_to(1);
-  const auto swapped = std::find_if(node.heard.problems.begin(), node.heard.problems.end(), [](const auto& problem) {
-    return problem.slot == 2 && problem.channel == Channel::kB;
-  });
-  ASSERT_NE(swapped, node.heard.problems.end());
+  const auto swapped =
+      std::find_if(node.reports.problems.begin(), node.reports.problems.end(),
+                   [](const auto& problem) { return problem.slot == 2 && problem.channel == Channel::kB; });
+  ASSERT_NE(swapped, node.reports.problems.end());
   EXPECT_EQ(swapped->status, kSyntaxError);
 }
 
@@ -115,19 +115,19 @@ TEST(ControllerJudges, AnUnexpectedSyncFrameEntersClockSynchronisation) {
   node.run_to(2);
   EXPECT_EQ(node.controller.slot_status(10, Channel::kA), (SlotSeen{.valid_frame = true, .unexpected_frame = true}));
   EXPECT_EQ(node.controller.sync_status().VSAO, 2);  // with its own
-  ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 30);  // half way between its own and the other
+  ASSERT_EQ(node.reports.corrected.size(), 1u);
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 30);  // half way between its own and the other
 }
 
 // The segment's report is out when its last frame ends. The frame is reported by itself.
-TEST(ControllerJudges, AnUnexpectedFrameAtTheSegmentsEndIsTold) {
+TEST(ControllerJudges, AnUnexpectedFrameAtTheSegmentsEndIsReported) {
   Alone node;
   Frame last = Frame::status(10, 0);
   last.start = Alone::at(0, 840).value - last.length;
   node.controller.advance({last.start + last.length});
   const auto bytes = last.bytes();
   node.controller.receive(received(Channel::kA, {last.start}, {last.start + last.length}, bytes));
-  EXPECT_EQ(std::ranges::count_if(node.heard.problems,
+  EXPECT_EQ(std::ranges::count_if(node.reports.problems,
                                   [](const auto& one) { return one.slot == 10 && one.status == kUnexpectedFrame; }),
             1);
 }
@@ -155,8 +155,8 @@ TEST(ControllerJudges, ASecondCommunicationElementInASlotIsASyntaxError) {
   second.start = first.start + 1500;
   second.arrive(node);
   node.run_to(1);
-  EXPECT_EQ(node.heard.problems[0].slot, 2);
-  EXPECT_EQ(node.heard.problems[0].status, kSyntaxError);
+  EXPECT_EQ(node.reports.problems[0].slot, 2);
+  EXPECT_EQ(node.reports.problems[0].status, kSyntaxError);
 }
 
 TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
@@ -166,7 +166,7 @@ TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
   std::copy(list.bytes.begin(), list.bytes.end(), carrier.payload.begin());
   carrier.header.cycle = 1;
   carrier.arrive(node);
-  EXPECT_TRUE(node.heard.arrived.empty());
+  EXPECT_TRUE(node.reports.arrived.empty());
   for (const int slot : {1, 3, 4}) {
     Frame late = Frame::status(slot, 1);
     late.start += 100;
@@ -174,8 +174,8 @@ TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
     late.arrive(node);
   }
   node.run_to(2);
-  ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 0);  // only its own sync frame counts
+  ASSERT_EQ(node.reports.corrected.size(), 1u);
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 0);  // only its own sync frame counts
 }
 
 // Slot 5 is for fragment 0 of the list, slot 6 for fragment 1. The frame is valid, its payload not the slot's.
@@ -191,11 +191,11 @@ TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsUnexpected) {
   carry(5, 1);
   carry(6, 1);
   node.run_to(1);
-  ASSERT_EQ(node.heard.arrived.size(), 2u);
-  EXPECT_EQ(node.heard.arrived[0].effect, cni::ArrivalEffect::kMalformed);
-  EXPECT_EQ(node.heard.arrived[1].effect, cni::ArrivalEffect::kIncomplete);
+  ASSERT_EQ(node.reports.arrived.size(), 2u);
+  EXPECT_EQ(node.reports.arrived[0].effect, cni::ArrivalEffect::kMalformed);
+  EXPECT_EQ(node.reports.arrived[1].effect, cni::ArrivalEffect::kIncomplete);
   int errors = 0;
-  for (const auto& problem : node.heard.problems) {
+  for (const auto& problem : node.reports.problems) {
     if (problem.slot == 5 && problem.channel == Channel::kA) {
       EXPECT_EQ(problem.status, kUnexpectedFrame);
       ++errors;
@@ -213,8 +213,8 @@ TEST(ControllerJudges, ANullFrameIsValidAndLeavesTheListAlone) {
   frame.header.null_frame = true;
   frame.arrive(node);
   node.run_to(1);
-  EXPECT_TRUE(node.heard.arrived.empty());
-  for (const auto& problem : node.heard.problems) EXPECT_FALSE(problem.slot == 5 && problem.channel == Channel::kA);
+  EXPECT_TRUE(node.reports.arrived.empty());
+  for (const auto& problem : node.reports.problems) EXPECT_FALSE(problem.slot == 5 && problem.channel == Channel::kA);
 }
 
 }  // namespace

@@ -34,9 +34,9 @@ struct Listener : Alone {
     }
   }
   static Microticks middle(std::int64_t cycle, int slot) { return at(cycle, 84 * (slot - 1) + 42); }
-  Statuses told(std::int64_t cycle, Channel channel = Channel::kA) const {
+  Statuses reported(std::int64_t cycle, Channel channel = Channel::kA) const {
     Statuses slots;
-    for (const auto& problem : heard.problems)
+    for (const auto& problem : reports.problems)
       if (problem.cycle == cycle && problem.channel == channel) slots[problem.slot] |= problem.status;
     return slots;
   }
@@ -60,10 +60,10 @@ TEST(LongActivity, ViolatesTheBoundariesOfEverySlotItTouches) {
   node.noise(0, 3, 0, 5);
   node.frames(0, {6, 7, 8});
   node.run_to(1);
-  EXPECT_EQ(node.told(0), (Statuses{{3, kFound}, {4, kBoundaryViolation}, {5, kBoundaryViolation}}));
-  EXPECT_EQ(node.read(), node.told(0));
-  for (const auto& [slot, status] : node.told(0, Channel::kB)) EXPECT_EQ(status, kNoFrame) << slot;
-  EXPECT_EQ(node.told(0, Channel::kB).size(), 7u);
+  EXPECT_EQ(node.reported(0), (Statuses{{3, kFound}, {4, kBoundaryViolation}, {5, kBoundaryViolation}}));
+  EXPECT_EQ(node.read(), node.reported(0));
+  for (const auto& [slot, status] : node.reported(0, Channel::kB)) EXPECT_EQ(status, kNoFrame) << slot;
+  EXPECT_EQ(node.reported(0, Channel::kB).size(), 7u);
 }
 
 // Its own slot and unassigned ones are affected like any other.
@@ -72,10 +72,10 @@ TEST(LongActivity, OfWhoeverTheSlotIs) {
   node.frames(1, {1, 3, 4, 5, 6});
   node.noise(1, 7, 1, 10);
   node.run_to(2);
-  EXPECT_EQ(node.told(1), (Statuses{{7, kFound | kTransmissionConflict},
-                                    {8, kBoundaryViolation},
-                                    {9, kBoundaryViolation},
-                                    {10, kBoundaryViolation}}));
+  EXPECT_EQ(node.reported(1), (Statuses{{7, kFound | kTransmissionConflict},
+                                        {8, kBoundaryViolation},
+                                        {9, kBoundaryViolation},
+                                        {10, kBoundaryViolation}}));
 }
 
 TEST(LongActivity, AFrameBehindItInItsLastSlotIsValidAllTheSame) {
@@ -96,10 +96,10 @@ TEST(LongActivity, EndsWithTheSlotThatItEndsIn) {
   node.controller.receive(
       {Channel::kA, ports::Signal::kUndecodable, Listener::middle(0, 3), Listener::at(0, 84 * 4), {}});
   node.run_to(1);
-  const Statuses told = node.told(0);
-  EXPECT_EQ(told.at(3), kFound);
-  EXPECT_EQ(told.at(4), kBoundaryViolation);
-  EXPECT_EQ(told.at(5), kNoFrame);
+  const Statuses reported = node.reported(0);
+  EXPECT_EQ(reported.at(3), kFound);
+  EXPECT_EQ(reported.at(4), kBoundaryViolation);
+  EXPECT_EQ(reported.at(5), kNoFrame);
 }
 
 // From the cycle before: reported outside every slot, since it began there, and in all slots it reaches.
@@ -114,19 +114,19 @@ TEST(LongActivity, AcrossACycleStart) {
   node.controller.receive({Channel::kA, ports::Signal::kUndecodable, start, end, {}});
   node.frames(1, {4, 5, 6, 7, 8});
   node.run_to(2);
-  EXPECT_EQ(node.told(0), Statuses{});
+  EXPECT_EQ(node.reported(0), Statuses{});
   const Statuses slots{{1, kBoundaryViolation}, {2, kBoundaryViolation}, {3, kBoundaryViolation}};
   EXPECT_EQ(node.read(), slots);
   Statuses with_outside = slots;
   with_outside[0] = kFound | kTransmissionConflict;  // its own frame in slot 2
-  EXPECT_EQ(node.told(1), with_outside);
+  EXPECT_EQ(node.reported(1), with_outside);
 }
 
 // While it lasts, missing frames are unknown, but the channel is known not to be silent.
 TEST(LongActivity, OverWholeCycles) {
   Listener node;
   std::vector<Statuses> read;
-  node.heard.on_static_segment_ended = [&](std::int64_t) { read.push_back(node.read()); };
+  node.reports.on_static_segment_ended = [&](std::int64_t) { read.push_back(node.read()); };
   node.frames(0, {1, 3});
   node.noise(0, 5, 3, 4);
   node.frames(3, {5, 6, 7, 8});
@@ -140,15 +140,15 @@ TEST(LongActivity, OverWholeCycles) {
   const Statuses last{
       {1, kBoundaryViolation}, {2, kBoundaryViolation}, {3, kBoundaryViolation}, {4, kBoundaryViolation}};
   EXPECT_EQ(read, (std::vector<Statuses>{first, every, every, last}));
-  EXPECT_EQ(node.told(0), first);
-  EXPECT_EQ(node.told(1), every);
-  EXPECT_EQ(node.told(2), every);
-  Statuses last_told = last;
-  last_told[0] = node.told(3).at(0);
-  EXPECT_EQ(node.told(3), last_told);
-  EXPECT_EQ(last_told[0] | kFound, last_told[0]);
+  EXPECT_EQ(node.reported(0), first);
+  EXPECT_EQ(node.reported(1), every);
+  EXPECT_EQ(node.reported(2), every);
+  Statuses last_reported = last;
+  last_reported[0] = node.reported(3).at(0);
+  EXPECT_EQ(node.reported(3), last_reported);
+  EXPECT_EQ(last_reported[0] | kFound, last_reported[0]);
   for (std::int64_t cycle = 0; cycle < 4; ++cycle)
-    for (const auto& [slot, status] : node.told(cycle, Channel::kB)) EXPECT_EQ(status, kNoFrame) << slot;
+    for (const auto& [slot, status] : node.reported(cycle, Channel::kB)) EXPECT_EQ(status, kNoFrame) << slot;
 }
 
 // A slot that was silent before the activity stays silent.
@@ -157,7 +157,7 @@ TEST(LongActivity, IsNoExcuseForWhoWasSilentBefore) {
   node.frames(0, {4, 5, 6, 7, 8});
   node.noise(0, 9, 1, 1);
   node.run_to(1, 100);
-  EXPECT_EQ(node.told(0), (Statuses{{1, kNoFrame}, {3, kNoFrame}, {10, kBoundaryViolation}}));
+  EXPECT_EQ(node.reported(0), (Statuses{{1, kNoFrame}, {3, kNoFrame}, {10, kBoundaryViolation}}));
 }
 
 // Two signals with silence between them: only the second is under way when the segment ends.
@@ -167,12 +167,12 @@ TEST(LongActivity, OneThatEndedAfterTheCycleBeganDoesNotCoverTheCycle) {
   node.frames(1, {3, 4});
   node.noise(1, 8, 2, 1);
   node.run_to(2, 500);
-  const Statuses told = node.told(1);
-  EXPECT_EQ(told.at(1), kBoundaryViolation);
-  EXPECT_EQ(told.count(2), 0u);
-  EXPECT_EQ(told.count(3), 0u);
-  EXPECT_EQ(told.at(10), kBoundaryViolation);
-  EXPECT_EQ(told.count(9), 0u);
+  const Statuses reported = node.reported(1);
+  EXPECT_EQ(reported.at(1), kBoundaryViolation);
+  EXPECT_EQ(reported.count(2), 0u);
+  EXPECT_EQ(reported.count(3), 0u);
+  EXPECT_EQ(reported.at(10), kBoundaryViolation);
+  EXPECT_EQ(reported.count(9), 0u);
 }
 
 }  // namespace

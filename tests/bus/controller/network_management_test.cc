@@ -106,7 +106,7 @@ TEST(NetworkManagement, AllNodesReadTheSameOneCycleLater) {
   all_read(bytes({0x0F, 0, 0xF0}));
   rig.run_until(Rig::kStart + Duration::microseconds(7500));
   all_read(bytes({0x0B, 0x55, 0xD0}));
-  for (std::size_t n = 0; n < 4; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
+  for (std::size_t n = 0; n < 4; ++n) EXPECT_TRUE(rig.reports(n).problems.empty());
 }
 
 TEST(NetworkManagement, OneChannelIsEnoughAndListsArriveBehindIt) {

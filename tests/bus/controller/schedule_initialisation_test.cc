@@ -38,8 +38,8 @@ TEST_F(ScheduleInitialisationTest, APairGivesCycleStartAndRate) {
       for (const Channel channel : {Channel::kA, Channel::kB}) {
         ScheduleInitialisation initialisation(flexray, node);
         const std::int64_t length = 200'000 + rate;
-        EXPECT_FALSE(initialisation.hear(frame(slot, 4, channel, length)));
-        const auto schedule = initialisation.hear(frame(slot, 5, channel, length));
+        EXPECT_FALSE(initialisation.receive(frame(slot, 4, channel, length)));
+        const auto schedule = initialisation.receive(frame(slot, 5, channel, length));
         ASSERT_TRUE(schedule) << "rate " << rate << " slot " << slot;
         EXPECT_EQ(schedule->frame_id, slot);
         EXPECT_EQ(schedule->cycle, 5);
@@ -50,8 +50,8 @@ TEST_F(ScheduleInitialisationTest, APairGivesCycleStartAndRate) {
 
 TEST_F(ScheduleInitialisationTest, TheClockSetGoingExpectsTheNextFrameWhereItComes) {
   ScheduleInitialisation initialisation(flexray, node);
-  initialisation.hear(frame(3, 62, Channel::kA, 199'937));
-  const auto schedule = initialisation.hear(frame(3, 63, Channel::kA, 199'937));
+  initialisation.receive(frame(3, 62, Channel::kA, 199'937));
+  const auto schedule = initialisation.receive(frame(3, 63, Channel::kA, 199'937));
   ASSERT_TRUE(schedule);
   timebase::CycleClock clock({5000, 1'000'000, 200'000, 4900}, schedule->cycle_start, schedule->rate, schedule->cycle);
   EXPECT_EQ(clock.cycle(), 63);
@@ -62,26 +62,26 @@ TEST_F(ScheduleInitialisationTest, TheClockSetGoingExpectsTheNextFrameWhereItCom
 
 TEST_F(ScheduleInitialisationTest, OddFramesAloneGiveNothing) {
   ScheduleInitialisation initialisation(flexray, node);
-  for (const int cycle : {1, 3, 5}) EXPECT_FALSE(initialisation.hear(frame(1, cycle)));
+  for (const int cycle : {1, 3, 5}) EXPECT_FALSE(initialisation.receive(frame(1, cycle)));
 }
 
 TEST_F(ScheduleInitialisationTest, ThePartnerIsTheSameNodesFrameOfTheNextCycle) {
   ScheduleInitialisation initialisation(flexray, node);
-  initialisation.hear(frame(1, 4));
-  initialisation.hear(frame(2, 4));  // the first of the cycle counts
-  EXPECT_FALSE(initialisation.hear(frame(2, 5)));
-  EXPECT_FALSE(initialisation.hear(frame(1, 7)));  // a double cycle late
-  EXPECT_FALSE(initialisation.hear(frame(1, 5 + 4)));
-  initialisation.hear(frame(1, 10));
-  EXPECT_TRUE(initialisation.hear(frame(1, 11)));
+  initialisation.receive(frame(1, 4));
+  initialisation.receive(frame(2, 4));  // the first of the cycle counts
+  EXPECT_FALSE(initialisation.receive(frame(2, 5)));
+  EXPECT_FALSE(initialisation.receive(frame(1, 7)));  // a double cycle late
+  EXPECT_FALSE(initialisation.receive(frame(1, 5 + 4)));
+  initialisation.receive(frame(1, 10));
+  EXPECT_TRUE(initialisation.receive(frame(1, 11)));
 }
 
 TEST_F(ScheduleInitialisationTest, ANodeThatFallsSilentMakesRoomForAnother) {
   ScheduleInitialisation initialisation(flexray, node);
-  initialisation.hear(frame(1, 4));
-  EXPECT_FALSE(initialisation.hear(frame(2, 5)));
-  initialisation.hear(frame(2, 6));
-  const auto schedule = initialisation.hear(frame(2, 7));
+  initialisation.receive(frame(1, 4));
+  EXPECT_FALSE(initialisation.receive(frame(2, 5)));
+  initialisation.receive(frame(2, 6));
+  const auto schedule = initialisation.receive(frame(2, 7));
   ASSERT_TRUE(schedule);
   EXPECT_EQ(schedule->frame_id, 2);
 }
@@ -89,24 +89,24 @@ TEST_F(ScheduleInitialisationTest, ANodeThatFallsSilentMakesRoomForAnother) {
 TEST_F(ScheduleInitialisationTest, AClockTooFarOffIsRefusedAndListeningBeginsAnew) {
   ScheduleInitialisation initialisation(flexray, node);
   for (const int rate : {-602, 602}) {
-    initialisation.hear(frame(1, 4, Channel::kA, 200'000 + rate));
-    EXPECT_FALSE(initialisation.hear(frame(1, 5, Channel::kA, 200'000 + rate)));
+    initialisation.receive(frame(1, 4, Channel::kA, 200'000 + rate));
+    EXPECT_FALSE(initialisation.receive(frame(1, 5, Channel::kA, 200'000 + rate)));
   }
 }
 
 TEST_F(ScheduleInitialisationTest, TheChannelsAreListenedToIndependently) {
   ScheduleInitialisation initialisation(flexray, node);
-  initialisation.hear(frame(1, 4, Channel::kA));
-  EXPECT_FALSE(initialisation.hear(frame(1, 5, Channel::kB)));  // B has received no even frame
-  initialisation.hear(frame(5, 6, Channel::kB));
-  EXPECT_TRUE(initialisation.hear(frame(5, 7, Channel::kB)));
+  initialisation.receive(frame(1, 4, Channel::kA));
+  EXPECT_FALSE(initialisation.receive(frame(1, 5, Channel::kB)));  // B has received no even frame
+  initialisation.receive(frame(5, 6, Channel::kB));
+  EXPECT_TRUE(initialisation.receive(frame(5, 7, Channel::kB)));
 }
 
 TEST_F(ScheduleInitialisationTest, ResetForgetsTheEvenFrame) {
   ScheduleInitialisation initialisation(flexray, node);
-  initialisation.hear(frame(1, 4));
+  initialisation.receive(frame(1, 4));
   initialisation.reset();
-  EXPECT_FALSE(initialisation.hear(frame(1, 5)));
+  EXPECT_FALSE(initialisation.receive(frame(1, 5)));
 }
 
 }  // namespace

@@ -17,10 +17,10 @@ namespace {
 
 // The running cycle in which a node became normal active, or -1.
 std::int64_t active_in(Rig& rig, std::size_t node) {
-  for (const auto& change : rig.heard(node).changed)
+  for (const auto& change : rig.reports(node).changed)
     if (change.to == poc::PocKind::kNormalActive) {
       // Cycle starts are reported right after the change.
-      const auto& cycles = rig.heard(node).cycle_starts;
+      const auto& cycles = rig.reports(node).cycle_starts;
       for (const auto& [cycle, at] : cycles)
         if (at == change.at) return cycle;
     }
@@ -29,7 +29,7 @@ std::int64_t active_in(Rig& rig, std::size_t node) {
 
 std::vector<poc::PocKind> path(Rig& rig, std::size_t node) {
   std::vector<poc::PocKind> kinds;
-  for (const auto& change : rig.heard(node).changed) kinds.push_back(change.to);
+  for (const auto& change : rig.reports(node).changed) kinds.push_back(change.to);
   return kinds;
 }
 
@@ -51,7 +51,7 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
   EXPECT_LT(rig.precision(at_ms(40)), Duration{2'000});
   // The absence of the others is the only problem.
   for (std::size_t n = 0; n < 4; ++n)
-    for (const auto& problem : rig.heard(n).problems) {
+    for (const auto& problem : rig.reports(n).problems) {
       EXPECT_EQ(problem.status, kNoFrame) << "node " << n;
       EXPECT_LT(problem.cycle, 8) << "node " << n;
     }
@@ -71,8 +71,8 @@ TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
     const schedules::model::Cluster cluster = startup_cluster(1, 1);
     LatePort port;
     port.within = {within};
-    Heard heard;
-    FlexRayController controller(cluster, NodeId{1}, port, heard);
+    Reports reports;
+    FlexRayController controller(cluster, NodeId{1}, port, reports);
     controller.start_cold({0});
     for (const int cycle : {4, 5}) {
       Frame frame = Frame::status(1, cycle);
@@ -93,10 +93,10 @@ TEST(Startup, OneColdstartNodeAloneUsesUpItsAttempts) {
   rig.run_until(at_ms(500));
   EXPECT_EQ(active_in(rig, 0), -1);
   EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kIntegrationListen);
-  EXPECT_EQ(rig.heard(0).changed.back().consequence, poc::PocReason::kAttemptsExhausted);
-  const auto attempts = std::count_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
-    return change.to == poc::PocKind::kColdstartCollisionResolution;
-  });
+  EXPECT_EQ(rig.reports(0).changed.back().consequence, poc::PocReason::kAttemptsExhausted);
+  const auto attempts =
+      std::count_if(rig.reports(0).changed.begin(), rig.reports(0).changed.end(),
+                    [](const auto& change) { return change.to == poc::PocKind::kColdstartCollisionResolution; });
   EXPECT_EQ(attempts, rig.cluster().flexray.gColdStartAttempts);
 }
 
@@ -113,11 +113,11 @@ TEST(Startup, ALateNodeIntegratesIntoTheRunningCluster) {
             {at_ms(1.0), at_ms(1.1), at_ms(103.7)});
     rig.run_until(at_ms(140));
     ASSERT_EQ(rig.controller(2).state().kind, poc::PocKind::kNormalActive) << coldstart;
-    EXPECT_LT(rig.heard(2).changed.back().at, Microticks{40'000 * 120});
+    EXPECT_LT(rig.reports(2).changed.back().at, Microticks{40'000 * 120});
     // Its cycle counter is the cluster's; how often that has wrapped it cannot count.
     EXPECT_EQ(rig.controller(2).clock()->cycle() % 64, rig.controller(0).clock()->cycle() % 64);
     for (std::size_t n = 0; n < 3; ++n)
-      EXPECT_TRUE(std::all_of(rig.heard(n).problems.begin(), rig.heard(n).problems.end(),
+      EXPECT_TRUE(std::all_of(rig.reports(n).problems.begin(), rig.reports(n).problems.end(),
                               [](const auto& problem) { return problem.status == kNoFrame && problem.slot == 3; }))
           << "node " << n;
   }
@@ -146,10 +146,10 @@ TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
                         {}});
   rig.run_until(at_ms(60));
   EXPECT_EQ(rig.controller(0).state().kind, poc::PocKind::kNormalActive);
-  const auto lead = std::find_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
+  const auto lead = std::find_if(rig.reports(0).changed.begin(), rig.reports(0).changed.end(), [](const auto& change) {
     return change.to == poc::PocKind::kColdstartCollisionResolution;
   });
-  ASSERT_NE(lead, rig.heard(0).changed.end());
+  ASSERT_NE(lead, rig.reports(0).changed.end());
   EXPECT_EQ(lead->reason, poc::PocReason::kColdstartAfterNoise);
   // gListenNoise 2 times 2 ms after 1 ms; without the noise, 3 ms.
   EXPECT_NEAR(static_cast<double>(lead->at.value) * 25e-6, 5.0, 0.1);
@@ -163,14 +163,14 @@ TEST(Startup, TheLoserOfACollisionFollowsTheWinner) {
     rig.run_until(at_ms(60));
     for (std::size_t n = 0; n < 3; ++n) {
       EXPECT_EQ(rig.controller(n).state().kind, poc::PocKind::kNormalActive) << "tick " << tick << " node " << n;
-      for (const auto& change : rig.heard(n).changed)
+      for (const auto& change : rig.reports(n).changed)
         if (change.reason == poc::PocReason::kCollisionHeader || change.reason == poc::PocReason::kCollisionCas)
           ++collisions;
     }
     const auto leaders = [&] {
       int count = 0;
       for (std::size_t n = 0; n < 3; ++n)
-        for (const auto& change : rig.heard(n).changed) count += change.reason == poc::PocReason::kClusterStarted;
+        for (const auto& change : rig.reports(n).changed) count += change.reason == poc::PocReason::kClusterStarted;
       return count;
     }();
     EXPECT_EQ(leaders, 1) << "tick " << tick;
@@ -193,7 +193,7 @@ TEST(Startup, RandomPowerOnDelaysWithinTheAttempts) {
     for (std::size_t n = 0; n < drifts.size(); ++n)
       ASSERT_EQ(rig.controller(n).state().kind, poc::PocKind::kNormalActive)
           << "seed " << seed << " node " << n << ": " << to_text(rig.controller(n).state().kind) << ", "
-          << to_text(rig.heard(n).changed.back().reason);
+          << to_text(rig.reports(n).changed.back().reason);
     ASSERT_LT(rig.precision(at_ms(100)), Duration{6'850}) << "seed " << seed;  // the assumed precision of the layout
   }
 }

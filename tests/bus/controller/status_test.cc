@@ -29,23 +29,23 @@ TEST(SlotSeen, AValidFrameIsSeenOnItsChannelOnly) {
 // The exact instants of publication, and of replacement.
 TEST(SlotSeen, StandsFromTheEndOfOneStaticSegmentToTheEndOfTheNext) {
   Alone node;
-  std::vector<std::pair<std::int64_t, bool>> told;
-  node.heard.on_static_segment_ended = [&](std::int64_t cycle) {
-    told.emplace_back(cycle, node.controller.slot_status(2, Channel::kA).valid_frame);
+  std::vector<std::pair<std::int64_t, bool>> reported;
+  node.reports.on_static_segment_ended = [&](std::int64_t cycle) {
+    reported.emplace_back(cycle, node.controller.slot_status(2, Channel::kA).valid_frame);
   };
   Frame::status(2, 0).arrive(node);
   EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kNothing);  // not yet
   node.controller.advance(Alone::at(0, 840) - Microticks{1});
-  EXPECT_TRUE(told.empty());
+  EXPECT_TRUE(reported.empty());
   node.run_to(0, 840);
-  EXPECT_EQ(told.size(), 1u);
+  EXPECT_EQ(reported.size(), 1u);
   node.controller.advance(Alone::at(1, 840) - Microticks{1});
   EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kValid);
   node.run_to(1, 840);
   EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kNothing);
   Frame::status(2, 2).arrive(node);
   node.run_to(3);
-  EXPECT_EQ(told, (std::vector<std::pair<std::int64_t, bool>>{{0, true}, {1, false}, {2, true}}));
+  EXPECT_EQ(reported, (std::vector<std::pair<std::int64_t, bool>>{{0, true}, {1, false}, {2, true}}));
 }
 
 TEST(SlotSeen, EveryKindOfError) {
@@ -90,7 +90,7 @@ TEST(SlotSeen, AFrameThatOutlastsTheSegmentIsAddedWhenItIsOver) {
   Frame late = Frame::status(10, 0);
   late.start = Alone::at(0, 840).value - 500;
   bool at_the_end = true;
-  node.heard.on_static_segment_ended = [&](std::int64_t cycle) {
+  node.reports.on_static_segment_ended = [&](std::int64_t cycle) {
     if (cycle == 0) at_the_end = node.controller.slot_status(10, Channel::kA).boundary_violation;
   };
   late.arrive(node);
@@ -101,12 +101,12 @@ TEST(SlotSeen, AFrameThatOutlastsTheSegmentIsAddedWhenItIsOver) {
 }
 
 // Four nodes from power-on: segments are reported from the leading node's first cycle on, without a gap.
-TEST(SlotSeen, IsToldInEveryCycleAlsoDuringStartup) {
+TEST(SlotSeen, IsReportedInEveryCycleAlsoDuringStartup) {
   Rig rig(startup_cluster(4), {0, 0, 0, 0}, {}, std::vector<TrueTime>(4, Rig::kStart));
   rig.run_cycles(60);
   for (std::size_t n = 0; n < 4; ++n) {
     ASSERT_EQ(rig.controller(n).state().kind, poc::PocKind::kNormalActive) << n;
-    const auto& cycles = rig.heard(n).static_segments;
+    const auto& cycles = rig.reports(n).static_segments;
     ASSERT_GT(cycles.size(), 20u);
     const auto last_start = std::find(cycles.rbegin(), cycles.rend(), cycles.front()).base() - 1;
     for (auto at = last_start + 1; at != cycles.end(); ++at) EXPECT_EQ(*at, *(at - 1) + 1);
@@ -143,8 +143,8 @@ TEST(SyncStatus, CountsBeyondWhatIsUsedUpTo15) {
   SyncCollector collector(2);
   collector.start_cycle(0);
   for (int frame = 1; frame <= 20; ++frame) {
-    collector.heard(frame, schedules::model::Channels::kA, {}, false);
-    if (frame <= 3) collector.heard(frame, schedules::model::Channels::kB, {}, false);
+    collector.received(frame, schedules::model::Channels::kA, {}, false);
+    if (frame <= 3) collector.received(frame, schedules::model::Channels::kB, {}, false);
     EXPECT_EQ(collector.valid(Channel::kA), std::min(frame, 15));
   }
   EXPECT_EQ(collector.valid(Channel::kB), 3);

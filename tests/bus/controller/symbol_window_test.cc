@@ -30,7 +30,7 @@ struct Single : Alone {
     return found;
   }
   // `from`: microticks into cycle 0's window (negative: before it).
-  void hear(ports::Signal signal, std::int64_t from, std::int64_t length = kSymbol, Channel channel = Channel::kA) {
+  void receive(ports::Signal signal, std::int64_t from, std::int64_t length = kSymbol, Channel channel = Channel::kA) {
     const Microticks start = at(0, kWindow) + Microticks{from};
     controller.advance(start + Microticks{length - 1});
     controller.receive({channel, signal, start, start + Microticks{length}, {}});
@@ -139,7 +139,7 @@ TEST(MediaTestSymbol, ARequestDoesNotOutliveTheSchedule) {
   EXPECT_TRUE(node.symbols().empty());
 }
 
-TEST(SymbolWindow, AMediaTestSymbolIsValidWhereItIsHeard) {
+TEST(SymbolWindow, AMediaTestSymbolIsValidWhereItIsReceived) {
   Rig rig(windowed(small_cluster(3)), {300'000, -300'000, 0}, Duration{500});
   rig.run_cycles(20);
   EXPECT_TRUE(rig.controller(0).send_media_test_symbol(Channels::kB));
@@ -148,7 +148,7 @@ TEST(SymbolWindow, AMediaTestSymbolIsValidWhereItIsHeard) {
   for (const std::size_t node : {1u, 2u}) {
     EXPECT_EQ(rig.controller(node).symbol_window_status(Channel::kB), valid);
     EXPECT_EQ(rig.controller(node).symbol_window_status(Channel::kA), SymbolWindowSeen{});
-    EXPECT_TRUE(rig.heard(node).problems.empty());
+    EXPECT_TRUE(rig.reports(node).problems.empty());
   }
   EXPECT_EQ(rig.controller(0).symbol_window_status(Channel::kB), SymbolWindowSeen{});
   rig.run_cycles(22);
@@ -172,25 +172,25 @@ TEST(SymbolWindow, AnythingButASymbolIsASyntaxError) {
   const SymbolWindowSeen error{.syntax_error = true};
   for (const ports::Signal signal : {ports::Signal::kUndecodable, ports::Signal::kWakeup, ports::Signal::kFrame}) {
     Single node;
-    node.hear(signal, 300);
+    node.receive(signal, 300);
     EXPECT_EQ(node.seen(), error) << static_cast<int>(signal);
     EXPECT_EQ(node.seen(Channel::kB), SymbolWindowSeen{});
   }
   Single twice;
-  twice.hear(ports::Signal::kCas, 100);
-  twice.hear(ports::Signal::kCas, 400);
+  twice.receive(ports::Signal::kCas, 100);
+  twice.receive(ports::Signal::kCas, 400);
   EXPECT_EQ(twice.seen(), (SymbolWindowSeen{.valid_mts = true, .syntax_error = true}));
   Single spoilt;
-  spoilt.hear(ports::Signal::kUndecodable, 100, 20);
-  spoilt.hear(ports::Signal::kCas, 400);
+  spoilt.receive(ports::Signal::kUndecodable, 100, 20);
+  spoilt.receive(ports::Signal::kCas, 400);
   EXPECT_EQ(spoilt.seen(), error);
 }
 
 // gdCASRxLowMax is 91 bits of four microticks.
 TEST(SymbolWindow, ALowPhaseThatIsTooLongIsNoSymbol) {
   Single longest, longer;
-  longest.hear(ports::Signal::kCas, 100, 91 * 4);
-  longer.hear(ports::Signal::kCas, 100, 91 * 4 + 1);
+  longest.receive(ports::Signal::kCas, 100, 91 * 4);
+  longer.receive(ports::Signal::kCas, 100, 91 * 4 + 1);
   EXPECT_EQ(longest.seen(), SymbolWindowSeen{.valid_mts = true});
   EXPECT_EQ(longer.seen(), SymbolWindowSeen{.syntax_error = true});
 }
@@ -198,24 +198,24 @@ TEST(SymbolWindow, ALowPhaseThatIsTooLongIsNoSymbol) {
 TEST(SymbolWindow, BothEndsAreBoundaries) {
   constexpr std::int64_t kLength = (kWindowEnd - kWindow) * 40;
   const SymbolWindowSeen valid{.valid_mts = true}, violation{.boundary_violation = true};
-  const auto heard = [](std::int64_t from, ports::Signal signal = ports::Signal::kCas) {
+  const auto reports = [](std::int64_t from, ports::Signal signal = ports::Signal::kCas) {
     Single node;
-    node.hear(signal, from);
+    node.receive(signal, from);
     return node.seen();
   };
-  EXPECT_EQ(heard(0), valid);
-  EXPECT_EQ(heard(-1), violation);
-  EXPECT_EQ(heard(-kSymbol), SymbolWindowSeen{});  // all before it
-  EXPECT_EQ(heard(kLength - kSymbol), valid);
-  EXPECT_EQ(heard(kLength - kSymbol + 1), violation);
-  EXPECT_EQ(heard(kLength), SymbolWindowSeen{});  // all behind it
-  EXPECT_EQ(heard(kLength - 1, ports::Signal::kUndecodable),
+  EXPECT_EQ(reports(0), valid);
+  EXPECT_EQ(reports(-1), violation);
+  EXPECT_EQ(reports(-kSymbol), SymbolWindowSeen{});  // all before it
+  EXPECT_EQ(reports(kLength - kSymbol), valid);
+  EXPECT_EQ(reports(kLength - kSymbol + 1), violation);
+  EXPECT_EQ(reports(kLength), SymbolWindowSeen{});  // all behind it
+  EXPECT_EQ(reports(kLength - 1, ports::Signal::kUndecodable),
             (SymbolWindowSeen{.syntax_error = true, .boundary_violation = true}));
 }
 
 TEST(SymbolWindow, StandsFromTheEndOfOneWindowToTheEndOfTheNext) {
   Single node;
-  node.hear(ports::Signal::kCas, 280);
+  node.receive(ports::Signal::kCas, 280);
   node.controller.advance(Alone::at(0, kWindowEnd) - Microticks{1});
   EXPECT_EQ(node.controller.symbol_window_status(Channel::kA), SymbolWindowSeen{});
   node.run_to(0, kWindowEnd);
@@ -231,19 +231,19 @@ TEST(SymbolWindow, StandsFromTheEndOfOneWindowToTheEndOfTheNext) {
 TEST(SymbolWindow, SaysNothingDuringStartup) {
   Rig rig(windowed(startup_cluster(3, 1)), {0, 0, 0, 0}, {}, {at_ms(1.0), at_ms(1.2), at_ms(1.4), at_ms(40.0)});
   bool silent = true;
-  int heard_by_others = 0;
+  int received_by_others = 0;
   for (int cycle = 25; cycle < 80; ++cycle) {
     if (rig.controller(0).state().kind == poc::PocKind::kNormalActive) rig.controller(0).send_media_test_symbol();
     rig.run_until(at_ms(cycle));
     if (rig.controller(3).state().kind != poc::PocKind::kNormalActive)
       silent &= rig.controller(3).symbol_window_status(Channel::kA) == SymbolWindowSeen{};
-    heard_by_others += rig.controller(1).symbol_window_status(Channel::kA).valid_mts;
+    received_by_others += rig.controller(1).symbol_window_status(Channel::kA).valid_mts;
   }
   EXPECT_TRUE(silent);
-  EXPECT_GT(heard_by_others, 50);
+  EXPECT_GT(received_by_others, 50);
   EXPECT_EQ(rig.controller(3).state().kind, poc::PocKind::kNormalActive);
   EXPECT_TRUE(rig.controller(3).symbol_window_status(Channel::kA).valid_mts);
-  for (const auto& problem : rig.heard(1).problems) EXPECT_EQ(problem.slot, 4);  // the fourth's, before its start
+  for (const auto& problem : rig.reports(1).problems) EXPECT_EQ(problem.slot, 4);  // the fourth's, before its start
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ using schedules::model::Channel;
 struct SyncListener {
   schedules::model::Cluster cluster = small_cluster(4);
   NoPort port;
-  Heard heard;
+  Reports reports;
   FlexRayController controller;
 
   explicit SyncListener(schedules::model::Cluster made = small_cluster(4))
-      : cluster(std::move(made)), controller(cluster, NodeId{3}, port, heard) {
+      : cluster(std::move(made)), controller(cluster, NodeId{3}, port, reports) {
     controller.start_integrated({{0}, 0});
   }
 
@@ -55,9 +55,9 @@ TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
   const Microticks start = node.controller.clock()->cycle_start();
   const Microticks correction_phase = node.controller.clock()->start_of({900});
   node.end_static_segment();
-  ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].cycle, 1);
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 15);
+  ASSERT_EQ(node.reports.corrected.size(), 1u);
+  EXPECT_EQ(node.reports.corrected[0].cycle, 1);
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 15);
   // Applied at the odd cycle's end: before the correction phase the clock is unchanged.
   EXPECT_EQ(node.controller.clock()->start_of({900}), correction_phase);
   EXPECT_EQ(node.controller.clock()->cycle_end(), start + Microticks{kMicroPerCycle + 15});
@@ -69,18 +69,18 @@ TEST(Deviations, TheSmallerChannelCounts) {
   node.sync_frame(1, 30, Channel::kA);
   node.sync_frame(1, 22, Channel::kB);
   node.end_static_segment();
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 11);  // (0 + 22) / 2
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 11);  // (0 + 22) / 2
 }
 
 TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
   SyncListener node;
   node.both(1, 50);
   node.end_static_segment();
-  EXPECT_TRUE(node.heard.corrected.empty());
+  EXPECT_TRUE(node.reports.corrected.empty());
   EXPECT_EQ(node.controller.clock()->offset_correction(), 0);
   node.next_cycle();  // an odd cycle without arrivals: only its own frame
   node.end_static_segment();
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 0);
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 0);
 }
 
 TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
@@ -92,7 +92,7 @@ TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
   node.sync_frame(1, 30, Channel::kA);  // 20
   node.sync_frame(2, 30, Channel::kB);  // 26
   node.end_static_segment();
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 20);  // the middle of 0, 20, 26
+  EXPECT_EQ(node.reports.corrected[0].offset.value, 20);  // the middle of 0, 20, 26
 }
 
 TEST(Deviations, FramesWithoutSyncIndicatorAreNotMeasured) {
@@ -104,7 +104,7 @@ TEST(Deviations, FramesWithoutSyncIndicatorAreNotMeasured) {
     return true;
   };
   rig.run_cycles(10);
-  for (const auto& corrected : rig.heard(1).corrected) EXPECT_LE(std::abs(corrected.offset.value), 1);
+  for (const auto& corrected : rig.reports(1).corrected) EXPECT_LE(std::abs(corrected.offset.value), 1);
 }
 
 TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
@@ -117,8 +117,8 @@ TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
   node.both(2, 45);
   node.both(3, 45);
   node.end_static_segment();
-  ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].rate.value, 38);         // 40, damped by 2
+  ASSERT_EQ(node.reports.corrected.size(), 1u);
+  EXPECT_EQ(node.reports.corrected[0].rate.value, 38);       // 40, damped by 2
   EXPECT_EQ(node.controller.clock()->rate_correction(), 0);  // not yet in force
   node.next_cycle();
   EXPECT_EQ(node.controller.clock()->cycle(), 2);
@@ -136,7 +136,7 @@ TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
   for (int cycle = 0; cycle < 3; ++cycle) node.next_cycle();
   node.both(1, 45);  // odd cycle 3; even cycle 2 had no arrivals
   node.end_static_segment();
-  EXPECT_EQ(node.heard.corrected.back().rate.value, 0);
+  EXPECT_EQ(node.reports.corrected.back().rate.value, 0);
 }
 
 struct Drifts {
@@ -157,9 +157,9 @@ TEST_P(Convergence, FromUncorrectedRatesToTheAssumedPrecision) {
   EXPECT_LT(worst, kAssumedPrecision);
   EXPECT_GT(worst, Duration{});
   for (std::size_t n = 0; n < drifts.size(); ++n) {
-    EXPECT_TRUE(rig.heard(n).problems.empty()) << n;
-    EXPECT_FALSE(rig.heard(n).corrected.back().offset.missing);
-    EXPECT_FALSE(rig.heard(n).corrected.back().rate.limit_reached);
+    EXPECT_TRUE(rig.reports(n).problems.empty()) << n;
+    EXPECT_FALSE(rig.reports(n).corrected.back().offset.missing);
+    EXPECT_FALSE(rig.reports(n).corrected.back().rate.limit_reached);
   }
 }
 
@@ -215,7 +215,7 @@ TEST(Convergence, OneTwoFacedClockOfFourDoesNotTearTheOthersApart) {
     worst = std::max(worst, high - low);
   }
   EXPECT_LT(worst, kAssumedPrecision);
-  for (const std::size_t node : {0u, 1u, 2u}) EXPECT_TRUE(rig.heard(node).problems.empty());
+  for (const std::size_t node : {0u, 1u, 2u}) EXPECT_TRUE(rig.reports(node).problems.empty());
 }
 
 // Two clocks 3000 ppm apart: 3 us more per millisecond, for as long as one looks.
@@ -229,13 +229,13 @@ TEST(WithoutSynchronisation, TheDifferenceGrowsAsDriftTimesTime) {
     EXPECT_NEAR(static_cast<double>(rig.precision(at).ns), 3000.0 * static_cast<double>(ms), 60.0) << ms;
   }
   // It is still measured and reported, while frames fall into their slots.
-  ASSERT_FALSE(rig.heard(0).corrected.empty());
-  EXPECT_GT(rig.heard(0).corrected[0].offset.value, 0);
-  EXPECT_LT(rig.heard(1).corrected[0].offset.value, 0);
-  EXPECT_GT(rig.heard(0).corrected[0].rate.value, 0);
+  ASSERT_FALSE(rig.reports(0).corrected.empty());
+  EXPECT_GT(rig.reports(0).corrected[0].offset.value, 0);
+  EXPECT_LT(rig.reports(1).corrected[0].offset.value, 0);
+  EXPECT_GT(rig.reports(0).corrected[0].rate.value, 0);
   EXPECT_EQ(rig.controller(0).clock()->rate_correction(), 0);
   // And in the end they miss each other's slots.
-  EXPECT_FALSE(rig.heard(0).problems.empty());
+  EXPECT_FALSE(rig.reports(0).problems.empty());
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace {
 struct Waking {
   schedules::model::Cluster cluster;
   NoPort port;
-  Heard heard;
-  FlexRayController controller{cluster, NodeId{0}, port, heard};
+  Reports reports;
+  FlexRayController controller{cluster, NodeId{0}, port, reports};
 
   explicit Waking(schedules::model::Cluster made = patient_cluster()) : cluster(std::move(made)) {
     for (const auto command :
@@ -32,11 +32,11 @@ struct Waking {
   Microticks timeout() const { return {cluster.nodes[0].flexray->pdListenTimeout}; }
   poc::PocKind kind() const { return controller.state().kind; }
   poc::WakeupStatus status() const { return controller.state().wakeup_status; }
-  void hear_noise(Microticks start, Microticks end) {
+  void receive_noise(Microticks start, Microticks end) {
     controller.advance(end - Microticks{1});
     controller.receive({Channel::kA, ports::Signal::kUndecodable, start, end, {}});
   }
-  void hear_pattern() {
+  void receive_pattern() {
     controller.advance({10'000});
     controller.receive({Channel::kA, ports::Signal::kWakeup, {10'000 - 1'920}, {10'000}, {}});
   }
@@ -45,7 +45,7 @@ struct Waking {
     controller.advance(timeout());
     EXPECT_EQ(kind(), poc::PocKind::kWakeupSend);
     const Microticks end = timeout() + Microticks{500};
-    hear_noise(timeout() + Microticks{100}, end);
+    receive_noise(timeout() + Microticks{100}, end);
     EXPECT_EQ(kind(), poc::PocKind::kWakeupDetect);
     return end;
   }
@@ -71,7 +71,7 @@ TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
   EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);
   node.port.busy[0] = false;
   const Microticks end = node.timeout() + Microticks{300};
-  node.hear_noise(node.timeout() - Microticks{100}, end);
+  node.receive_noise(node.timeout() - Microticks{100}, end);
   node.controller.advance(end + node.timeout());
   EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);  // since channel idle was recognised: some bits later
   node.controller.advance(end + node.timeout() + Microticks{11 * 4});
@@ -80,7 +80,7 @@ TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
 
 TEST(Wakeup, AnotherNodesPatternEndsTheWakeUp) {
   Waking node;
-  node.hear_pattern();
+  node.receive_pattern();
   EXPECT_EQ(node.kind(), poc::PocKind::kReady);
   EXPECT_EQ(node.status(), poc::WakeupStatus::kReceivedPattern);
 }
@@ -90,7 +90,7 @@ TEST(Wakeup, APatternThatTheReceiverDoesNotRecogniseIsNone) {
   schedules::model::Cluster cluster = Waking::patient_cluster();
   cluster.flexray.gdWakeupSymbolTxIdle = 45;
   Waking node(cluster);
-  node.hear_pattern();
+  node.receive_pattern();
   EXPECT_EQ(node.kind(), poc::PocKind::kWakeupListen);
 }
 
@@ -100,8 +100,8 @@ TEST(CollisionAvoidanceSymbol, IsNoneIfItIsTooLong) {
   for (const std::int64_t length : {39 * 4, 91 * 4, 91 * 4 + 1, 2'000}) {
     const schedules::model::Cluster cluster = startup_cluster(2);
     NoPort port;
-    Heard heard;
-    FlexRayController controller(cluster, NodeId{0}, port, heard);
+    Reports reports;
+    FlexRayController controller(cluster, NodeId{0}, port, reports);
     controller.start_cold({});
     const Microticks sent{cluster.nodes[0].flexray->pdListenTimeout};
     controller.advance(sent);
@@ -145,7 +145,7 @@ TEST(Wakeup, NoiseUponNoiseDoesNotEither) {
     node.port.busy[0] = true;
     node.controller.advance(at + Microticks{2'319});
     node.port.busy[0] = false;
-    node.hear_noise(at, at + Microticks{2'320});
+    node.receive_noise(at, at + Microticks{2'320});
   }
   EXPECT_EQ(node.kind(), poc::PocKind::kReady);
   EXPECT_EQ(node.status(), poc::WakeupStatus::kCollisionUnknown);

@@ -27,16 +27,16 @@ class Node {
   void begin(int now) {
     if (now < power_on_) return;
     if (now == power_on_) {
-      tell({Event::kConfig}, now);
-      tell({Event::kConfigComplete}, now);
-      tell({Event::kAllowColdstart}, now);
-      tell({Event::kRun}, now);
+      apply({Event::kConfig}, now);
+      apply({Event::kConfigComplete}, now);
+      apply({Event::kAllowColdstart}, now);
+      apply({Event::kRun}, now);
     }
     if (has_clock_ && ++slot_ > cycle_slots_) start_cycle(now);
-    if (listen_until_ == now) tell({Event::kListenTimeout}, now);
-    if (noise_until_ == now) tell({Event::kNoiseTimeout}, now);
+    if (listen_until_ == now) apply({Event::kListenTimeout}, now);
+    if (noise_until_ == now) apply({Event::kNoiseTimeout}, now);
     if (poc_.state.kind == Kind::kInitialiseSchedule && now > derived_at_ + cycle_slots_)
-      tell({Event::kScheduleNotDerived}, now);
+      apply({Event::kScheduleNotDerived}, now);
   }
 
   bool sends_cas(int now) const { return cas_at_ == now; }
@@ -46,24 +46,24 @@ class Node {
   }
 
   // The end of the slot, for nodes that did not send in it.
-  void hear_cas(int now) {
+  void receive_cas(int now) {
     if (now < power_on_) return;
-    tell({Event::kChannelActive}, now);
-    tell({Event::kCasReceived}, now);
-    tell({Event::kChannelsIdle}, now);
+    apply({Event::kChannelActive}, now);
+    apply({Event::kCasReceived}, now);
+    apply({Event::kChannelsIdle}, now);
   }
-  void hear_noise(int now) {
+  void receive_noise(int now) {
     if (now < power_on_) return;
-    tell({Event::kChannelActive}, now);
-    tell({Event::kChannelsIdle}, now);
+    apply({Event::kChannelActive}, now);
+    apply({Event::kChannelsIdle}, now);
   }
-  void hear(const Frame& frame, int now) {
+  void receive(const Frame& frame, int now) {
     if (now < power_on_) return;
-    tell({Event::kChannelActive}, now);
-    tell({Event::kHeaderReceived}, now);
+    apply({Event::kChannelActive}, now);
+    apply({Event::kHeaderReceived}, now);
     if (frame.startup) {
       const Kind before = poc_.state.kind;
-      tell(PocEvent::startup_frame(frame.id, frame.cycle), now);
+      apply(PocEvent::startup_frame(frame.id, frame.cycle), now);
       if (before == Kind::kInitialiseSchedule && poc_.state.kind != before) {
         has_clock_ = true;
         slot_ = frame.id;
@@ -73,7 +73,7 @@ class Node {
       if (has_clock_ && slot_ == frame.id && cycle_ % 64 == frame.cycle)
         seen_[static_cast<std::size_t>(frame.cycle % 2)].insert(frame.id);
     }
-    tell({Event::kChannelsIdle}, now);
+    apply({Event::kChannelsIdle}, now);
   }
 
   Kind kind() const { return poc_.state.kind; }
@@ -94,17 +94,17 @@ class Node {
     ended.reference_frame = last.contains(reference);
     ended.reference_pair = even.contains(reference) && odd.contains(reference);
     const bool own = poc_.parameters.pKeySlotUsedForStartup && mac_mode(poc_.state) != MacMode::kNothing;
-    if (cycle_ >= 0 && cycle_ % 2 != 0) tell(PocEvent::clock_corrected(!own && ended.pairs == 0, false), now);
+    if (cycle_ >= 0 && cycle_ % 2 != 0) apply(PocEvent::clock_corrected(!own && ended.pairs == 0, false), now);
     ++cycle_;
     slot_ = 1;
     seen_[static_cast<std::size_t>(cycle_ % 2)].clear();
     if (cycle_ % 2 == 0) seen_[1].clear();
-    tell(PocEvent::cycle_started(cycle_ % 64, ended), now);
+    apply(PocEvent::cycle_started(cycle_ % 64, ended), now);
   }
 
-  void tell(const PocEvent& event, int now) {
+  void apply(const PocEvent& event, int now) {
     const Kind before = poc_.state.kind;
-    poc_.tell(event);
+    poc_.apply(event);
     const PocActions actions = poc_.last.actions;
     if (actions.has(PocAction::kStopTimers)) listen_until_ = noise_until_ = -1;
     if (actions.has(PocAction::kDropSchedule)) has_clock_ = false;
@@ -163,11 +163,11 @@ class Bus {
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (sent[i] || frames + symbols == 0) continue;
         if (frames == 0)
-          nodes[i].hear_cas(now);  // symbols over symbols are still one
+          nodes[i].receive_cas(now);  // symbols over symbols are still one
         else if (frames + symbols == 1)
-          nodes[i].hear(frame, now);
+          nodes[i].receive(frame, now);
         else
-          nodes[i].hear_noise(now);
+          nodes[i].receive_noise(now);
       }
     }
   }

@@ -17,10 +17,10 @@ TEST(PocClock, PassiveAtItsThresholdAndNotBefore) {
   node.double_cycles(1, true);
   EXPECT_EQ(node.state.kind, Kind::kNormalActive);
   EXPECT_EQ(node.state.vClockCorrectionFailed, 1);
-  node.tell(PocEvent::clock_corrected(true, false));
+  node.apply(PocEvent::clock_corrected(true, false));
   EXPECT_EQ(node.state.vClockCorrectionFailed, 2);
   EXPECT_EQ(node.state.kind, Kind::kNormalActive);  // until the cycle has ended
-  node.tell(PocEvent::cycle_started(10, kTwoNodes));
+  node.apply(PocEvent::cycle_started(10, kTwoNodes));
   EXPECT_EQ(node.state.kind, Kind::kNormalPassive);
   EXPECT_EQ(node.last.reason, PocReason::kPassiveByMissingTerms);
   EXPECT_EQ(mac_mode(node.state), MacMode::kNothing);
@@ -118,52 +118,52 @@ TEST(PocClock, NeverBackToActiveWithZero) {
 
 TEST(PocHost, HaltAndReadyWaitForTheEndOfTheCycle) {
   PocScript node = active();
-  node.tell(Event::kHalt);
+  node.apply(Event::kHalt);
   EXPECT_EQ(node.last.reason, PocReason::kHaltRequested);
   EXPECT_EQ(mac_mode(node.state), MacMode::kAll);
   node.cycle(kTwoNodes);
   EXPECT_EQ(node.state.kind, Kind::kHalt);
   EXPECT_TRUE(node.last.actions.has(PocAction::kDropSchedule));
-  node.tell(Event::kRun);
+  node.apply(Event::kRun);
   EXPECT_EQ(node.last.reason, PocReason::kCommandNotAccepted);
-  node.tell(Event::kConfig);
+  node.apply(Event::kConfig);
   EXPECT_EQ(node.state, poc_power_on(node.parameters));
 
   node = active();
-  node.tell(Event::kReady).cycle(kTwoNodes);
+  node.apply(Event::kReady).cycle(kTwoNodes);
   EXPECT_EQ(node.state.kind, Kind::kReady);
   EXPECT_FALSE(node.state.ready_requested);
   EXPECT_TRUE(node.state.vColdstartInhibit);
-  node.tell(Event::kRun);
+  node.apply(Event::kRun);
   EXPECT_EQ(node.state.kind, Kind::kIntegrationListen);
 }
 
 TEST(PocHost, FreezeActsAtOnceAndRemembersWhere) {
   PocScript node = active();
-  node.tell(Event::kFreeze);
+  node.apply(Event::kFreeze);
   EXPECT_EQ(node.state.kind, Kind::kHalt);
   EXPECT_TRUE(node.state.frozen);
   EXPECT_EQ(node.state.halted_from, Kind::kNormalActive);
   node = active();
-  node.tell(Event::kHalt).cycle(kTwoNodes).tell(Event::kFreeze);
+  node.apply(Event::kHalt).cycle(kTwoNodes).apply(Event::kFreeze);
   EXPECT_TRUE(node.state.frozen);
   EXPECT_EQ(node.state.halted_from, Kind::kHalt);
   // Frozen once is frozen: where from is kept.
   node = active();
-  node.tell(Event::kFreeze).tell(Event::kFreeze);
+  node.apply(Event::kFreeze).apply(Event::kFreeze);
   EXPECT_EQ(node.last.reason, PocReason::kAlreadyFrozen);
   EXPECT_EQ(node.state.halted_from, Kind::kNormalActive);
 }
 
 TEST(PocHost, ConfigurationAndRunBeginAnew) {
   PocScript node(coldstart_node());
-  node.to_listen().tell(Event::kNoiseTimeout).tell(Event::kReady);
+  node.to_listen().apply(Event::kNoiseTimeout).apply(Event::kReady);
   EXPECT_EQ(node.state.vRemainingColdstartAttempts, 3);
   EXPECT_TRUE(node.state.coldstart_noise);
   PocScript configured = node;
-  configured.tell(Event::kConfig);
+  configured.apply(Event::kConfig);
   EXPECT_EQ(configured.state.vRemainingColdstartAttempts, 4);
-  node.tell(Event::kRun);
+  node.apply(Event::kRun);
   EXPECT_EQ(node.state.vRemainingColdstartAttempts, 4);
   EXPECT_FALSE(node.state.coldstart_noise);
 }
@@ -173,25 +173,25 @@ TEST(PocHost, KeySlotOnlyUntilAllSlotsAndTheNextCycle) {
   parameters.pKeySlotOnlyEnabled = true;
   PocScript node = active(parameters);
   EXPECT_EQ(mac_mode(node.state), MacMode::kKeySlot);
-  node.tell(Event::kAllSlots);
+  node.apply(Event::kAllSlots);
   EXPECT_EQ(node.state.slot_mode, SlotMode::kAllPending);
   EXPECT_EQ(mac_mode(node.state), MacMode::kKeySlot);
   node.cycle(kTwoNodes);
   EXPECT_EQ(mac_mode(node.state), MacMode::kAll);
-  node.tell(Event::kAllSlots);
+  node.apply(Event::kAllSlots);
   EXPECT_EQ(node.last.reason, PocReason::kCommandNotAccepted);
-  node.tell(Event::kReady).cycle(kTwoNodes);
+  node.apply(Event::kReady).cycle(kTwoNodes);
   EXPECT_EQ(node.state.slot_mode, SlotMode::kKeySlotOnly);
   // A request while passive takes effect when active again.
   node = PocScript(parameters);
-  node.to_passive().tell(Event::kAllSlots).double_cycles(3, false);
+  node.to_passive().apply(Event::kAllSlots).double_cycles(3, false);
   EXPECT_EQ(node.state.kind, Kind::kNormalActive);
   EXPECT_EQ(mac_mode(node.state), MacMode::kAll);
 }
 
 TEST(PocHost, PowerOnForgetsEverything) {
   PocScript node(coldstart_node());
-  node.to_passive().tell(Event::kHalt).tell(Event::kPowerOn);
+  node.to_passive().apply(Event::kHalt).apply(Event::kPowerOn);
   EXPECT_EQ(node.state, poc_power_on(node.parameters));
   EXPECT_TRUE(node.last.actions.has(PocAction::kDropSchedule));
 }

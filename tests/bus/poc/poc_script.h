@@ -40,38 +40,38 @@ class PocScript {
  public:
   explicit PocScript(const PocParameters& p) : parameters(p), state(poc_power_on(p)) {}
 
-  PocScript& tell(const PocEvent& event) {
+  PocScript& apply(const PocEvent& event) {
     last = poc_step(parameters, state, event);
     state = last.next;
     return *this;
   }
-  PocScript& tell(Event kind) { return tell(PocEvent{kind}); }
+  PocScript& apply(Event kind) { return apply(PocEvent{kind}); }
 
   // The next cycle begins; `ended` lists the startup frames of the cycle before.
   PocScript& cycle(const StartupFramesSeen& ended = kNobody) {
     if (last_cycle % 2 != 0 && last_cycle >= 0) correct_clock();
     ++last_cycle;
-    return tell(PocEvent::cycle_started(last_cycle, ended));
+    return apply(PocEvent::cycle_started(last_cycle, ended));
   }
   PocScript& cycles(int count, const StartupFramesSeen& ended) {
     for (int i = 0; i < count; ++i) cycle(ended);
     return *this;
   }
 
-  PocScript& to_ready() { return tell(Event::kConfig).tell(Event::kConfigComplete); }
-  PocScript& to_listen() { return to_ready().tell(Event::kAllowColdstart).tell(Event::kRun); }
+  PocScript& to_ready() { return apply(Event::kConfig).apply(Event::kConfigComplete); }
+  PocScript& to_listen() { return to_ready().apply(Event::kAllowColdstart).apply(Event::kRun); }
   PocScript& to_collision_resolution() {
-    to_listen().tell(Event::kListenTimeout);
+    to_listen().apply(Event::kListenTimeout);
     last_cycle = -1;
     return *this;
   }
   // Cycle 4 has begun.
   PocScript& to_consistency_check() { return to_collision_resolution().cycles(5, kNobody); }
   PocScript& to_gap() { return to_consistency_check().cycle(kNobody); }
-  PocScript& to_initialise_schedule() { return to_listen().tell(PocEvent::startup_frame(kReference, 0)); }
+  PocScript& to_initialise_schedule() { return to_listen().apply(PocEvent::startup_frame(kReference, 0)); }
   // In cycle 1, behind the second frame.
   PocScript& to_check() {
-    to_initialise_schedule().tell(PocEvent::startup_frame(kReference, 1));
+    to_initialise_schedule().apply(PocEvent::startup_frame(kReference, 1));
     last_cycle = 1;
     return *this;
   }
@@ -84,9 +84,9 @@ class PocScript {
   // Double cycles with this outcome of clock correction, from one running odd cycle to the next.
   PocScript& double_cycles(int count, bool missing, bool limit_exceeded = false) {
     for (int i = 0; i < count; ++i) {
-      tell(PocEvent::clock_corrected(missing, limit_exceeded));
-      tell(PocEvent::cycle_started(++last_cycle, kTwoNodes));
-      tell(PocEvent::cycle_started(++last_cycle, kTwoNodes));
+      apply(PocEvent::clock_corrected(missing, limit_exceeded));
+      apply(PocEvent::cycle_started(++last_cycle, kTwoNodes));
+      apply(PocEvent::cycle_started(++last_cycle, kTwoNodes));
     }
     return *this;
   }
@@ -96,7 +96,7 @@ class PocScript {
     return double_cycles(parameters.gMaxWithoutClockCorrectionPassive, true);
   }
 
-  PocScript& correct_clock() { return tell(PocEvent::clock_corrected(clock_missing, clock_limit)); }
+  PocScript& correct_clock() { return apply(PocEvent::clock_corrected(clock_missing, clock_limit)); }
 
   PocParameters parameters;
   PocState state;

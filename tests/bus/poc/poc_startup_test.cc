@@ -18,7 +18,7 @@ TEST(PocStartup, LeadingColdstartNodeIsActiveInCycle6) {
   PocScript node(coldstart_node());
   node.to_listen();
   EXPECT_EQ(node.last.consequence, PocReason::kMayColdstart);
-  node.tell(Event::kListenTimeout);
+  node.apply(Event::kListenTimeout);
   EXPECT_TRUE(node.last.actions.has(PocAction::kSendCas));
   EXPECT_EQ(node.last.reason, PocReason::kColdstartAfterSilence);
   EXPECT_EQ(node.state.vRemainingColdstartAttempts, 3);
@@ -98,9 +98,9 @@ TEST(PocStartup, AttemptsAreExhaustedAloneOnTheBus) {
   EXPECT_TRUE(node.last.actions.has(PocAction::kDropSchedule));
   // It still joins others by the coldstart path, and the host's next RUN refills the attempts.
   PocScript joining = node;
-  joining.tell(PocEvent::startup_frame(kReference, 10)).tell(PocEvent::startup_frame(kReference, 11));
+  joining.apply(PocEvent::startup_frame(kReference, 10)).apply(PocEvent::startup_frame(kReference, 11));
   EXPECT_EQ(joining.state.kind, Kind::kIntegrationColdstartCheck);
-  node.tell(Event::kReady).tell(Event::kAllowColdstart).tell(Event::kRun);
+  node.apply(Event::kReady).apply(Event::kAllowColdstart).apply(Event::kRun);
   EXPECT_EQ(node.state.kind, Kind::kColdstartListen);
   EXPECT_EQ(node.state.vRemainingColdstartAttempts, 4);
 }
@@ -108,11 +108,11 @@ TEST(PocStartup, AttemptsAreExhaustedAloneOnTheBus) {
 TEST(PocStartup, CollisionLoserFollowsInTheSameCycle) {
   PocScript node(coldstart_node());
   node.to_collision_resolution().cycle();
-  node.tell(Event::kHeaderReceived);
+  node.apply(Event::kHeaderReceived);
   EXPECT_EQ(node.state.kind, Kind::kColdstartListen);
   EXPECT_EQ(node.last.reason, PocReason::kCollisionHeader);
   EXPECT_TRUE(node.last.actions.has(PocAction::kDropSchedule));
-  node.tell(PocEvent::startup_frame(kReference, 0));
+  node.apply(PocEvent::startup_frame(kReference, 0));
   EXPECT_EQ(node.state.kind, Kind::kInitialiseSchedule);
   EXPECT_EQ(node.state.reference, kReference);
 }
@@ -121,13 +121,13 @@ TEST(PocStartup, CollisionsUseUpAttempts) {
   PocScript node(coldstart_node());
   node.to_listen();
   for (int left = 3; left >= 2; --left) {
-    node.tell(Event::kListenTimeout).tell(Event::kCasReceived);
+    node.apply(Event::kListenTimeout).apply(Event::kCasReceived);
     EXPECT_EQ(node.state.kind, Kind::kColdstartListen);
     EXPECT_EQ(node.state.vRemainingColdstartAttempts, left);
   }
-  node.tell(Event::kNoiseTimeout);
+  node.apply(Event::kNoiseTimeout);
   EXPECT_TRUE(node.state.coldstart_noise);
-  node.tell(Event::kCasReceived);
+  node.apply(Event::kCasReceived);
   EXPECT_EQ(node.state.kind, Kind::kIntegrationListen);  // one left is not enough to listen for
   EXPECT_EQ(node.last.reason, PocReason::kCollisionCas);
   EXPECT_EQ(node.last.consequence, PocReason::kAttemptsExhausted);
@@ -152,11 +152,11 @@ TEST(PocStartup, ConsistencyCheckNeedsAPairAndAClockInOrder) {
 TEST(PocStartup, EachDoubleCycleNeedsItsOwnVerdictOnTheClock) {
   PocScript node(coldstart_node());
   node.to_join();  // the check's verdict was good
-  node.tell(PocEvent::cycle_started(5, kTwoNodes)).tell(PocEvent::cycle_started(6, kTwoNodes));
+  node.apply(PocEvent::cycle_started(5, kTwoNodes)).apply(PocEvent::cycle_started(6, kTwoNodes));
   EXPECT_EQ(node.last.reason, PocReason::kStartupClockTermMissing);
   node = PocScript(other_node());
   node.to_check().cycle().cycles(2, kTwoNodes);
-  node.tell(PocEvent::cycle_started(5, kTwoNodes)).tell(PocEvent::cycle_started(6, kTwoNodes));
+  node.apply(PocEvent::cycle_started(5, kTwoNodes)).apply(PocEvent::cycle_started(6, kTwoNodes));
   EXPECT_EQ(node.last.reason, PocReason::kStartupClockTermMissing);
 }
 
@@ -215,20 +215,20 @@ TEST(PocStartup, AnIntegratingNodeGivesUpWithoutStartupFramesOrClockTerms) {
 
 TEST(PocStartup, ScheduleIsDerivedFromAnEvenAndAnOddFrameOfOneNode) {
   PocScript node(coldstart_node());
-  node.to_listen().tell(PocEvent::startup_frame(3, 5));
+  node.to_listen().apply(PocEvent::startup_frame(3, 5));
   EXPECT_EQ(node.last.reason, PocReason::kEvenFrameAwaited);
-  node.tell(PocEvent::startup_frame(3, 6));
+  node.apply(PocEvent::startup_frame(3, 6));
   EXPECT_TRUE(node.last.actions.has(PocAction::kDeriveSchedule));
   EXPECT_EQ(node.state.reference, 3);
-  node.tell(PocEvent::startup_frame(3, 6));  // the other channel
+  node.apply(PocEvent::startup_frame(3, 6));  // the other channel
   EXPECT_EQ(node.last.reason, PocReason::kOddFrameAwaited);
-  node.tell(PocEvent::startup_frame(4, 7));
+  node.apply(PocEvent::startup_frame(4, 7));
   EXPECT_EQ(node.last.reason, PocReason::kOddFrameAwaited);
   PocScript failed = node;
-  failed.tell(Event::kScheduleNotDerived);
+  failed.apply(Event::kScheduleNotDerived);
   EXPECT_EQ(failed.state.kind, Kind::kColdstartListen);
   EXPECT_EQ(failed.state.reference, 0);
-  node.tell(PocEvent::startup_frame(3, 7));
+  node.apply(PocEvent::startup_frame(3, 7));
   EXPECT_EQ(node.state.kind, Kind::kIntegrationColdstartCheck);
   EXPECT_EQ(node.state.reference, 3);
 }
@@ -236,25 +236,25 @@ TEST(PocStartup, ScheduleIsDerivedFromAnEvenAndAnOddFrameOfOneNode) {
 TEST(PocStartup, ChecksBeginWithAnEvenCycle) {
   for (const PocParameters& parameters : {coldstart_node(), other_node()}) {
     PocScript node(parameters);
-    node.to_check().tell(PocEvent::cycle_started(1, kNobody));
+    node.to_check().apply(PocEvent::cycle_started(1, kNobody));
     EXPECT_EQ(node.last.reason, PocReason::kNotYetWholeCycle);
-    node.tell(PocEvent::cycle_started(2, kNobody));
+    node.apply(PocEvent::cycle_started(2, kNobody));
     EXPECT_EQ(node.last.reason, PocReason::kFirstWholeCycle);
   }
 }
 
 TEST(PocStartup, InhibitedNodeFollowsButDoesNotLead) {
   PocScript node(coldstart_node());
-  node.to_ready().tell(Event::kRun);
+  node.to_ready().apply(Event::kRun);
   EXPECT_EQ(node.state.kind, Kind::kIntegrationListen);
   EXPECT_EQ(node.last.consequence, PocReason::kColdstartInhibited);
   PocScript following = node;
-  following.tell(PocEvent::startup_frame(kReference, 0)).tell(PocEvent::startup_frame(kReference, 1));
+  following.apply(PocEvent::startup_frame(kReference, 0)).apply(PocEvent::startup_frame(kReference, 1));
   EXPECT_EQ(following.state.kind, Kind::kIntegrationColdstartCheck);
-  node.tell(Event::kAllowColdstart);
+  node.apply(Event::kAllowColdstart);
   EXPECT_EQ(node.state.kind, Kind::kColdstartListen);
   EXPECT_TRUE(node.last.actions.has(PocAction::kRestartListenTimer));
-  node.tell(Event::kReady);  // inhibits again
+  node.apply(Event::kReady);  // inhibits again
   EXPECT_EQ(node.state.kind, Kind::kReady);
   EXPECT_TRUE(node.last.actions.has(PocAction::kStopTimers));
   EXPECT_TRUE(node.state.vColdstartInhibit);
@@ -286,8 +286,8 @@ TEST(PocStartup, TimeoutsComeFromTheParameters) {
 TEST(PocWakeup, EveryEndHasItsStatus) {
   const auto status = [](const std::vector<Event>& events) {
     PocScript node(coldstart_node());
-    node.to_ready().tell(Event::kWakeup);
-    for (const Event event : events) node.tell(event);
+    node.to_ready().apply(Event::kWakeup);
+    for (const Event event : events) node.apply(event);
     EXPECT_EQ(node.state.kind, Kind::kReady);
     return node.state.wakeup_status;
   };
@@ -305,14 +305,14 @@ TEST(PocWakeup, EveryEndHasItsStatus) {
 
 TEST(PocWakeup, TheNextOneForgetsTheStatus) {
   PocScript node(coldstart_node());
-  node.to_ready().tell(Event::kWakeup).tell(Event::kHeaderReceived).tell(Event::kWakeup);
+  node.to_ready().apply(Event::kWakeup).apply(Event::kHeaderReceived).apply(Event::kWakeup);
   EXPECT_EQ(node.state.wakeup_status, WakeupStatus::kUndefined);
 }
 
 TEST(PocWakeup, LeavesColdstartInhibitAsItWas) {
   PocScript node(coldstart_node());
-  node.to_ready().tell(Event::kAllowColdstart).tell(Event::kWakeup);
-  node.tell(Event::kListenTimeout).tell(Event::kWakeupSent);
+  node.to_ready().apply(Event::kAllowColdstart).apply(Event::kWakeup);
+  node.apply(Event::kListenTimeout).apply(Event::kWakeupSent);
   EXPECT_EQ(node.state.kind, Kind::kReady);
   EXPECT_FALSE(node.state.vColdstartInhibit);
 }

@@ -19,7 +19,7 @@ namespace ttf::laws {
 namespace {
 
 // Two channels, a CAN and a CAN FD; the last member is not on the first CAN.
-template <std::size_t kMembers, test::Told kTold> class MemoryLiveBench : public LiveBench {
+template <std::size_t kMembers, test::Reported kReported> class MemoryLiveBench : public LiveBench {
  public:
   MemoryLiveBench() {
     for (std::size_t i = 0; i < kMembers; ++i) {
@@ -44,13 +44,13 @@ template <std::size_t kMembers, test::Told kTold> class MemoryLiveBench : public
   std::chrono::milliseconds quiet() const override { return std::chrono::milliseconds(5); }
 
  protected:
-  test::MemoryLiveBus bus_{{.can_buses = {false, true}, .told = kTold}};
+  test::MemoryLiveBus bus_{{.can_buses = {false, true}, .reported = kReported}};
   std::vector<std::unique_ptr<bus::ports::LiveMedium>> members_;
 };
 
 using MemoryLiveBenches =
-    testing::Types<MemoryLiveBench<2, test::Told::kWithTheFrame>, MemoryLiveBench<5, test::Told::kWithTheFrame>,
-                   MemoryLiveBench<2, test::Told::kInAFollowUp>, MemoryLiveBench<5, test::Told::kInAFollowUp>>;
+    testing::Types<MemoryLiveBench<2, test::Reported::kWithTheFrame>, MemoryLiveBench<5, test::Reported::kWithTheFrame>,
+                   MemoryLiveBench<2, test::Reported::kInAFollowUp>, MemoryLiveBench<5, test::Reported::kInAFollowUp>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Memory, LiveMediumLaws, MemoryLiveBenches);
 
 enum class Defect {
@@ -71,9 +71,9 @@ enum class Defect {
   kSilentDescriptor,
   kLoudDescriptor,
   kForgetsWhatCameBefore,
-  kTellsNothing,
-  kTellsWrong,
-  kTellsTwice,
+  kStatesNothing,
+  kStatesWrong,
+  kStatesTwice,
   kMiscounts,
   kOtherLine,
 };
@@ -98,8 +98,8 @@ class DefectiveMedium final : public bus::ports::LiveMedium {
     if (defect_ == Defect::kOtherLine && signal.slot > 1)
       sent.channel = signal.channel == schedules::model::Channel::kA ? schedules::model::Channel::kB
                                                                      : schedules::model::Channel::kA;
-    if (defect_ == Defect::kTellsNothing) sent.tells_late = false;
-    if (defect_ == Defect::kTellsWrong) due = due - Duration::milliseconds(1);
+    if (defect_ == Defect::kStatesNothing) sent.states_late = false;
+    if (defect_ == Defect::kStatesWrong) due = due - Duration::milliseconds(1);
     return sound_->send(sent, due);
   }
   bus::ports::LiveStatus send_can(std::size_t can_bus, const bus::ports::CanFrame& frame) override {
@@ -108,34 +108,34 @@ class DefectiveMedium final : public bus::ports::LiveMedium {
   std::optional<bus::ports::LiveArrival> receive() override {
     if (std::exchange(echo_, false)) return invented();
     if (auto again = std::exchange(again_, {})) return again;
-    auto heard = sound_->receive();
-    if (!heard) return handed_over(heard);
+    auto received = sound_->receive();
+    if (!received) return handed_over(received);
     ++received_;
-    if (defect_ == Defect::kDrops && received_ == 5) heard = sound_->receive();
-    if (defect_ == Defect::kDoubles && received_ == 5) again_ = heard;
-    if (defect_ == Defect::kTellsTwice && heard->late) {
-      again_ = heard;
+    if (defect_ == Defect::kDrops && received_ == 5) received = sound_->receive();
+    if (defect_ == Defect::kDoubles && received_ == 5) again_ = received;
+    if (defect_ == Defect::kStatesTwice && received->late) {
+      again_ = received;
       again_->kind = bus::ports::LiveArrival::Kind::kFollowUp;
     }
-    if (defect_ == Defect::kAlters && received_ > 5 && !heard->signal.bytes.empty()) {
-      std::ranges::copy(heard->signal.bytes, bytes_.begin());
-      bytes_[heard->signal.bytes.size() - 1] ^= std::byte{1};
-      heard->signal.bytes = std::span(bytes_).first(heard->signal.bytes.size());
+    if (defect_ == Defect::kAlters && received_ > 5 && !received->signal.bytes.empty()) {
+      std::ranges::copy(received->signal.bytes, bytes_.begin());
+      bytes_[received->signal.bytes.size() - 1] ^= std::byte{1};
+      received->signal.bytes = std::span(bytes_).first(received->signal.bytes.size());
     }
-    if (defect_ == Defect::kReusesBytes && heard->kind == bus::ports::LiveArrival::Kind::kFlexRay) {
-      std::ranges::copy(heard->signal.bytes, common_->begin());
-      heard->signal.bytes = std::span(*common_).first(heard->signal.bytes.size());
+    if (defect_ == Defect::kReusesBytes && received->kind == bus::ports::LiveArrival::Kind::kFlexRay) {
+      std::ranges::copy(received->signal.bytes, common_->begin());
+      received->signal.bytes = std::span(*common_).first(received->signal.bytes.size());
     }
     if (defect_ == Defect::kSwaps && received_ == 5)
       if (auto next = sound_->receive()) {
-        kept_ = *heard;  // its bytes are another's by now
+        kept_ = *received;  // its bytes are another's by now
         again_ = kept_;
         return next;
       }
-    if (defect_ == Defect::kStampsEarly) heard->at = heard->at - Duration::milliseconds(1);
-    if (defect_ == Defect::kStampsWhenAskedFor) heard->at = bus::ports::host_now();
+    if (defect_ == Defect::kStampsEarly) received->at = received->at - Duration::milliseconds(1);
+    if (defect_ == Defect::kStampsWhenAskedFor) received->at = bus::ports::host_now();
     if (defect_ == Defect::kAllocates) allocated_ = std::make_unique<int>(1);
-    return heard;
+    return received;
   }
   int descriptor(bus::ports::Line line) const override { return sound_->descriptor(line); }
   void watch(bus::ports::Line line, bool on) override {
@@ -179,7 +179,7 @@ class DefectiveMedium final : public bus::ports::LiveMedium {
   std::unique_ptr<int> allocated_;
 };
 
-class DefectiveBench : public MemoryLiveBench<3, test::Told::kWithTheFrame> {
+class DefectiveBench : public MemoryLiveBench<3, test::Reported::kWithTheFrame> {
  public:
   explicit DefectiveBench(Defect defect) {
     const auto bytes = std::make_shared<DefectiveMedium::Bytes>();
@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Noticed{"L1_SendsOnTheOtherLine", Defect::kOtherLine, in_turn},
                     Noticed{"L1_Miscounts", Defect::kMiscounts, in_turn},
                     Noticed{"L1_CountsNoLosses", Defect::kCountsNoLosses, missing_is_counted},
-                    Noticed{"L2_Echoes", Defect::kEchoes, does_not_hear_itself},
+                    Noticed{"L2_Echoes", Defect::kEchoes, does_not_receive_itself},
                     Noticed{"L3_Swaps", Defect::kSwaps, keeps_the_order},
                     Noticed{"L4_StampsBeforeItWasSent", Defect::kStampsEarly, arrives_when_it_says},
                     Noticed{"L4_StampsWhenAskedFor", Defect::kStampsWhenAskedFor, arrives_when_it_says},
@@ -223,9 +223,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Noticed{"L8_HasASilentDescriptor", Defect::kSilentDescriptor, what_is_watched_is_readable},
                     Noticed{"L8_HasALoudDescriptor", Defect::kLoudDescriptor, what_is_watched_is_readable},
                     Noticed{"L8_ForgetsWhatCameBefore", Defect::kForgetsWhatCameBefore, what_is_watched_is_readable},
-                    Noticed{"Departure_TellsNothing", Defect::kTellsNothing, says_how_late_it_left},
-                    Noticed{"Departure_TellsWrong", Defect::kTellsWrong, says_how_late_it_left},
-                    Noticed{"Departure_TellsTwice", Defect::kTellsTwice, in_turn}),
+                    Noticed{"Departure_StatesNothing", Defect::kStatesNothing, says_how_late_it_left},
+                    Noticed{"Departure_StatesWrong", Defect::kStatesWrong, says_how_late_it_left},
+                    Noticed{"Departure_StatesTwice", Defect::kStatesTwice, in_turn}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(LiveLawsNotice, IsNotTakenToKeepTheLaw) {

@@ -19,16 +19,16 @@ canfd_frame last_of(int slot, int cycle, int words) {
   return can.all().back();
 }
 
-TEST(Departures, AreToldOfOnceWithHowLateTheyWere) {
+TEST(Departures, AreReportedOnceWithTheirLateness) {
   Departures departures;
   EXPECT_TRUE(departures.none());
   departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{1'000'000});
   EXPECT_FALSE(departures.none());
-  const auto told = departures.left(last_of(3, 17, 8), MachineTime{1'045'163});
-  ASSERT_TRUE(told);
-  EXPECT_EQ(told->slot, 3);
-  EXPECT_EQ(told->cycle_counter, 17);
-  EXPECT_EQ(told->late.ns, 45'163);
+  const auto follow_up = departures.left(last_of(3, 17, 8), MachineTime{1'045'163});
+  ASSERT_TRUE(follow_up);
+  EXPECT_EQ(follow_up->slot, 3);
+  EXPECT_EQ(follow_up->cycle_counter, 17);
+  EXPECT_EQ(follow_up->late.ns, 45'163);
   EXPECT_TRUE(departures.none());
   EXPECT_FALSE(departures.left(last_of(3, 17, 8), MachineTime{1'045'163}));
 }
@@ -66,15 +66,15 @@ TEST(Departures, InAnyOrderAndOnlyTheNewestKept) {
   for (int i = 0; i < all; ++i) departures.expect(last_of(7, i, 8), 7, static_cast<std::uint8_t>(i), MachineTime{i});
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(departures.left(last_of(7, i, 8), MachineTime{100})) << i;
   for (int i = all - 1; i >= 3; --i) {
-    const auto told = departures.left(last_of(7, i, 8), MachineTime{100});
-    ASSERT_TRUE(told) << i;
-    EXPECT_EQ(told->cycle_counter, i);
-    EXPECT_EQ(told->late.ns, 100 - i);
+    const auto follow_up = departures.left(last_of(7, i, 8), MachineTime{100});
+    ASSERT_TRUE(follow_up) << i;
+    EXPECT_EQ(follow_up->cycle_counter, i);
+    EXPECT_EQ(follow_up->late.ns, 100 - i);
   }
   EXPECT_TRUE(departures.none());
 }
 
-TEST(Departures, TooLateToBeToldAreNot) {
+TEST(Departures, TooLateForAFollowUpHaveNone) {
   Departures departures;
   departures.expect(last_of(3, 17, 8), 3, 17, MachineTime{0});
   EXPECT_FALSE(departures.left(last_of(3, 17, 8), MachineTime{0x8000'0000LL}));

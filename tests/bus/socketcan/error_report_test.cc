@@ -35,8 +35,8 @@ TEST(ErrorReport, ErrorsHaveTheirKind) {
   EXPECT_EQ(error(0, CAN_ERR_PROT_LOC_ACK), CanError::kAcknowledgement);
   const auto sent = error_report_of(error_frame(CAN_ERR_PROT, {{2, CAN_ERR_PROT_BIT | CAN_ERR_PROT_TX}}));
   EXPECT_TRUE(sent && sent->as_transmitter && !sent->state);
-  const auto heard = error_report_of(error_frame(CAN_ERR_PROT, {{2, CAN_ERR_PROT_BIT}}));
-  EXPECT_TRUE(heard && !heard->as_transmitter);
+  const auto received = error_report_of(error_frame(CAN_ERR_PROT, {{2, CAN_ERR_PROT_BIT}}));
+  EXPECT_TRUE(received && !received->as_transmitter);
   const auto alone = error_report_of(error_frame(CAN_ERR_ACK));
   EXPECT_TRUE(alone && alone->error == CanError::kAcknowledgement && alone->as_transmitter);
 }

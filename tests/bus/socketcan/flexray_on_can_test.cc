@@ -119,7 +119,7 @@ TEST(FlexRayOnCan, SymbolsArriveWithTheirDurations) {
       }
 }
 
-TEST(FlexRayOnCan, ForeignFramesAreToldAndDoNoHarm) {
+TEST(FlexRayOnCan, ForeignFramesAreReportedAndDoNoHarm) {
   const Bytes frame = drawn_frame(Channel::kA, 70, 63, 40);
   const CanFrames can = frame_to_can(70, frame);
   ASSERT_EQ(can.count, 2u);
@@ -238,10 +238,10 @@ TEST(FlexRayOnCan, FollowUpsArriveAsTheyWereSaid) {
 }
 
 TEST(FlexRayOnCan, AFollowUpHasRoomForFourBytesOfNanoseconds) {
-  EXPECT_TRUE(can_be_told(Duration::nanoseconds(0x7fff'ffff)));
-  EXPECT_FALSE(can_be_told(Duration::nanoseconds(0x8000'0000LL)));
-  EXPECT_TRUE(can_be_told(Duration::nanoseconds(-0x8000'0000LL)));
-  EXPECT_FALSE(can_be_told(Duration::nanoseconds(-0x8000'0001LL)));
+  EXPECT_TRUE(fits_follow_up(Duration::nanoseconds(0x7fff'ffff)));
+  EXPECT_FALSE(fits_follow_up(Duration::nanoseconds(0x8000'0000LL)));
+  EXPECT_TRUE(fits_follow_up(Duration::nanoseconds(-0x8000'0000LL)));
+  EXPECT_FALSE(fits_follow_up(Duration::nanoseconds(-0x8000'0001LL)));
 }
 
 // The one zero behind the CRC included.

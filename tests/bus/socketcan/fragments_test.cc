@@ -123,11 +123,11 @@ TEST_F(Fragments, GoOnOverWhatIsMalformed) {
 
 // It comes from another node at any time, outside the slots. One with a wrong CRC changes nothing either.
 TEST_F(Fragments, GoOnOverAFollowUp) {
-  const canfd_frame told = follow_up_to_can(Channel::kA, {.slot = 3, .cycle_counter = kCycle, .late = {1'000}});
-  canfd_frame broken = told;
+  const canfd_frame follow_up = follow_up_to_can(Channel::kA, {.slot = 3, .cycle_counter = kCycle, .late = {1'000}});
+  canfd_frame broken = follow_up;
   broken.data[9] ^= 1;
   for (std::size_t i = 0; i < can_.count; ++i) {
-    const Arrival arrival = receiver_.arrive(told);
+    const Arrival arrival = receiver_.arrive(follow_up);
     EXPECT_EQ(arrival.outcome, Outcome::kComplete);
     EXPECT_FALSE(arrival.abandoned);
     EXPECT_EQ(receiver_.arrive(broken).outcome, Outcome::kMalformed);

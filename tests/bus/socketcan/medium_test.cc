@@ -45,8 +45,8 @@ class LiveOnVcan : public ::testing::Test {
             .receive_buffer_frames = receive_buffer_frames};
   }
   Socket stranger(std::size_t line) const { return Socket({.interface = vcans_[line], .filters = {}}); }
-  static ports::LiveSignal signal(const Bytes& frame, int slot, bool tells_late = false) {
-    return {.channel = Channel::kA, .slot = slot, .bytes = frame, .tells_late = tells_late};
+  static ports::LiveSignal signal(const Bytes& frame, int slot, bool states_late = false) {
+    return {.channel = Channel::kA, .slot = slot, .bytes = frame, .states_late = states_late};
   }
   // The next arrival within a second.
   static std::optional<LiveArrival> next(SocketCanMedium& medium) {
@@ -89,16 +89,16 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
     EXPECT_FALSE(arrival->late);
     const MachineTime at = arrival->at;
     EXPECT_FALSE(sender.receive());  // at the latest now its frame's confirmation is there
-    const auto told = next(receiver);
-    ASSERT_TRUE(told && told->late);
-    EXPECT_EQ(told->kind, LiveArrival::Kind::kFollowUp);
-    EXPECT_EQ(told->signal.channel, Channel::kA);
-    EXPECT_EQ(told->signal.slot, 9);
-    EXPECT_EQ(told->cycle_counter, 33);
-    EXPECT_GE(*told->late, begin - due);
-    EXPECT_LE(*told->late, end - due);
+    const auto follow_up = next(receiver);
+    ASSERT_TRUE(follow_up && follow_up->late);
+    EXPECT_EQ(follow_up->kind, LiveArrival::Kind::kFollowUp);
+    EXPECT_EQ(follow_up->signal.channel, Channel::kA);
+    EXPECT_EQ(follow_up->signal.slot, 9);
+    EXPECT_EQ(follow_up->cycle_counter, 33);
+    EXPECT_GE(*follow_up->late, begin - due);
+    EXPECT_LE(*follow_up->late, end - due);
     if (in_virtual_time()) {
-      EXPECT_EQ(told->late->ns, (at - due).ns);
+      EXPECT_EQ(follow_up->late->ns, (at - due).ns);
     }
   }
   EXPECT_EQ(sender.counts().sent, 5u);
@@ -110,13 +110,13 @@ TEST_F(LiveOnVcan, AFollowUpIsSentAtOnce) {
   if (!in_virtual_time()) GTEST_SKIP() << "on a busy machine the kernel may take its time for the echo";
   SocketCanMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
-  std::size_t told = 0;
+  std::size_t follow_up = 0;
   for (int i = 0; i < 20; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ASSERT_EQ(sender.send(signal(frame, 9, true), ports::host_now()), LiveStatus::kDone);
-    while (const auto arrival = receiver.receive()) told += arrival->kind == LiveArrival::Kind::kFollowUp;
+    while (const auto arrival = receiver.receive()) follow_up += arrival->kind == LiveArrival::Kind::kFollowUp;
   }
-  EXPECT_EQ(told, 20u);
+  EXPECT_EQ(follow_up, 20u);
 }
 
 // Another member's frame is ahead of the echo: it is handed over first, and stays readable until then (L8).
@@ -135,12 +135,12 @@ TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
   EXPECT_EQ(arrival->signal.slot, 2);
   EXPECT_EQ(bytes_of(arrival->signal.bytes), others);
   EXPECT_FALSE(sender.receive());  // its own it keeps to itself
-  const auto told = next(receiver);
-  ASSERT_TRUE(told && told->late);
-  EXPECT_LE(*told->late, left - due);  // when it left, not when that was reported
+  const auto follow_up = next(receiver);
+  ASSERT_TRUE(follow_up && follow_up->late);
+  EXPECT_LE(*follow_up->late, left - due);  // when it left, not when that was reported
 }
 
-TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
+TEST_F(LiveOnVcan, OnlyFramesThatStateItAreFollowedUp) {
   SocketCanMedium sender(options()), receiver(options());
   const Bytes frame = drawn_frame(Channel::kA, 9, 33, 20);
   ASSERT_EQ(sender.send(signal(frame, 9, false), {}), LiveStatus::kDone);
@@ -247,12 +247,12 @@ TEST_F(LiveOnVcan, FramesWithoutRoomAreCountedAsLost) {
   constexpr std::uint64_t kSent = 300;
   for (std::uint64_t i = 0; i < kSent; ++i) ASSERT_EQ(sender.send(signal(frame, 9), {}), LiveStatus::kDone);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  std::uint64_t heard = 0;
-  while (receiver.receive()) ++heard;
-  EXPECT_GE(heard, 16u);
-  EXPECT_LT(heard, kSent);
-  EXPECT_EQ(receiver.counts().received, heard);
-  EXPECT_EQ(receiver.counts().lost, kSent - heard);
+  std::uint64_t received = 0;
+  while (receiver.receive()) ++received;
+  EXPECT_GE(received, 16u);
+  EXPECT_LT(received, kSent);
+  EXPECT_EQ(receiver.counts().received, received);
+  EXPECT_EQ(receiver.counts().lost, kSent - received);
   EXPECT_EQ(sender.counts().lost, 0u);
 }
 
@@ -336,7 +336,7 @@ TEST_F(LiveOnVcan, AnInterfaceThatIsRemovedIsAFailure) {
   EXPECT_NE(medium.failure().find(": ip link "), std::string::npos) << medium.failure();
 }
 
-TEST_F(LiveOnVcan, SmallerReceiveBuffersAreToldOneByOne) {
+TEST_F(LiveOnVcan, SmallerReceiveBuffersAreReportedOneByOne) {
   ASSERT_EQ(seteuid(65534), 0);  // without CAP_NET_ADMIN
   const SocketCanMedium medium(options(1'000'000));
   ASSERT_EQ(seteuid(0), 0);

@@ -89,7 +89,7 @@ TEST_F(SocketOnVcan, StampsAreWhenTheFrameWasThere) {
   EXPECT_LE(received.stamp_ns, after);  // not when it was read
 }
 
-TEST_F(SocketOnVcan, ClassicFramesAreToldFromCanFd) {
+TEST_F(SocketOnVcan, ClassicFramesAreDistinctFromCanFd) {
   Socket sender({.interface = kName, .flexible_data_rate = false, .filters = {}});
   Socket receiver({.interface = kName, .filters = {}});
   canfd_frame classic = can_fd(5, 8, 0x11);
@@ -108,9 +108,9 @@ TEST_F(SocketOnVcan, FiltersLetThroughWhatMatches) {
       {.interface = kName, .filters = {{0x100, CAN_EFF_FLAG | CAN_SFF_MASK}, {0x206, CAN_EFF_FLAG | 0x7fe}}});
   for (const canid_t identifier : {0x0ffu, 0x100u, 0x101u, 0x206u, 0x207u, 0x208u, 0x100u | CAN_EFF_FLAG})
     ASSERT_EQ(sender.send(can_fd(identifier, 8, 0)), Status::kDone);
-  std::vector<canid_t> heard;
-  for (Received received; receiver.receive(received) == Status::kDone;) heard.push_back(received.can.can_id);
-  EXPECT_EQ(heard, (std::vector<canid_t>{0x100, 0x206, 0x207}));
+  std::vector<canid_t> taken;
+  for (Received received; receiver.receive(received) == Status::kDone;) taken.push_back(received.can.can_id);
+  EXPECT_EQ(taken, (std::vector<canid_t>{0x100, 0x206, 0x207}));
 }
 
 // Without a reader, frames without room are counted, at the gap and at the end.
@@ -120,23 +120,23 @@ TEST_F(SocketOnVcan, FramesWithoutRoomAreCounted) {
   Socket receiver({.interface = kName, .receive_buffer_frames = 16, .filters = {}});
   std::uint8_t number = 0;
   for (std::uint32_t i = 0; i < kSent; ++i) ASSERT_EQ(sender.send(can_fd(1, 64, number++)), Status::kDone);
-  std::uint32_t heard = 0;
-  for (Received received; receiver.receive(received) == Status::kDone; ++heard) {
-    EXPECT_EQ(received.can.data[0], heard);
+  std::uint32_t taken = 0;
+  for (Received received; receiver.receive(received) == Status::kDone; ++taken) {
+    EXPECT_EQ(received.can.data[0], taken);
     EXPECT_EQ(received.lost_before, 0u);
   }
-  EXPECT_GE(heard, 16u);
-  EXPECT_LT(heard, kSent);
-  EXPECT_EQ(receiver.lost(), kSent - heard);
+  EXPECT_GE(taken, 16u);
+  EXPECT_LT(taken, kSent);
+  EXPECT_EQ(receiver.lost(), kSent - taken);
   // The first frame after the gap reports it.
   for (std::uint32_t i = 0; i < kAgain; ++i) ASSERT_EQ(sender.send(can_fd(1, 64, number++)), Status::kDone);
   for (std::uint32_t i = 0; i < kAgain; ++i) {
     Received received;
     ASSERT_EQ(next(receiver, received), Status::kDone);
     EXPECT_EQ(received.can.data[0], static_cast<std::uint8_t>(kSent + i));
-    EXPECT_EQ(received.lost_before, i == 0 ? kSent - heard : 0u);
+    EXPECT_EQ(received.lost_before, i == 0 ? kSent - taken : 0u);
   }
-  EXPECT_EQ(receiver.lost(), kSent - heard);
+  EXPECT_EQ(receiver.lost(), kSent - taken);
 }
 
 TEST_F(SocketOnVcan, TheReceiveBufferHoldsWhatItIsSaidTo) {
@@ -145,13 +145,13 @@ TEST_F(SocketOnVcan, TheReceiveBufferHoldsWhatItIsSaidTo) {
   Socket receiver({.interface = kName, .receive_buffer_frames = kFrames, .filters = {}});
   if (!receiver.shortage().empty()) GTEST_SKIP() << receiver.shortage();
   for (int i = 0; i < kFrames; ++i) ASSERT_EQ(sender.send(can_fd(1, 64, 0)), Status::kDone);
-  int heard = 0;
-  for (Received received; receiver.receive(received) == Status::kDone;) ++heard;
-  EXPECT_EQ(heard, kFrames);
+  int taken = 0;
+  for (Received received; receiver.receive(received) == Status::kDone;) ++taken;
+  EXPECT_EQ(taken, kFrames);
   EXPECT_EQ(receiver.lost(), 0u);
 }
 
-TEST_F(SocketOnVcan, ASmallerReceiveBufferIsToldWithTheCommand) {
+TEST_F(SocketOnVcan, ASmallerReceiveBufferIsReportedWithTheCommand) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
   ASSERT_EQ(seteuid(65534), 0);  // without CAP_NET_ADMIN
   const Socket receiver({.interface = kName, .receive_buffer_frames = 1'000'000, .filters = {}});

@@ -65,7 +65,7 @@ bool has_line(const std::string& text, const std::string& pattern) {
   return support::found(text, "(^|\n)" + blanks + " *(\n|$)");
 }
 
-TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {
+TEST(RealTimeOutputs, TablesHaveTheHistogramsAndTheCounts) {
   const StrategyResult result = a_drive();
   const std::string text = real_time_text(result);
   const std::string first = name_of_node(result, 0), third = name_of_node(result, 2);
@@ -85,7 +85,7 @@ TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {
   EXPECT_TRUE(has_line(text, "sensor to feature, oldest measurement \\[ms\\] 100 250.0 250.0 250.0")) << text;
 }
 
-TEST(RealTimeOutputs, JsonTellsTheSame) {
+TEST(RealTimeOutputs, JsonHasTheSame) {
   const StrategyResult result = a_drive();
   const nlohmann::ordered_json json = json_of(result)["real_time"];
   EXPECT_EQ(json["time_scale"], 10.0);
@@ -125,7 +125,7 @@ TEST(RealTimeOutputs, JsonTellsTheSame) {
   EXPECT_EQ(json["sensor_to_feature_ms"]["oldest"]["count"], 100);
 }
 
-TEST(RealTimeOutputs, InVirtualTimeThereIsNothingToTell) {
+TEST(RealTimeOutputs, InVirtualTimeThereIsNothingToReport) {
   StrategyResult result = a_drive();
   result.real_time.reset();
   EXPECT_EQ(real_time_text(result), "");

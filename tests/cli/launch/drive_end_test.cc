@@ -44,7 +44,7 @@ TEST(DriveEnd, SaysWhatEachWas) {
 }
 
 // A real node has no process, and is in operation while it is received.
-TEST(DriveEnd, JudgesRealNodesByWhatIsHeard) {
+TEST(DriveEnd, JudgesRealNodesByTheirFrames) {
   const DriveEnd end = drive_end({{"fusion", true, kWell, kActive, false},
                                   {"heard", true, std::nullopt, "", true},
                                   {"absent", true, std::nullopt, "waiting", true}});
@@ -82,16 +82,16 @@ TEST(DriveEnd, InVirtualTimeTheRecordsSayTheStates) {
 
 TEST(DriveEnd, IsOfTheLastProcessOfEachNode) {
   EndWatch watch(2);
-  int told = 0;
+  int reported = 0;
   supervision::Hooks hooks;
-  hooks.on_gone = [&](std::size_t, const supervision::Ending&, bool) { ++told; };
+  hooks.on_gone = [&](std::size_t, const supervision::Ending&, bool) { ++reported; };
   const supervision::Hooks around = watch.around(hooks);
   EXPECT_FALSE(watch.begun());
   EXPECT_EQ(around.on_all_ready(), nlohmann::json::object());
   EXPECT_TRUE(watch.begun());
   around.on_gone(1, kKilled, true);
   around.on_gone(1, kWell, false);
-  EXPECT_EQ(told, 2);
+  EXPECT_EQ(reported, 2);
   schedules::model::Cluster cluster;
   cluster.nodes.resize(2);
   const std::vector<NodeAtEnd> nodes = watch.nodes(cluster, {"", kActive});

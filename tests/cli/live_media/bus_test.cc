@@ -87,7 +87,7 @@ TEST(Preflight, SaysHowAMissingBusIsMade) {
                                         "    ip link add dev vcan_absent type vcan\n"));
 }
 
-TEST(Preflight, TellsACanFromOtherInterfaces) {
+TEST(Preflight, DistinguishesACanFromOtherInterfaces) {
   const auto items = look_at(Bus::parse("socketcan:lo"), {});
   EXPECT_EQ(items[1].how,
             "is not a CAN interface; `ip -details link show type can` lists the CAN interfaces (channel A)");

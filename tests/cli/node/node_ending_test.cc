@@ -22,7 +22,7 @@ class NodeEndingTest : public testing::Test {
     supervisors_ = supervision::Descriptor(ends[0]);
     nodes_.emplace(supervision::Descriptor(ends[1]));
   }
-  std::vector<Json> heard() const {
+  std::vector<Json> received() const {
     std::vector<Json> messages;
     std::string message(supervision::kLongestMessage, '\0');
     for (ssize_t got; (got = recv(supervisors_.get(), message.data(), message.size(), MSG_DONTWAIT)) > 0;)
@@ -34,31 +34,31 @@ class NodeEndingTest : public testing::Test {
   std::optional<supervision::ControlLine> nodes_;
 };
 
-TEST_F(NodeEndingTest, IsToldAsDone) {
-  tell_ending({{{"overruns", 3}}, {{"drops", 4}}, ""}, nodes_, false);
-  EXPECT_THAT(heard(),
+TEST_F(NodeEndingTest, IsReportedAsDone) {
+  report_ending({{{"overruns", 3}}, {{"drops", 4}}, ""}, nodes_, false);
+  EXPECT_THAT(received(),
               testing::ElementsAre(Json{{"health", {{"drops", 4}}}},
                                    Json{{"done", {{"counts", {{"overruns", 3}}}, {"real_time", {{"drops", 4}}}}}}));
 }
 
 TEST_F(NodeEndingTest, AFailedRunIsNotDone) {
   try {
-    tell_ending({{{"overruns", 3}}, {{"drops", 4}}, "vcan0: went down"}, nodes_, false);
+    report_ending({{{"overruns", 3}}, {{"drops", 4}}, "vcan0: went down"}, nodes_, false);
     FAIL() << "the failure is not passed on";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "vcan0: went down");
   }
-  EXPECT_THAT(heard(), testing::ElementsAre(Json{{"health", {{"drops", 4}}}}));
+  EXPECT_THAT(received(), testing::ElementsAre(Json{{"health", {{"drops", 4}}}}));
 }
 
 TEST(NodeEnding, WithoutASupervisorItIsPrinted) {
   std::optional<supervision::ControlLine> nobody;
   testing::internal::CaptureStdout();
-  tell_ending({{{"overruns", 3}}, {{"drops", 4}}, ""}, nobody, true);
+  report_ending({{{"overruns", 3}}, {{"drops", 4}}, ""}, nobody, true);
   EXPECT_EQ(Json::parse(testing::internal::GetCapturedStdout()),
             (Json{{"counts", {{"overruns", 3}}}, {"real_time", {{"drops", 4}}}}));
   testing::internal::CaptureStdout();
-  EXPECT_THROW(tell_ending({{}, {}, "why"}, nobody, false), std::runtime_error);
+  EXPECT_THROW(report_ending({{}, {}, "why"}, nobody, false), std::runtime_error);
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 

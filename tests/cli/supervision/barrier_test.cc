@@ -46,7 +46,7 @@ TEST_F(Barrier, OptionalOnesHoldUpNobodyBeyondTheBarrier) {
   EXPECT_THAT(shown(), HasSubstr("stopping: only optional nodes are left\nlaunch  | feature: signal 2 (Interrupt)\n"));
 }
 
-TEST_F(Barrier, ALateOptionalOneIsToldAfterwards) {
+TEST_F(Barrier, ALateOptionalOneIsStartedAfterwards) {
   Hooks hooks;
   hooks.on_all_ready = [&] {
     std::ofstream(path("go")) << "x";

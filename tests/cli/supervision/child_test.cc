@@ -62,7 +62,7 @@ TEST_F(ChildProcess, PrintsAllBytesUnchanged) {
   EXPECT_EQ(all_output(process), bytes);
 }
 
-TEST_F(ChildProcess, TellsHowItEnded) {
+TEST_F(ChildProcess, ReportsHowItEnded) {
   for (const int code : {0, 1, 3, 255}) {
     Child process(child({"exit:" + std::to_string(code)}));
     const Ending ending = end_of(process);

@@ -71,7 +71,7 @@ void do_habit(const std::string& word, const std::string& value) {
     const auto facts = line().wait_for_start();
     print(facts ? "start " + facts->dump() + "\n" : "nobody says start\n");
   } else if (word == "tell") {
-    ttf::cli::supervision::tell(control_fd, value);
+    ttf::cli::supervision::report(control_fd, value);
   } else if (word == "print") {
     print(unhex(value));
   } else if (word == "flood") {

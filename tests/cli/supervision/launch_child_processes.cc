@@ -15,7 +15,7 @@
 
 namespace ttf::cli::supervision {
 
-void tell(int control_fd, const std::string& text) {
+void report(int control_fd, const std::string& text) {
   if (send(control_fd, text.data(), text.size(), 0) < 0) _exit(96);
 }
 

@@ -8,7 +8,7 @@
 namespace ttf::cli::supervision {
 
 // Sends the unchanged text on the control line.
-void tell(int control_fd, const std::string& text);
+void report(int control_fd, const std::string& text);
 // A file that appears complete.
 void leave_number(const std::string& path, pid_t number);
 // Forks a process that waits for ever, with its number in the file.

@@ -23,7 +23,7 @@ class Folder : public Launching {
   json manifest() const { return json::parse(contents(path("run/manifest.json"))); }
 };
 
-TEST_F(Folder, TellsFromTheStartWhatItIs) {
+TEST_F(Folder, SaysFromTheStartWhatItIs) {
   LaunchFolder run(path("run"), {{"scenario", "s.yaml"}, {"seed", 7}}, at(1));
   const json first = manifest();
   EXPECT_EQ(first["scenario"], "s.yaml");
@@ -34,7 +34,7 @@ TEST_F(Folder, TellsFromTheStartWhatItIs) {
   EXPECT_TRUE(first["exit_code"].is_null());
 }
 
-TEST_F(Folder, TellsEveryProcess) {
+TEST_F(Folder, ListsEveryProcess) {
   LaunchFolder run(path("run"), {{"seed", 7}}, at(0));
   const auto fusion = run.add_node({"fusion", "restart", {"ttfusion", "node", "fusion"}});
   const auto lost = run.add_node({"lost", "optional", {"nothing"}});
@@ -96,7 +96,7 @@ TEST_F(Folder, TakesNamesThatAreNoText) {
   EXPECT_EQ(manifest()["nodes"][0]["output"], "%FF.txt");
 }
 
-TEST_F(Folder, TellsWhoHasBeenInIt) {
+TEST_F(Folder, ListsItsProcesses) {
   EXPECT_FALSE(earlier_launch(path("run")));
   {
     LaunchFolder run(path("run"), {{"strategy", "adva"}}, at(0));

@@ -59,22 +59,22 @@ TEST_F(Supervising, ANodeSetFromStartToEnd) {
 // A device in place of a node: the others do not wait for it, and the hooks report it.
 TEST_F(Supervising, AnExternalNodeIsListenedTo) {
   Hooks hooks;
-  int heard = 0;
-  hooks.listen = [&] { ++heard; };
+  int received = 0;
+  hooks.listen = [&] { ++received; };
   hooks.external = [&](std::size_t node) {
     EXPECT_EQ(node, 1u);
-    return ExternalHealth{heard > 0, heard > 0, "sending, 3 in window", 2};
+    return ExternalHealth{received > 0, received > 0, "sending, 3 in window", 2};
   };
   NodeSpec device{"device", Policy::kRequired, {}, true};
   EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start"})}, device}), hooks).exit_code, 0);
-  EXPECT_GE(heard, 1);
+  EXPECT_GE(received, 1);
   EXPECT_THAT(shown(), HasSubstr("launch | device: sending, 3 in window\n"));
   EXPECT_EQ(health_[1]["process"], "sending, 3 in window");
   EXPECT_EQ(health_[1]["missed_slots"], 2);
   EXPECT_EQ(health_[1]["restarts"], 0);
 }
 
-TEST_F(Supervising, AnExternalNodeThatIsNeverHeardFailsTheLaunch) {
+TEST_F(Supervising, AnExternalNodeThatNeverSendsFailsTheLaunch) {
   for (const Policy policy : {Policy::kRequired, Policy::kOptional}) {
     const auto outcome =
         run(config({{"fusion", Policy::kRequired, child({"ready", "start"})}, {"device", policy, {}, true}}));
@@ -89,7 +89,7 @@ TEST_F(Supervising, AnExternalNodeIsNotAwaitedForEver) {
   auto given = config({{"fusion", Policy::kRequired, child({"ready", "start", "wait"})},
                        {"device", Policy::kRequired, {}, true},
                        {"other", Policy::kOptional, {}, true}});
-  given.heard_timeout = kSoon;
+  given.silence_timeout = kSoon;
   const auto outcome = run(std::move(given));
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.why, "nothing was heard within 0.001 s of device");
@@ -205,7 +205,7 @@ TEST_F(Supervising, RestartsUntilItSucceeds) {
   EXPECT_THAT(shown(), HasSubstr("sensor: exit 7; restart 2 of 5 in 0.002 s\n"));
 }
 
-TEST_F(Supervising, ARestartedOneIsToldHowThingsStand) {
+TEST_F(Supervising, ARestartedOneReceivesThePresentState) {
   Hooks hooks;
   hooks.on_all_ready = [] { return json{{"cycle", 0}}; };
   hooks.on_late_ready = [](std::size_t) { return json{{"cycle", 90}}; };
@@ -278,7 +278,7 @@ TEST_F(Supervising, AFloodWithoutNewlineIsShownInPieces) {
   EXPECT_EQ(contents(path("run/a.txt")), std::string(300'000, 'x'));
 }
 
-TEST_F(Supervising, LeavesAFolderThatTellsAll) {
+TEST_F(Supervising, LeavesAFolderWithAllFacts) {
   LaunchFolder folder(path("run"), {{"scenario", "s.yaml"}}, std::chrono::system_clock::now());
   auto given =
       config({{"sensor", Policy::kRestart, child({"try:" + path("tries") + ":2", "print:ff0a", "ready", "start"})},
@@ -342,17 +342,17 @@ class Shown : public Supervising {
   // `before` is called before each status.
   Hooks counted(std::function<void()> before) {
     Hooks hooks;
-    hooks.on_health = [this](std::size_t, const json&) { told_ = 0; };
+    hooks.on_health = [this](std::size_t, const json&) { reported_ = 0; };
     hooks.status = [this, before] {
       before();
-      if (told_ && ++*told_ == 3) std::ofstream(path("enough")) << "x";
+      if (reported_ && ++*reported_ == 3) std::ofstream(path("enough")) << "x";
       return "3 of 4 s";
     };
     return hooks;
   }
 
  private:
-  std::optional<int> told_;  // statuses since the health came
+  std::optional<int> reported_;  // statuses since the health came
 };
 
 TEST_F(Shown, OnATerminalTheTableIsInPlace) {
@@ -382,7 +382,7 @@ TEST_F(Shown, OnATerminalTheTableIsInPlace) {
   EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
 }
 
-TEST_F(Shown, ElsewhereALineOfWordsTellsTheHealth) {
+TEST_F(Shown, ElsewhereALineOfWordsReportsTheHealth) {
   auto given = lingering();
   given.words_every = Duration::milliseconds(100);
   EXPECT_EQ(run(std::move(given), counted([] {})).exit_code, 0);

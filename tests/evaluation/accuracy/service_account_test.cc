@@ -73,7 +73,7 @@ TEST(ServiceAccount, ASensorThatNeverComesIsNotAsPromised) {
 }
 
 // The log may lack an image: its node was killed before it wrote.
-TEST(ServiceAccount, AnUnknownImageTellsNothingOfTheSensors) {
+TEST(ServiceAccount, AnUnknownImageSaysNothingOfTheSensors) {
   ServiceAccount account(at(0), kLaserAlone);
   for (std::int64_t k = 0; k < 50; ++k) use_image(account, 1, at(20 * k), {});
   EXPECT_TRUE(account.finish(at(1000)).as_promised());

@@ -78,7 +78,7 @@ TEST(StageAccount, ShippedDrivesAreWithinTheBoundsOfTheirSchedules) {
     }
 }
 
-TEST(StageAccount, StagesAddUpToTheAgeThatTheMeasuresTell) {
+TEST(StageAccount, StagesAddUpToTheAgeOfTheMeasures) {
   for (const StrategyKind strategy : fusion::strategies::kAllStrategies) {
     const sim::drives::Drive drive("scenarios/paper_scenario1.yaml", strategy);
     FirstUses uses(sim::drives::evaluation_start(drive.scenario));

@@ -13,7 +13,7 @@ recording::records::Stamp at(std::int64_t true_ns, int node, std::int64_t global
 
 // Cycles of 5 ms. Node 1 is active from cycle 7 on, by a clock 3 us behind its grid. It stops, and comes back
 // in cycle 21 of its new count.
-TEST(StartupAccount, TellsTheFirstEntryIntoNormalActiveAndThePresentState) {
+TEST(StartupAccount, HasTheFirstEntryIntoNormalActiveAndThePresentState) {
   StartupAccount account(Duration{5 * kMs});
   account.on(recording::records::PowerChanged{at(3 * kMs, 1, 3 * kMs), true});
   account.on(recording::records::StateChanged{at(3 * kMs, 1, 3 * kMs), recording::records::PocKind::kReady,

@@ -133,7 +133,7 @@ TEST(DrivingAccount, AnObjectMayFallBelowTheSpeedBesideTheWay) {
 TEST(DrivingAccount, TheOrderOfNodesMakesNoDifference) {
   const auto judged = [](bool swapped) {
     Drive drive;
-    const auto tell = [&](std::int64_t ms, std::int64_t ns) {
+    const auto report = [&](std::int64_t ms, std::int64_t ns) {
       EgoTruth ego;
       ego.at = at_ms(ms) + Duration::nanoseconds(ns);
       ego.vx = 20.0;
@@ -146,8 +146,8 @@ TEST(DrivingAccount, TheOrderOfNodesMakesNoDifference) {
       drive.account.on(object);
     };
     for (std::int64_t ms = 0; ms < 2000; ms += 10) {
-      tell(ms, swapped ? 7 : 0);
-      tell(ms, swapped ? 0 : 7);
+      report(ms, swapped ? 7 : 0);
+      report(ms, swapped ? 0 : 7);
     }
     return drive.account.finish();
   };

@@ -82,7 +82,7 @@ TEST(FaultAccount, OfAFaultThatDoesNothingNothingIsSeen) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-TEST(FaultAccount, WithoutAFaultThereIsNothingToTell) {
+TEST(FaultAccount, WithoutAFaultThereIsNothingToReport) {
   Reported run(FaultKind::kTransient);
   run.drive.off("laser_pre", 0.5);
   run.drive.run_to(1.0);
@@ -154,7 +154,7 @@ TEST(FaultAccount, AnEffectThatFitsNoFaultIsUnattributed) {
 
 // The last frames of a run are due like all others: it ends after the static segment in which they were lost.
 TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
-  for (const bool told : {false, true}) {
+  for (const bool reported : {false, true}) {
     Reported run(FaultKind::kTransient);
     Deaf deaf;
     deaf.sender = run.node("gateway");
@@ -166,12 +166,12 @@ TEST(FaultAccount, AFrameLostInTheLastCycleIsHarm) {
     run.drive.simulation->set_disturbance(&deaf);
     run.begins(0.5);
     const TrueTime end =
-        sim::engine::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(told ? 3'500 : 3'000);
+        sim::engine::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(reported ? 3'500 : 3'000);
     run.drive.simulation->run_until(end);
     EXPECT_FALSE(run.harmed()) << "it is settled when the run is over";
     run.report.finish(end);
-    EXPECT_EQ(harmed_nodes(run.fault(), Harm::kFrameLost).count(deaf.receiver), told ? 1u : 0u);
-    EXPECT_EQ(run.harmed(), told);
+    EXPECT_EQ(harmed_nodes(run.fault(), Harm::kFrameLost).count(deaf.receiver), reported ? 1u : 0u);
+    EXPECT_EQ(run.harmed(), reported);
   }
 }
 

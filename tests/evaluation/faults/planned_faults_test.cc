@@ -141,7 +141,7 @@ TEST(FaultAccount, ANodeThatNeverStartsIsHarmed) {
 }
 
 // Several simultaneous faults: each effect goes to its own, in any order of beginnings and acts.
-TEST(FaultAccount, OfSeveralFaultsEachIsToldItsOwn) {
+TEST(FaultAccount, OfSeveralFaultsEachHasItsOwnReport) {
   Planned run;
   run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
   run.add(FaultKind::kBitFlipPayload, "gateway", 1'200, 300);
@@ -163,7 +163,7 @@ TEST(FaultAccount, OfSeveralFaultsEachIsToldItsOwn) {
 
 // Two faults of one node, in consecutive slots: a frame that does not leave is silence, one with inverted
 // bits is not.
-TEST(FaultAccount, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
+TEST(FaultAccount, OfTwoFaultsOfOneNodeEachHasItsOwnReport) {
   Planned run;
   run.add(FaultKind::kOmission, "gateway", 1'000, 0).probability = 0.1;
   run.add(FaultKind::kBitFlipPayload, "gateway", 1'000, 0).probability = 0.1;
@@ -187,7 +187,7 @@ struct Interventions final : recording::records::Sink {
   }
 };
 
-TEST(FaultAccount, SignalsThatGuardiansBlockAreTold) {
+TEST(FaultAccount, SignalsThatGuardiansBlockAreReported) {
   Planned run;
   run.drive.cluster.topology = schedules::model::Topology::kStar;
   run.drive.cluster.guardian = true;
@@ -238,7 +238,7 @@ struct Endless final : sim::medium::Disturbance {
   }
 };
 
-TEST(FaultAccount, SignalsThatGuardiansCutAreTold) {
+TEST(FaultAccount, SignalsThatGuardiansCutAreReported) {
   sim::drives::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
   drive.cluster.topology = schedules::model::Topology::kStar;
   drive.cluster.guardian = true;

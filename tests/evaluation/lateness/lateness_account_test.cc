@@ -164,7 +164,7 @@ recording::records::ClockCorrected corrected(const recording::records::Stamp& st
   return {stamp, 1, offset_microticks, 0};
 }
 
-TEST(LatenessAccount, InVirtualTimeThereIsNothingToTell) {
+TEST(LatenessAccount, InVirtualTimeThereIsNothingToReport) {
   const schedules::model::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
   account.on(corrected({{}, {}, {}, NodeId{1}}, 5));
@@ -302,7 +302,7 @@ TEST(LatenessAccount, RealTimeIsTheDrivesTimesTheScale) {
 }
 
 // Logs as the processes write them: a node each, on two hosts.
-TEST(LatenessAccount, MergedLogsOfSeveralNodesTellOfTheWholeRun) {
+TEST(LatenessAccount, MergedLogsOfSeveralNodesHaveTheWholeRun) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("ttf_test_lateness." + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);

@@ -56,14 +56,14 @@ class MissingFramesTest : public testing::Test {
     // Noticed when it was 700 us late in real time.
     problem.late = Duration::microseconds(700);
     problem.stamp.true_time += Duration{std::int64_t{700'000} * 1'000'000 / scale_ppm_};
-    told_.push_back(problem);
+    reported_.push_back(problem);
   }
   void lost(std::int64_t at, std::uint32_t count, std::int64_t ahead = 0, int slot = 1, int channel = 0,
             NodeId receiver = kListener) {
     auto problem = of(receiver, recording::records::TimingFault::kFramesLost, slot, at + ahead, at);
     problem.channel = static_cast<std::uint8_t>(channel);
     problem.count = count;
-    told_.push_back(problem);
+    reported_.push_back(problem);
   }
   // Left in cycle `at`, and is in the sender's log.
   void sent(std::int64_t at, std::int64_t ahead = 0, int slot = 1, NodeId sender = kTalker) {
@@ -76,7 +76,7 @@ class MissingFramesTest : public testing::Test {
   }
   MissingFramesCount missing(NodeId receiver = kListener) const {
     MissingFrames frames(cluster_, scale_ppm_);
-    for (const auto& problem : told_) frames.add(problem);
+    for (const auto& problem : reported_) frames.add(problem);
     for (const auto& frame : sent_) frames.add(frame);
     const auto found = frames.by_receiver();
     return found.contains(receiver) ? found.at(receiver) : MissingFramesCount{};
@@ -86,7 +86,7 @@ class MissingFramesTest : public testing::Test {
 
   schedules::model::Cluster cluster_ = cluster_of_two_slots();
   std::int64_t scale_ppm_ = 1'000'000;
-  std::vector<recording::records::TimingProblem> told_;
+  std::vector<recording::records::TimingProblem> reported_;
   std::vector<recording::records::SlotFrameSent> sent_;
 };
 
@@ -120,11 +120,11 @@ TEST_F(MissingFramesTest, ARoundMayBeShorter) {
   missed(10, 20);
   lost(11, 1);
   EXPECT_EQ(withheld(), 1u);
-  told_.clear();
+  reported_.clear();
   missed(49, -40, 2);
   lost(53, 2, 0, 2);  // 51 and 49
   EXPECT_EQ(withheld(), 1u);
-  told_.clear();
+  reported_.clear();
   missed(10, 64);
   lost(11, 1);
   EXPECT_EQ(withheld(), 0u);
@@ -157,13 +157,13 @@ TEST_F(MissingFramesTest, TurnsAreTheSchedules) {
   missed(7, 0, 2, kSecondTalker);
   lost(9, 2, 0, 2);  // 7 and 5
   EXPECT_EQ(withheld(), 2u);
-  told_.pop_back();
+  reported_.pop_back();
   lost(9, 1, 0, 2);  // 7
   EXPECT_EQ(withheld(), 1u);
-  told_.pop_back();
+  reported_.pop_back();
   lost(9, 1, 0, 2, 0, kSecondTalker);  // the sender in 7 misses 5
   EXPECT_EQ(withheld(kSecondTalker), 1u);
-  told_.pop_back();
+  reported_.pop_back();
   lost(13, 1, 0, 2);  // 11
   EXPECT_EQ(withheld(), 0u);
 }
@@ -180,7 +180,7 @@ TEST_F(MissingFramesTest, ASenderThatRestarted) {
   lost(1003, 3, -7 * 64, 1, 0, kSecondTalker);
   EXPECT_EQ(withheld(kSecondTalker), 2u);
   // The same running cycle long before is another turn.
-  told_.clear();
+  reported_.clear();
   missed(40);
   lost(1001, 1, -15 * 64);  // 1000 was its cycle 40
   EXPECT_EQ(withheld(), 0u);
@@ -192,14 +192,14 @@ TEST_F(MissingFramesTest, MoreThanARound) {
   missed(400);
   lost(350, 200);  // 150 to 349
   EXPECT_EQ(withheld(), 150u);
-  told_.pop_back();
+  reported_.pop_back();
   lost(350, 64);  // 286 to 349
   EXPECT_EQ(withheld(), 14u);
-  told_.pop_back();
+  reported_.pop_back();
   lost(350, 65);
   EXPECT_EQ(withheld(), 15u);
   // A slot with a turn in every second cycle.
-  told_.clear();
+  reported_.clear();
   for (std::int64_t cycle = 1; cycle < 200; cycle += 4) missed(cycle, 0, 2);
   lost(203, 100, 0, 2);  // 201, 199, ..., 3: of each second one sender missed 5, 9, ..., 197
   EXPECT_EQ(withheld(), 49u);
@@ -209,12 +209,12 @@ TEST_F(MissingFramesTest, MoreThanARound) {
 TEST_F(MissingFramesTest, AStoppedProcessReportsItLater) {
   for (std::int64_t cycle = 10; cycle < 13; ++cycle) {
     missed(cycle);
-    told_.back().late += Duration{150 * kTurnNs};
-    told_.back().stamp.true_time += Duration{150 * kTurnNs};
+    reported_.back().late += Duration{150 * kTurnNs};
+    reported_.back().stamp.true_time += Duration{150 * kTurnNs};
   }
   lost(13, 3);
-  told_.back().late = Duration{99 * kTurnNs};
-  told_.back().stamp.true_time += Duration{99 * kTurnNs};
+  reported_.back().late = Duration{99 * kTurnNs};
+  reported_.back().stamp.true_time += Duration{99 * kTurnNs};
   EXPECT_EQ(withheld(), 3u);
 }
 
@@ -222,8 +222,8 @@ TEST_F(MissingFramesTest, AStoppedProcessReportsItLater) {
 TEST_F(MissingFramesTest, AStretchedRun) {
   scale_ppm_ = 10'000'000;
   missed(10);
-  told_.back().late += Duration{1500 * kTurnNs};
-  told_.back().stamp.true_time += Duration{150 * kTurnNs};
+  reported_.back().late += Duration{1500 * kTurnNs};
+  reported_.back().stamp.true_time += Duration{150 * kTurnNs};
   lost(11, 1);
   EXPECT_EQ(withheld(), 1u);
 }
@@ -240,7 +240,7 @@ TEST_F(MissingFramesTest, ASenderThatWasAwaySentNothing) {
   EXPECT_EQ(withheld(), 1u);
   EXPECT_EQ(away(), 2u);  // 13 and 14; 11 was lost on the way
   // Before the first and behind the last frame the state is unknown.
-  told_.clear();
+  reported_.clear();
   lost(10, 3);
   lost(20, 3);
   EXPECT_EQ(away(), 0u);
@@ -252,11 +252,11 @@ TEST_F(MissingFramesTest, ASenderThatIsAwayWhileItRestartsCountsAnew) {
   lost(642, 34, 3 * 64);  // 608 to 641: 608, 609, 640 and 641 were sent
   EXPECT_EQ(away(), 30u);
   // A receiver that was stopped noticed long after.
-  told_.back().stamp.true_time += Duration{200 * kTurnNs};
-  told_.back().late = Duration{200 * kTurnNs};
+  reported_.back().stamp.true_time += Duration{200 * kTurnNs};
+  reported_.back().late = Duration{200 * kTurnNs};
   EXPECT_EQ(away(), 30u);
   // It may be wrong by some cycles: the counter gives the turn.
-  told_.back().stamp.true_time += Duration{20 * kTurnNs};
+  reported_.back().stamp.true_time += Duration{20 * kTurnNs};
   EXPECT_EQ(away(), 30u);
 }
 
@@ -284,21 +284,21 @@ TEST_F(MissingFramesTest, OneTurnCountsOnce) {
 TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
   for (std::uint32_t draw = 0; draw < 50; ++draw) {
     RandomStream stream({.seed = 9, .purpose = Purpose::kTest, .index = draw});
-    told_.clear();
+    reported_.clear();
     sent_.clear();
     const std::int64_t ahead = 64 * stream.integer(-20, 20), behind = 64 * stream.integer(-20, 20);
     std::uint64_t expected = 0, expected_away = 0, gap = 0, withheld_in_gap = 0, away_in_gap = 0;
-    bool heard = false;
+    bool received = false;
     for (std::int64_t cycle = 0; cycle < 400; ++cycle) {
       const std::int64_t fate = stream.integer(0, 4);
       if (fate >= 2) sent(cycle, ahead);  // 2: and was lost
       if (fate >= 3) {
-        if (heard && gap > 0) {
+        if (received && gap > 0) {
           lost(cycle, static_cast<std::uint32_t>(gap), behind);
           expected += withheld_in_gap;
           expected_away += away_in_gap;
         }
-        heard = true;
+        received = true;
         gap = withheld_in_gap = away_in_gap = 0;
         continue;
       }
@@ -307,8 +307,9 @@ TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
       withheld_in_gap += fate == 0 ? 1 : 0;
       away_in_gap += fate == 1 ? 1 : 0;
     }
-    for (std::size_t i = told_.size(); i > 1; --i)
-      std::swap(told_[i - 1], told_[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
+    for (std::size_t i = reported_.size(); i > 1; --i)
+      std::swap(reported_[i - 1],
+                reported_[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
     EXPECT_EQ(withheld(), expected) << draw;
     EXPECT_EQ(away(), expected_away) << draw;
     EXPECT_GT(std::min(expected, expected_away), 30u);
@@ -324,8 +325,8 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
     for (const std::int64_t late : {-kFar - 1, kFar}) {
       miss.stamp.true_time.ns = far;
       miss.late.ns = loss.late.ns = late;
-      told_.push_back(miss);
-      told_.push_back(loss);
+      reported_.push_back(miss);
+      reported_.push_back(loss);
     }
     sent(0);
     sent_.back().stamp.true_time.ns = far;
@@ -336,12 +337,12 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
     EXPECT_LE(withheld(), 6u * 6u);  // at most the missed ones for each loss
     EXPECT_LE(away(), 6 * std::uint64_t{std::numeric_limits<std::uint32_t>::max()});
   }
-  told_ = {of(kTalker, recording::records::TimingFault::kSlotMissed, 7, 1, 1),
-           of(kListener, recording::records::TimingFault::kFramesLost, 7, 2, 2)};
+  reported_ = {of(kTalker, recording::records::TimingFault::kSlotMissed, 7, 1, 1),
+               of(kListener, recording::records::TimingFault::kFramesLost, 7, 2, 2)};
   EXPECT_EQ(withheld(), 0u) << "a slot that nobody has";
   const schedules::model::Cluster nothing;
   MissingFrames frames(nothing, 1'000'000);
-  for (const auto& problem : told_) frames.add(problem);
+  for (const auto& problem : reported_) frames.add(problem);
   EXPECT_EQ(frames.by_receiver().at(kListener).withheld, 0u);
 }
 

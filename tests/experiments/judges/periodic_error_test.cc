@@ -95,7 +95,7 @@ Round drawn_round(RandomStream& draws) {
 
 // The recursion of experiments/sweep fuses all lists that a use rests on, one by one, from a poor beginning on. Lists of
 // many rounds ago do not matter any more.
-TEST(PeriodicError, IsThatOfAllListsThatTheUseKnows) {
+TEST(PeriodicError, IsThatOfAllListsThatTheUseRestsOn) {
   RandomStream draws({11});
   for (int draw = 0; draw < 40; ++draw) {
     const Round round = drawn_round(draws);

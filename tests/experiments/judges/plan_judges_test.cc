@@ -12,7 +12,7 @@
 #include "schedules/analysis/clock_bounds.h"
 #include "schedules/check/checker.h"
 #include "schedules/exchange/cluster_yaml.h"
-#include "schedules/synthesis/instants/judging/meetings.h"
+#include "schedules/synthesis/instants/judging/chain_ends.h"
 #include "schedules/synthesis/instants/judging/moves.h"
 #include "schedules/synthesis/instants/placement.h"
 #include "schedules/synthesis/instants/synthesize.h"
@@ -205,8 +205,8 @@ TEST(ErrorOfAPlan, OdometryDoesNotCount) {
     return plan.cluster.sensor(chain.from).kind == schedules::model::SensorKind::kOdometry;
   }));
   const Synthesis made = made_of(plan);
-  for (const auto& meeting : judging::meetings(plan, made.cluster))
-    for (const auto& one : meeting.met)
+  for (const auto& chain_end : judging::chain_ends(plan, made.cluster))
+    for (const auto& one : chain_end.first_uses)
       EXPECT_NE(plan.cluster.sensor(plan.chains[one.chain].from).kind, schedules::model::SensorKind::kOdometry);
   EXPECT_GT(made.reached[0].value, 0.0);
   EXPECT_LE(made.reached[0].bound, made.reached[0].value);
@@ -264,7 +264,7 @@ TEST(SecondJudge, BoundsAllMovesOfMeasurements) {
       if (placed)
         least = std::min(
             least,
-            error.of(judging::meetings(plan, read->reading.problem, 1'000'000, placed->solution.offsets), {1.0}));
+            error.of(judging::chain_ends(plan, read->reading.problem, 1'000'000, placed->solution.offsets), {1.0}));
     }
   EXPECT_LE(made.reached[1].bound, least);
   EXPECT_LE(made.reached[1].bound, made.reached[1].value);

@@ -208,7 +208,7 @@ TEST_F(StoreTest, ALockIsWaitedFor) {
   EXPECT_EQ(store.count(), 1u);
 }
 
-TEST_F(StoreTest, ALockThatStaysIsToldAndLosesNothing) {
+TEST_F(StoreTest, ALockThatStaysIsReportedAndLosesNothing) {
   Store store = Store::create(path(), head_);
   store.add({first_});
   const auto words = [&] {
@@ -281,7 +281,7 @@ class ReadOnly {
 };
 
 // The index is lost, and cannot be made there.
-TEST_F(StoreTest, AKilledWritersRowsInAFolderThatCannotBeWrittenAreToldOf) {
+TEST_F(StoreTest, AKilledWritersRowsInAFolderThatCannotBeWrittenAreReported) {
   write_and_die(path(), head_, {first_, second_});
   std::filesystem::remove(path() + "-shm");
   const ReadOnly read_only(folder_);

@@ -269,9 +269,9 @@ TEST(ExpectedDrive, ADrawnLengthShiftsTheCentre) {
   EXPECT_NEAR(added("normal", "0"), quarter, 1e-3 * quarter);
   EXPECT_NEAR(added("uniform", "0"), 0.25 * (1.22 * 1.22 / 12.0 + 0.25 * 0.25), 1e-9) << "the prior is off by 0.25 m";
   // Thirty widths of 0.05 m give 96 % or more of an exact one.
-  const double told = added("normal", "0.82");
-  EXPECT_GT(told, (1.0 - 0.82 * 0.82) * quarter);
-  EXPECT_LT(told, (1.0 - 0.96 * 0.82 * 0.82) * quarter);
+  const double reported = added("normal", "0.82");
+  EXPECT_GT(reported, (1.0 - 0.82 * 0.82) * quarter);
+  EXPECT_LT(reported, (1.0 - 0.96 * 0.82 * 0.82) * quarter);
 }
 
 // A returning fusion node has forgotten widths, too.

@@ -74,7 +74,7 @@ TEST(ExpectedSize, OfOneWidthItIsTheProductByTheSum) {
 }
 
 // With the prior of the draws, an exact width leaves (1 - correlation^2) of the length's variance.
-TEST(ExpectedSize, AWidthTellsOfTheLengthByTheCorrelation) {
+TEST(ExpectedSize, AWidthCorrectsTheLengthByTheCorrelation) {
   for (const double correlation : {0.0, 0.5, 0.82, 1.0}) {
     const SizeMoments moments = moments_of(SizeConfig{.draw = SizeDraw::kNormal, .correlation = correlation}, {});
     SizeRecursion recursion(moments, moments);

@@ -164,12 +164,12 @@ struct Judged {
   int images = 0, objects = 0;
   double speed = 0.0;  // [m/s], mean error of the velocity
 };
-Judged judge_moving(StrategyKind kind, std::uint32_t drives, const config::TrackerConfig* told = nullptr) {
+Judged judge_moving(StrategyKind kind, std::uint32_t drives, const config::TrackerConfig* reported = nullptr) {
   static const Vehicle kVehicle(6.0);
   Judged judged;
   for (std::uint32_t replication = 0; replication < drives; ++replication) {
     Moving drive = drawn_moving(replication, 4000, 5);
-    if (told) drive.config = *told;
+    if (reported) drive.config = *reported;
     const auto strategy = make_strategy(kind, drive.config, laser_and_camera());
     std::vector<tracks::TrackView> image;
     run_moving(*strategy, drive, 4000, [&](std::int64_t now, const EgoPath& path) {

@@ -299,7 +299,7 @@ TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
   }
 }
 
-TEST(TrackerConfig, OtherMethodsThanRewindingKnowOneWayToAssociate) {
+TEST(TrackerConfig, OtherMethodsThanRewindingHaveOneWayToAssociate) {
   for (const std::string other : {"association: jpda", "birth: existence", "merge_probability: 0.9"}) {
     EXPECT_EQ(load(other + "\nlate: rewind\n").late, oosm::Kind::kRewind);
     std::vector<std::string> sentences;

@@ -46,7 +46,7 @@ std::vector<Row> read_rows(const std::string& path) {
 }
 
 // A motion model's parameters, and the limits of its error [m, m/s].
-struct Told {
+struct Reported {
   const char* name;
   config::MotionModel motion;
   config::FilterKind filter;
@@ -60,7 +60,7 @@ const linear::Vector<4> kExtendedLimits{0.11, 0.11, 0.52, 0.52}, kUnscentedLimit
 // 5 m/s and up to 0.55 rad/s: accelerations of 2.8 m/s^2, reached within seconds, last for seconds. On bends
 // the densities give the likeliest innovations (tests/fusion/filters/laser_radar_test.cc). One of
 // the interacting models drives straight on.
-const Told kTold[] = {
+const Reported kReported[] = {
     {"ConstantVelocity", config::MotionModel::kConstantVelocity, config::FilterKind::kExtended, 4.0, kExtendedLimits},
     {"ConstantAcceleration", config::MotionModel::kConstantAcceleration, config::FilterKind::kExtended, 2.0,
      kExtendedLimits},
@@ -70,8 +70,8 @@ const Told kTold[] = {
     {"CtraUnscented", config::MotionModel::kCtra, config::FilterKind::kUnscented, 0.01, kUnscentedLimits},
     {"Interacting", config::MotionModel::kInteracting, config::FilterKind::kUnscented, 0.01, kUnscentedLimits}};
 
-config::TrackerConfig config_for(const Told& told) {
-  config::TrackerConfig config = config_of(told.motion, told.process_noise, told.filter);
+config::TrackerConfig config_for(const Reported& reported) {
+  config::TrackerConfig config = config_of(reported.motion, reported.process_noise, reported.filter);
   config.turn_noise = 0.01;
   config.confirm_hits = 1;
   config.confirm_window = 1;
@@ -79,7 +79,7 @@ config::TrackerConfig config_for(const Told& told) {
   return config;
 }
 
-class Recorded : public testing::TestWithParam<Told> {
+class Recorded : public testing::TestWithParam<Reported> {
  protected:
   void SetUp() override {
     const std::string name = "laser_radar/measurements.txt";
@@ -91,7 +91,7 @@ class Recorded : public testing::TestWithParam<Told> {
   const std::vector<SensorTiming> sensors{{SensorId{0}, Settling::after(Duration::milliseconds(10)), false, {}, {}},
                                           {SensorId{1}, Settling::after(Duration::milliseconds(70)), false, {}, {}}};
 };
-INSTANTIATE_TEST_SUITE_P(Models, Recorded, testing::ValuesIn(kTold),
+INSTANTIATE_TEST_SUITE_P(Models, Recorded, testing::ValuesIn(kReported),
                          [](const auto& model) { return std::string(model.param.name); });
 
 TEST_P(Recorded, FollowsTheVehicle) {

@@ -6,7 +6,7 @@
 namespace ttf::fusion::tracks {
 namespace {
 
-sensors::Observation told(sensors::ClassId what, double score) {
+sensors::Observation reported(sensors::ClassId what, double score) {
   sensors::Observation observation;
   observation.class_id = what;
   observation.score = score;
@@ -17,17 +17,17 @@ TEST(Unfiltered, TheLargestSumCountsAndOfEqualOnesTheFirst) {
   Unfiltered unfiltered;
   EXPECT_EQ(unfiltered.classes.best(), sensors::kNoClass);
   EXPECT_EQ(unfiltered.classes.share(), 0.0);
-  carry(unfiltered, told(sensors::ClassId{3}, 0.0));
+  carry(unfiltered, reported(sensors::ClassId{3}, 0.0));
   EXPECT_EQ(unfiltered.classes.best(), sensors::kNoClass) << "a score of zero tells nothing";
-  carry(unfiltered, told(sensors::ClassId{15}, 0.5));
+  carry(unfiltered, reported(sensors::ClassId{15}, 0.5));
   EXPECT_EQ(unfiltered.classes.best(), sensors::ClassId{15});
-  carry(unfiltered, told(sensors::ClassId{2}, 0.25));
-  carry(unfiltered, told(sensors::ClassId{2}, 0.25));
+  carry(unfiltered, reported(sensors::ClassId{2}, 0.25));
+  carry(unfiltered, reported(sensors::ClassId{2}, 0.25));
   EXPECT_EQ(unfiltered.classes.best(), sensors::ClassId{2}) << "of equal sums the first";
   EXPECT_EQ(unfiltered.classes.share(), 0.5);
-  carry(unfiltered, told(sensors::kNoClass, 7.0));
+  carry(unfiltered, reported(sensors::kNoClass, 7.0));
   EXPECT_EQ(unfiltered.classes.share(), 0.5);
-  carry(unfiltered, told(sensors::ClassId{15}, 1.0));
+  carry(unfiltered, reported(sensors::ClassId{15}, 1.0));
   EXPECT_EQ(unfiltered.classes.best(), sensors::ClassId{15});
   EXPECT_EQ(unfiltered.classes.share(), 0.75);
 }

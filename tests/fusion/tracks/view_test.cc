@@ -19,7 +19,7 @@ Track moving_track(double vx, double vy, double sigma_v) {
   return track;
 }
 
-TEST(View, CourseTellsTheHeadingOfWhatMoves) {
+TEST(View, CourseGivesTheHeadingOfAMovingTrack) {
   const Track track = moving_track(-3.0, 4.0, 0.5);
   const TrackView view = shown(track, at_ms(0), at_ms(0));
   EXPECT_NEAR(view.heading, std::atan2(4.0, -3.0), 1e-12);
@@ -28,7 +28,7 @@ TEST(View, CourseTellsTheHeadingOfWhatMoves) {
   EXPECT_NEAR(view.sigma_speed, 0.5, 1e-12);
 }
 
-TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
+TEST(View, AxisGivesTheHeadingOfAStandingTrackAndCourseGivesItsFront) {
   Track standing = moving_track(0.01, 0.0, 0.5);
   standing.heading = {{2.0, 0.01, true}};
   EXPECT_NEAR(shown(standing, at_ms(0), at_ms(0)).heading, 2.0, 1e-12);

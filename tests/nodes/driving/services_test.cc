@@ -234,17 +234,17 @@ TEST(ActuatorWithLateral, EachAppliedRecordHasWhatWasHandedOver) {
       if (execution % 5 == 0) wheels.command("emergency", -8.0, 0.3);
       if (execution < 8 && execution % 3 != 1) wheels.command("lateral", -5.0, 0.001 * execution);
       const auto actuation = wheels.run(wheels.step);
-      bool told = false;
+      bool reported = false;
       for (const CommandTaken& taken : wheels.taken) {
         if (taken.verdict != CommandVerdict::kApplied) continue;
         ASSERT_TRUE(actuation) << execution;
         EXPECT_EQ(taken.from, actuation->from);
         EXPECT_EQ(taken.acceleration, actuation->acceleration) << execution;
         EXPECT_EQ(taken.steering, actuation->steering) << execution;
-        told = true;
+        reported = true;
       }
-      EXPECT_EQ(told, actuation.has_value()) << execution;
-      compared += told;
+      EXPECT_EQ(reported, actuation.has_value()) << execution;
+      compared += reported;
     }
     EXPECT_GT(compared, 12u);
   }

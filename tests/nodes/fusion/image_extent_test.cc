@@ -14,7 +14,7 @@ namespace {
 using sim::drives::Drive;
 
 // A size in the image, from the instant on at which drives are judged.
-struct Told {
+struct Reported {
   int uses = 0, known = 0, outside_3 = 0;
   double error_squares = 0.0, normalised_squares = 0.0;
   void add(bool is_known, double error, double sigma) {
@@ -32,7 +32,7 @@ struct Sizes final : recording::records::Sink {
   TrueTime from{};
   std::vector<recording::records::FeatureObject> objects;
   TrueTime used_at{-1};
-  Told length, width;
+  Reported length, width;
 
   void on(const recording::records::FeatureUsed& used) override {
     objects.assign(used.objects.begin(), used.objects.end());
@@ -61,10 +61,10 @@ Sizes driven(Drive drive) {
 }
 
 // Sizes hardly change from use to use, so samples are far from independent.
-void expect_honest(const Told& told) {
-  EXPECT_GT(told.uses, 500);
-  EXPECT_LE(told.normalised_squares, 1.6 * told.known + 10.0);
-  EXPECT_LE(told.outside_3, 0.01 * told.uses);
+void expect_honest(const Reported& reported) {
+  EXPECT_GT(reported.uses, 500);
+  EXPECT_LE(reported.normalised_squares, 1.6 * reported.known + 10.0);
+  EXPECT_LE(reported.outside_3, 0.01 * reported.uses);
 }
 
 class ImageExtent : public testing::TestWithParam<ttf::fusion::strategies::StrategyKind> {};

@@ -27,7 +27,7 @@ struct CameraHost {
   bus::NoPort port;
   NoCan can;
   NoLines lines;
-  Runs heard;
+  Runs recorded;
   std::unique_ptr<Executive> executive;
   Microticks now{1000};
 
@@ -40,7 +40,7 @@ struct CameraHost {
         config,
         std::vector<std::shared_ptr<Step>>{std::make_shared<sensors::stereo_camera::CameraPreprocessing>(
             cluster, task, sensors::stereo_camera::CameraCalibration{})},
-        &port, std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
+        &port, std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, recorded);
   }
   void wait(Duration duration) {
     const Microticks end = now + Microticks{duration.ns / 25};
@@ -57,7 +57,8 @@ struct CameraHost {
     executive->receive_can(camera_can, {272, false, raw.view().bytes}, now);
   }
   long hops(recording::records::Hop what) const {
-    return std::count_if(heard.hops.begin(), heard.hops.end(), [&](const Runs::Hop& h) { return h.what == what; });
+    return std::count_if(recorded.hops.begin(), recorded.hops.end(),
+                         [&](const Runs::Hop& h) { return h.what == what; });
   }
 };
 
@@ -83,7 +84,7 @@ TEST(ExecutiveLists, AListWithoutAStrobeIsDiscardedCountedAndRecorded) {
   EXPECT_EQ(host.hops(recording::records::Hop::kRead), 1);
   EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 0);
   ASSERT_EQ(host.hops(recording::records::Hop::kDiscarded), 1);
-  EXPECT_EQ(host.heard.hops.back().sequence, 1u);
+  EXPECT_EQ(host.recorded.hops.back().sequence, 1u);
   EXPECT_EQ(host.executive->counts().discarded_lists, 1u);
   host.executive->strobe(host.camera, 2, host.now);
   host.frame(2);
@@ -105,8 +106,8 @@ TEST(ExecutiveLists, TheDevicesRestartIsNoReasonToDiscard) {
   for (std::uint32_t k = 0; k < 3; ++k) measured(k);
   EXPECT_EQ(host.hops(recording::records::Hop::kDiscarded), 0);
   EXPECT_EQ(host.hops(recording::records::Hop::kWritten), 4);
-  EXPECT_EQ(host.heard.hops.back().what, recording::records::Hop::kWritten);
-  EXPECT_EQ(host.heard.hops.back().sequence, 2u) << "under the device's own number";
+  EXPECT_EQ(host.recorded.hops.back().what, recording::records::Hop::kWritten);
+  EXPECT_EQ(host.recorded.hops.back().sequence, 2u) << "under the device's own number";
 }
 
 // During start-up a host has only a local clock, which means nothing to others.

@@ -16,17 +16,17 @@ using Ran = Runs::Run;
 TEST(Executive, TasksStartAtTheInstantsOfTheSchedule) {
   OneNode node({at(300, task("third", 10)), at(100, task("first", 10)), at(200, task("second", 10), 2)});
   node.run_to(2, 0);
-  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{1, 100, 100, 110, true},
-                                               {2, 200, 200, 210, true},
-                                               {0, 300, 300, 310, true},
-                                               {1, 1100, 1100, 1110, true},
-                                               {0, 1300, 1300, 1310, true}}));
+  EXPECT_EQ(node.recorded.runs, (std::vector<Ran>{{1, 100, 100, 110, true},
+                                                  {2, 200, 200, 210, true},
+                                                  {0, 300, 300, 310, true},
+                                                  {1, 1100, 1100, 1110, true},
+                                                  {0, 1300, 1300, 1310, true}}));
 }
 
 TEST(Executive, AChainRunsLinkByLinkEachAtTheEndOfTheLast) {
   OneNode node({after("b", task("c", 30)), at(100, task("a", 10)), after("a", task("b", 20))});
   node.run_to(1, 0);
-  EXPECT_EQ(node.heard.runs,
+  EXPECT_EQ(node.recorded.runs,
             (std::vector<Ran>{{1, 100, 100, 110, true}, {2, 110, 110, 130, true}, {0, 130, 130, 160, true}}));
 }
 
@@ -36,7 +36,7 @@ TEST(Executive, AChainRunsLinkByLinkEachAtTheEndOfTheLast) {
 TEST(Executive, HasOneProcessorAndStartsInOrderOfActivation) {
   OneNode node({at(120, task("c", 10)), at(110, task("b", 20)), at(100, task("a", 50))});
   node.run_to(1, 0);
-  EXPECT_EQ(node.heard.runs,
+  EXPECT_EQ(node.recorded.runs,
             (std::vector<Ran>{{2, 100, 100, 150, true}, {1, 110, 150, 170, true}, {0, 120, 170, 180, true}}));
 }
 
@@ -46,7 +46,7 @@ TEST(Executive, OfOneInstantTheEarlierInTheFileIsFirstWhateverActivatesIt) {
     OneNode node(std::move(tasks));
     node.run_to(1, 0);
     std::vector<int> started;
-    for (const Ran& run : node.heard.runs)
+    for (const Ran& run : node.recorded.runs)
       if (run.activated == 150) started.push_back(run.task);
     return started;
   };
@@ -62,16 +62,16 @@ TEST(Executive, OfOneInstantTheEarlierInTheFileIsFirstWhateverActivatesIt) {
 TEST(Executive, TheFileDecidesTiesOnly) {
   OneNode node({at(120, task("later", 5)), at(110, task("earlier", 5)), at(100, task("busy", 50))});
   node.run_to(1, 0);
-  ASSERT_EQ(node.heard.runs.size(), 3u);
-  EXPECT_EQ(node.heard.runs[1].task, 1);
+  ASSERT_EQ(node.recorded.runs.size(), 3u);
+  EXPECT_EQ(node.recorded.runs[1].task, 1);
 }
 
-TEST(Executive, AnActivationThatMeetsAWaitingOneIsAnOverrun) {
+TEST(Executive, AnActivationOnTopOfAWaitingOneIsAnOverrun) {
   // Busy for 2.5 cycles from 100 on. Two of the activations at 200, 1200, 2200 meet the first, still waiting.
   OneNode node({at(100, task("busy", 2500), 4), at(200, task("short", 10))});
   node.run_to(3, 0);
   EXPECT_EQ(node.executive->counts().overruns, 2u);
-  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{0, 100, 100, 2600, true}, {1, 200, 2600, 2610, true}}));
+  EXPECT_EQ(node.recorded.runs, (std::vector<Ran>{{0, 100, 100, 2600, true}, {1, 200, 2600, 2610, true}}));
 }
 
 TEST(Executive, AMissedDeadlineIsRecordedAndCounted) {
@@ -79,7 +79,7 @@ TEST(Executive, AMissedDeadlineIsRecordedAndCounted) {
       {at(100, task("a", 50, 50)), at(110, task("b", 20, 59)), at(300, task("c", 60, 59)), at(500, task("d", 0, 0))});
   node.run_to(1, 0);
   EXPECT_EQ(
-      node.heard.runs,
+      node.recorded.runs,
       (std::vector<Ran>{
           {0, 100, 100, 150, true}, {1, 110, 150, 170, false}, {2, 300, 300, 360, false}, {3, 500, 500, 500, true}}))
       << "a deadline counts from the activation, waiting included, and is met on the tick";
@@ -94,10 +94,10 @@ TEST(Executive, ExecutionTimesAreDrawnBetweenTheirBoundsAlikeForASeed) {
   OneNode first({drawn}), second({drawn});
   first.run_to(200, 0);
   second.run_to(200, 0);
-  ASSERT_EQ(first.heard.runs.size(), 200u);
-  EXPECT_EQ(first.heard.runs, second.heard.runs);
+  ASSERT_EQ(first.recorded.runs.size(), 200u);
+  EXPECT_EQ(first.recorded.runs, second.recorded.runs);
   const auto [shortest, longest] =
-      std::minmax_element(first.heard.runs.begin(), first.heard.runs.end(),
+      std::minmax_element(first.recorded.runs.begin(), first.recorded.runs.end(),
                           [](const Ran& a, const Ran& b) { return a.end - a.start < b.end - b.start; });
   EXPECT_GE(shortest->end - shortest->start, 100);
   EXPECT_LT(shortest->end - shortest->start, 110);
@@ -115,12 +115,12 @@ TEST(Executive, OutputsBecomeVisibleAtTheEnd) {
   });
   OneNode node({writer}, {write});
   node.run_to(0, 139);
-  EXPECT_TRUE(node.heard.hops.empty());
+  EXPECT_TRUE(node.recorded.hops.empty());
   node.run_to(0, 140);
-  ASSERT_EQ(node.heard.hops.size(), 1u);
-  EXPECT_EQ(node.heard.hops[0].what, recording::records::Hop::kWritten);
-  EXPECT_EQ(node.heard.hops[0].sequence, 7u);
-  EXPECT_EQ(node.heard.hops[0].at, 140);
+  ASSERT_EQ(node.recorded.hops.size(), 1u);
+  EXPECT_EQ(node.recorded.hops[0].what, recording::records::Hop::kWritten);
+  EXPECT_EQ(node.recorded.hops[0].sequence, 7u);
+  EXPECT_EQ(node.recorded.hops[0].at, 140);
 }
 
 }  // namespace

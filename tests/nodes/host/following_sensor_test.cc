@@ -33,7 +33,7 @@ struct OneEnd {
   bus::NoPort port;
   SilentCan can;
   Lines lines;
-  Runs heard;
+  Runs recorded;
   std::unique_ptr<Executive> executive;
   Microticks now{1000};
 
@@ -53,7 +53,7 @@ struct OneEnd {
                                  {}};
     executive = std::make_unique<Executive>(
         config, std::vector<std::shared_ptr<Step>>{std::make_shared<Scripted>()}, on_flexray ? &port : nullptr,
-        std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
+        std::vector<bus::ports::CanPort*>(cluster.can_buses.size(), &can), lines, recorded);
   }
   static Microticks ms(double time) { return {static_cast<std::int64_t>(time * 40'000)}; }
   void run_to(Microticks end) {

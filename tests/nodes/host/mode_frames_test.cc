@@ -84,7 +84,7 @@ TEST(ModesOfANode, BeginAtTheirInstantsAndLastAsTheyShould) {
     const std::int64_t from = 1000 * cycle + 100;
     return Run{0, from, from, from + 1000 * ms, true};
   };
-  EXPECT_EQ(node.heard.runs,
+  EXPECT_EQ(node.recorded.runs,
             (std::vector<Run>{run(1, 3), run(5, 1), run(7, 3), run(11, 1), run(13, 1), run(15, 1), run(17, 3)}));
   ASSERT_EQ(seen.size(), 8u);
   EXPECT_EQ(seen[4], (ModeTurn{1, 0}));
@@ -106,8 +106,8 @@ TEST(ModesOfANode, AreLateAsTheirExecutionsSay) {
   wanted = 0;
   node.run_to(9);
   EXPECT_EQ(node.executive->counts().deadlines_missed, 1u);
-  ASSERT_GE(node.heard.runs.size(), 3u);
-  EXPECT_FALSE(node.heard.runs[2].deadline_met);
+  ASSERT_GE(node.recorded.runs.size(), 3u);
+  EXPECT_FALSE(node.recorded.runs[2].deadline_met);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ struct OneNode {
   schedules::model::Cluster cluster = bus::small_cluster(4);
   bus::NoPort port;
   NoLines lines;
-  Runs heard;
+  Runs recorded;
   std::unique_ptr<Executive> executive;
 
   explicit OneNode(std::vector<schedules::model::Task> tasks, std::vector<std::shared_ptr<Step>> steps = {}) {
@@ -88,8 +88,8 @@ struct OneNode {
     cluster.nodes[0].tasks = std::move(tasks);
     const ExecutiveConfig config{
         &cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), bus::controller::InitialClock{{1000}, 0}, 1, 0, {}};
-    executive =
-        std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::ports::CanPort*>{}, lines, heard);
+    executive = std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::ports::CanPort*>{}, lines,
+                                            recorded);
   }
   // From event to event, as an engine does.
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kAllBits = 32;
 
-TEST(StrobeLatch, KnowsTheNewestSixteenMeasurements) {
+TEST(StrobeLatch, HasTheNewestSixteenMeasurements) {
   StrobeLatch latch;
   EXPECT_FALSE(latch.find(0, kAllBits)) << "nothing yet, not even number 0";
   for (std::uint32_t k = 0; k < 40; ++k) {

@@ -58,8 +58,8 @@ struct IdleStep final : Step {
 struct Wired {
   schedules::model::Cluster cluster = bus::small_cluster(1);
   NodeTime time{NodeId{0}, timebase::Oscillator(25'000, 0, 0), nullptr};
-  Hops told;
-  NodeRecords records{cluster, time, told};
+  Hops reported;
+  NodeRecords records{cluster, time, reported};
   Box::Content first, second;
   std::optional<Wiring> wiring;
 
@@ -88,10 +88,10 @@ struct Wired {
 
 using H = recording::records::Hop;
 
-TEST(Wiring, AListActivatesWhomItIsToAndIsToldOnce) {
+TEST(Wiring, AListActivatesWhomItIsToAndIsReportedOnce) {
   Wired wired;
   EXPECT_EQ(wired.comes(kFirst, bus::kList, 1), (std::vector<std::size_t>{0}));
-  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 1, 0}})) << "two tasks read it";
+  EXPECT_EQ(wired.reported.hops, (Hops::All{{H::kReceived, 1, 0}})) << "two tasks read it";
   EXPECT_TRUE(wired.comes(kSecond, kOther, 5).empty()) << "it is read, and activates nobody";
 }
 
@@ -99,12 +99,13 @@ TEST(Wiring, AnUnreadListIsOverwrittenForEachOfItsReaders) {
   Wired wired;
   wired.comes(kFirst, bus::kList, 1);
   EXPECT_TRUE(wired.wiring->read(0, {})[0].fresh);
-  wired.told.hops.clear();
+  wired.reported.hops.clear();
   wired.comes(kFirst, bus::kList, 2);
-  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 2, 0}, {H::kOverwritten, 1, 0}})) << "task 1 has not read it";
-  wired.told.hops.clear();
+  EXPECT_EQ(wired.reported.hops, (Hops::All{{H::kReceived, 2, 0}, {H::kOverwritten, 1, 0}}))
+      << "task 1 has not read it";
+  wired.reported.hops.clear();
   wired.comes(kFirst, bus::kList, 3);
-  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 3, 0}, {H::kOverwritten, 2, 0}, {H::kOverwritten, 2, 0}}));
+  EXPECT_EQ(wired.reported.hops, (Hops::All{{H::kReceived, 3, 0}, {H::kOverwritten, 2, 0}, {H::kOverwritten, 2, 0}}));
   EXPECT_EQ(wired.records.counts().overwritten_lists, 3u);
 }
 
@@ -112,10 +113,10 @@ TEST(Wiring, WhereOnlyTheNewestListCountsAnOverwrittenOneIsNoLoss) {
   Wired wired(true, true, true);
   wired.comes(kFirst, bus::kList, 1);
   wired.comes(kFirst, bus::kList, 2);
-  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kReceived, 1, 0}, {H::kReceived, 2, 0}}));
+  EXPECT_EQ(wired.reported.hops, (Hops::All{{H::kReceived, 1, 0}, {H::kReceived, 2, 0}}));
 }
 
-TEST(Wiring, ATaskIsGivenWhatItReadsAndItsUnusableInputsAreTold) {
+TEST(Wiring, ATaskIsGivenWhatItReadsAndItsUnusableInputsAreReported) {
   Wired wired;
   wired.comes(kFirst, bus::kList, 1);
   const std::span<Input> inputs = wired.wiring->read(1, {});
@@ -124,8 +125,8 @@ TEST(Wiring, ATaskIsGivenWhatItReadsAndItsUnusableInputsAreTold) {
   ASSERT_TRUE(inputs[1].fresh);
   EXPECT_EQ(inputs[1].list->sequence, 1u);
   inputs[1].discarded = true;
-  wired.wiring->tell_discarded(1, {});
-  EXPECT_EQ(wired.told.hops.back(), (Hops::Hop{H::kDiscarded, 1, 0}));
+  wired.wiring->report_discarded(1, {});
+  EXPECT_EQ(wired.reported.hops.back(), (Hops::Hop{H::kDiscarded, 1, 0}));
   EXPECT_EQ(wired.records.counts().discarded_lists, 1u);
 }
 
@@ -144,14 +145,14 @@ TEST(Wiring, AnOutputLeavesOverItsMediumOnce) {
   wired.wiring->write(0, {});
   wired.wiring->write(0, {});
   EXPECT_EQ(wired.second.sent, (std::vector<std::uint32_t>{9}));
-  EXPECT_EQ(wired.told.hops, (Hops::All{{H::kWritten, 9, 1}}));
+  EXPECT_EQ(wired.reported.hops, (Hops::All{{H::kWritten, 9, 1}}));
   EXPECT_TRUE(wired.first.sent.empty());
 }
 
 TEST(Wiring, TheSameListOverAnotherMediumIsAnotherList) {
   Wired wired;
   EXPECT_TRUE(wired.wiring->arrived({kSecond, bus::kList, bus::cni::ArrivalEffect::kCompleted, 1, {}}, {}).empty());
-  EXPECT_TRUE(wired.told.hops.empty()) << "no task reads it from there";
+  EXPECT_TRUE(wired.reported.hops.empty()) << "no task reads it from there";
 }
 
 // A task can neither read from nor write to a medium without its node.

@@ -17,7 +17,7 @@ namespace {
 using bus::ports::LiveArrival;
 using schedules::model::Channel;
 
-struct Told final : ArrivalEvents {
+struct Reported final : ArrivalEvents {
   struct Missed {
     std::int64_t cycle;
     int slot;
@@ -26,7 +26,7 @@ struct Told final : ArrivalEvents {
   std::vector<std::int64_t> behind;
   std::vector<Missed> missed;
   std::vector<std::uint32_t> lost_counts;
-  Told() {
+  Reported() {
     behind.reserve(64);
     missed.reserve(64);
     lost_counts.reserve(64);
@@ -81,8 +81,8 @@ class ArrivalWindowTest : public testing::Test {
   const schedules::model::Cluster cluster_ =
       schedules::file::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   timebase::CycleClock clock_;
-  Told told_;
-  ArrivalWindow window_{cluster_, *cluster_.find_node("feature"), {Microticks{4000}, Microticks{16'000}}, told_};
+  Reported reported_;
+  ArrivalWindow window_{cluster_, *cluster_.find_node("feature"), {Microticks{4000}, Microticks{16'000}}, reported_};
 };
 
 TEST_F(ArrivalWindowTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
@@ -99,20 +99,20 @@ TEST_F(ArrivalWindowTest, AFrameWithinItsWindowIsHandedOverAtItsActionPoint) {
     EXPECT_EQ(due->reception.end.value, end);
     EXPECT_EQ(due->reception.frame.header.frame_id, 6);
     EXPECT_EQ(due->reception.frame.error, bus::wire::FrameError::kNone);
-    EXPECT_EQ(told_.behind.back(), behind);
+    EXPECT_EQ(reported_.behind.back(), behind);
   }
-  EXPECT_TRUE(told_.missed.empty());
+  EXPECT_TRUE(reported_.missed.empty());
 }
 
 TEST_F(ArrivalWindowTest, AFrameOutsideItsWindowIsReportedAndNotUsed) {
   arrive(6, action_point(6) + 16'001, false);
   arrive(6, action_point(6) - 4001, false);
   EXPECT_FALSE(take(kStart + 1'000'000));
-  ASSERT_EQ(told_.missed.size(), 2u);
-  EXPECT_EQ(told_.missed[0].behind, -4001);
-  EXPECT_EQ(told_.missed[1].behind, 16'001);
-  EXPECT_EQ(told_.missed[0].slot, 6);
-  EXPECT_EQ(told_.missed[0].cycle, kCycle);
+  ASSERT_EQ(reported_.missed.size(), 2u);
+  EXPECT_EQ(reported_.missed[0].behind, -4001);
+  EXPECT_EQ(reported_.missed[1].behind, 16'001);
+  EXPECT_EQ(reported_.missed[0].slot, 6);
+  EXPECT_EQ(reported_.missed[0].cycle, kCycle);
   EXPECT_EQ(window_.held(), 0u);
 }
 
@@ -189,33 +189,33 @@ TEST_F(ArrivalWindowTest, AFrameOfTheNextCycleWaitsForIt) {
   const auto due = take(kStart + 300'000);
   ASSERT_TRUE(due);
   EXPECT_EQ(due->reception.start.value, action_point(1) + kCompensation - 6 * 40 + 30);
-  EXPECT_TRUE(told_.missed.empty());
+  EXPECT_TRUE(reported_.missed.empty());
 }
 
 TEST_F(ArrivalWindowTest, AFrameOfTheCycleBeforeIsLate) {
   arrive(6, action_point(6) - 200'000 + 300'000, false, kCycle - 1);
   EXPECT_FALSE(take(kStart + 1'000'000));
-  ASSERT_EQ(told_.missed.size(), 1u);
-  EXPECT_EQ(told_.missed[0].behind, 300'000);
-  EXPECT_EQ(told_.missed[0].cycle, kCycle - 1);
+  ASSERT_EQ(reported_.missed.size(), 1u);
+  EXPECT_EQ(reported_.missed[0].behind, 300'000);
+  EXPECT_EQ(reported_.missed[0].cycle, kCycle - 1);
 }
 
 TEST_F(ArrivalWindowTest, AMissingFrameIsReportedByTheNextOfItsSlot) {
   arrive_and_take(6, kCycle);
   for (int i = 0; i < 3; ++i) clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 3);
-  EXPECT_EQ(told_.lost_counts, std::vector<std::uint32_t>{2});
+  EXPECT_EQ(reported_.lost_counts, std::vector<std::uint32_t>{2});
   clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 4);
-  EXPECT_EQ(told_.lost_counts.size(), 1u);
+  EXPECT_EQ(reported_.lost_counts.size(), 1u);
 }
 
 // A stopped process finds frames of an earlier round whose cycle counter equals the present one.
 TEST_F(ArrivalWindowTest, AFrameOfTheRoundBeforeIsNotTakenForOneOfThisCycle) {
   arrive(6, action_point(6) - 64 * 200'000, false, kCycle - 64);
   EXPECT_FALSE(take(kStart + 1'000'000));
-  ASSERT_EQ(told_.missed.size(), 1u);
-  EXPECT_EQ(told_.missed[0].cycle, kCycle - 64);
+  ASSERT_EQ(reported_.missed.size(), 1u);
+  EXPECT_EQ(reported_.missed[0].cycle, kCycle - 64);
 }
 
 // The image is sent in one cycle of eight.
@@ -224,14 +224,14 @@ TEST_F(ArrivalWindowTest, ASlotIsMissedOnlyInCyclesThatItIsSentIn) {
   arrive_and_take(22, clock_.cycle());
   for (int i = 0; i < 24; ++i) clock_.next_cycle(0);
   arrive_and_take(22, clock_.cycle());
-  EXPECT_EQ(told_.lost_counts, std::vector<std::uint32_t>{2});
+  EXPECT_EQ(reported_.lost_counts, std::vector<std::uint32_t>{2});
 }
 
 TEST_F(ArrivalWindowTest, ANodeThatWasAwayForLongHasLostNothing) {
   arrive_and_take(6, kCycle);
   for (int i = 0; i < 65; ++i) clock_.next_cycle(0);
   arrive_and_take(6, kCycle + 65);
-  EXPECT_TRUE(told_.lost_counts.empty());
+  EXPECT_TRUE(reported_.lost_counts.empty());
 }
 
 TEST_F(ArrivalWindowTest, WithoutAClockAFrameKeepsItsInstant) {
@@ -252,7 +252,7 @@ TEST_F(ArrivalWindowTest, AFrameThatCameDuringADelayIsPlacedWhenItsCycleComes) {
     EXPECT_FALSE(take(clock_.cycle_end().value));
     clock_.next_cycle(0);
   }
-  EXPECT_TRUE(told_.missed.empty());
+  EXPECT_TRUE(reported_.missed.empty());
 }
 
 // A clock derived for a past cycle, which does not go on: frames do not wait for it.
@@ -267,7 +267,7 @@ TEST_F(ArrivalWindowTest, AFrameThatIsHandedOverTooLateForItsCycleIsReported) {
   arrive(6, action_point(6) + 100, false, kCycle + 20);  // kept unchanged
   for (int i = 0; i < 2; ++i) clock_.next_cycle(0);
   EXPECT_FALSE(take(clock_.cycle_start().value + 10));
-  EXPECT_EQ(told_.missed.size(), 1u);
+  EXPECT_EQ(reported_.missed.size(), 1u);
 }
 
 TEST_F(ArrivalWindowTest, AnAbsurdCycleIsTheControllersToJudge) {

@@ -41,12 +41,12 @@ struct Recorded final : recording::records::Sink {
     Duration longest{};
     bool operator==(const Histogram&) const = default;
   };
-  struct Told {
+  struct Reported {
     recording::records::TimingFault what{};
     Duration late{};
     SlotOfCycle slot;
     std::uint32_t count = 0;
-    bool operator==(const Told&) const = default;
+    bool operator==(const Reported&) const = default;
   };
   struct Correction {
     recording::records::Stamp stamp;
@@ -88,9 +88,9 @@ struct Recorded final : recording::records::Sink {
   }
 
   // The number of problems, or the sum of their counts.
-  std::uint64_t told(recording::records::TimingFault what) const {
+  std::uint64_t reported(recording::records::TimingFault what) const {
     std::uint64_t sum = 0;
-    for (const Told& problem : problems)
+    for (const Reported& problem : problems)
       if (problem.what == what) sum += problem.count;
     return sum;
   }
@@ -108,7 +108,7 @@ struct Recorded final : recording::records::Sink {
   std::vector<SlotOfCycle> frames;
   bool ordered = true;  // frames, by when they were due
   LocalTime last_frame{std::numeric_limits<std::int64_t>::min()};
-  std::vector<Told> problems;
+  std::vector<Reported> problems;
   std::map<std::int64_t, Correction> corrections;  // by cycle
   std::vector<std::string> states;                 // the controller's, in order
   std::vector<recording::records::Stamp> changes;
@@ -148,11 +148,11 @@ class Deaf final : public bus::ports::LiveMedium {
 inline void expect_counted_once(const Recorded& recorded, const Health& health) {
   const TimingCounts& timing = health.timing;
   EXPECT_TRUE(recorded.ordered);
-  EXPECT_EQ(recorded.told(recording::records::TimingFault::kLateWakeUp), timing.late_wakeups);
-  EXPECT_EQ(recorded.told(recording::records::TimingFault::kSlotMissed), timing.slots_missed);
-  EXPECT_EQ(recorded.told(recording::records::TimingFault::kLateFrame), timing.late_frames);
-  EXPECT_EQ(recorded.told(recording::records::TimingFault::kEarlyFrame), timing.early_frames);
-  EXPECT_EQ(recorded.told(recording::records::TimingFault::kFramesLost), timing.frames_lost);
+  EXPECT_EQ(recorded.reported(recording::records::TimingFault::kLateWakeUp), timing.late_wakeups);
+  EXPECT_EQ(recorded.reported(recording::records::TimingFault::kSlotMissed), timing.slots_missed);
+  EXPECT_EQ(recorded.reported(recording::records::TimingFault::kLateFrame), timing.late_frames);
+  EXPECT_EQ(recorded.reported(recording::records::TimingFault::kEarlyFrame), timing.early_frames);
+  EXPECT_EQ(recorded.reported(recording::records::TimingFault::kFramesLost), timing.frames_lost);
   EXPECT_EQ(recorded.medium.sent, health.medium.sent);
   EXPECT_EQ(recorded.medium.received, health.medium.received);
   EXPECT_EQ(recorded.medium.lost, health.medium.lost);
@@ -177,7 +177,7 @@ class LiveNodeSet : public testing::Test {
   struct Drive {
     Duration lasts = Duration::milliseconds(600);
     std::int64_t scale_ppm = 1'000'000;
-    test::Told told = test::Told::kWithTheFrame;
+    test::Reported reported = test::Reported::kWithTheFrame;
     std::function<std::optional<TrueTime>(NodeId)> power_on = {};
     std::size_t room = 1024;
     Duration deaf_for{};  // all nodes, in the drive's time
@@ -187,7 +187,7 @@ class LiveNodeSet : public testing::Test {
       const Drive& how, const DriveClock& clock, const std::function<bus::ports::MachineTime()>& now) const {
     test::MemoryLiveBusOptions options;
     for (const schedules::model::CanBus& can : cluster_.can_buses) options.can_buses.push_back(can.flexible_data_rate);
-    options.told = how.told;
+    options.reported = how.reported;
     options.room = how.room;
     options.now = now;
     test::MemoryLiveBus bus(options);

@@ -59,11 +59,11 @@ class RunnerTest : public LiveNodeSet {
       config.stop_descriptor = stop_descriptor;
       bus::ports::LiveMedium& medium = instead != nullptr ? *instead : *own_;
       TurnedHost::Process& process = host.process(wakes);
-      process.told_floor = floor;
+      process.stated_floor = floor;
       auto steps = set_.steps_of(node_);
       if (computes > Duration{}) steps.front() = std::make_shared<Slow>(std::move(steps.front()), process, computes);
       Runner runner(config, std::move(steps), medium, process, out);
-      runner.on_health([this](const Health&) { told_health.push_back(host.now()); });
+      runner.on_health([this](const Health&) { reported_health.push_back(host.now()); });
       const RunnerEnd end = runner.run();
       health = runner.health();
       counts = runner.counts();
@@ -89,7 +89,7 @@ class RunnerTest : public LiveNodeSet {
       bus::ports::LiveSignal signal;
       signal.slot = slot;
       signal.bytes = std::span<const std::byte>(bytes).first(size);
-      signal.tells_late = startup;
+      signal.states_late = startup;
       (void)others_->send(signal, host.now());
     }
     void others_send_noise(Duration lasts) {
@@ -98,7 +98,7 @@ class RunnerTest : public LiveNodeSet {
       signal.duration = lasts;
       (void)others_->send(signal, host.now());
     }
-    std::vector<Duration> heard_symbols() {
+    std::vector<Duration> received_symbols() {
       std::vector<Duration> lengths;
       while (const auto arrival = others_->receive())
         if (arrival->kind == bus::ports::LiveArrival::Kind::kFlexRay &&
@@ -122,18 +122,18 @@ class RunnerTest : public LiveNodeSet {
       bus::ports::MachineTime at{};
       Duration duration{};  // the frame's on a real bus, in the drive's time
     };
-    std::vector<CanArrival> heard_on_can() {
-      std::vector<CanArrival> heard;
+    std::vector<CanArrival> received_on_can() {
+      std::vector<CanArrival> received;
       while (const auto arrival = others_->receive())
         if (arrival->kind == bus::ports::LiveArrival::Kind::kCan)
-          heard.push_back({arrival->can_bus, arrival->can.identifier, arrival->at,
-                           bus::wire::can_frame_duration(set_.cluster_.can_buses[arrival->can_bus],
-                                                         arrival->can.identifier, arrival->can.data)});
-      return heard;
+          received.push_back({arrival->can_bus, arrival->can.identifier, arrival->at,
+                              bus::wire::can_frame_duration(set_.cluster_.can_buses[arrival->can_bus],
+                                                            arrival->can.identifier, arrival->can.data)});
+      return received;
     }
     std::set<SlotOfCycle> missed() const {
       std::set<SlotOfCycle> missed;
-      for (const Recorded::Told& problem : out.problems) {
+      for (const Recorded::Reported& problem : out.problems) {
         if (problem.what != recording::records::TimingFault::kSlotMissed) continue;
         EXPECT_TRUE(missed.insert(problem.slot).second) << "told twice";
       }
@@ -157,7 +157,7 @@ class RunnerTest : public LiveNodeSet {
     Duration computes{};  // its first task, on the node's own thread
     int stop_descriptor = -1;
     Recorded out;
-    std::vector<bus::ports::MachineTime> told_health;
+    std::vector<bus::ports::MachineTime> reported_health;
     // At the end:
     Health health;
     host::ExecutiveCounts counts;

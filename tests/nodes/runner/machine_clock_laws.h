@@ -69,7 +69,7 @@ TYPED_TEST_P(MachineClockLaws, L3_NothingWatchedShortensASleep) {
   EXPECT_GE(this->clock().now(), until);
 }
 
-TYPED_TEST_P(MachineClockLaws, TellsWhatIsReadable) {
+TYPED_TEST_P(MachineClockLaws, ReportsWhatIsReadable) {
   EXPECT_TRUE(this->clock().readable(this->readable_));
   eventfd_t taken = 0;
   eventfd_read(this->readable_, &taken);
@@ -79,6 +79,6 @@ TYPED_TEST_P(MachineClockLaws, TellsWhatIsReadable) {
 
 REGISTER_TYPED_TEST_SUITE_P(MachineClockLaws, L1_NeverGoesBack, L2_WaitsUntilAnInstantAndNotLess,
                             L2_WakesUpForWhatItWatches, L2_DoesNotWakeUpForWhatItWatchesNoMore,
-                            L3_NothingWatchedShortensASleep, TellsWhatIsReadable);
+                            L3_NothingWatchedShortensASleep, ReportsWhatIsReadable);
 
 }  // namespace ttf::nodes::runner

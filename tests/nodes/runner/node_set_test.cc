@@ -58,7 +58,7 @@ class TurnedNodeSet : public LiveNodeSet {
   }
   std::set<SlotOfCycle> missed(const char* node) {
     std::set<SlotOfCycle> missed;
-    for (const Recorded::Told& problem : of(node).problems)
+    for (const Recorded::Reported& problem : of(node).problems)
       if (problem.what == recording::records::TimingFault::kSlotMissed) missed.insert(problem.slot);
     return missed;
   }
@@ -143,10 +143,10 @@ TEST_F(TurnedNodeSet, WithheldFramesAreLostToAllOthers) {
 TEST_F(TurnedNodeSet, LatenessIsNotTakenForTheClock) {
   drive({});
   std::vector<Recorded> in_time = std::exchange(recorded_, {});
-  for (const auto& [told, scale] : {std::pair(test::Told::kWithTheFrame, 1'000'000),
-                                    {test::Told::kInAFollowUp, 1'000'000},
-                                    {test::Told::kWithTheFrame, 4'000'000}}) {
-    drive({.scale_ppm = scale, .told = told},
+  for (const auto& [reported, scale] : {std::pair(test::Reported::kWithTheFrame, 1'000'000),
+                                        {test::Reported::kInAFollowUp, 1'000'000},
+                                        {test::Reported::kWithTheFrame, 4'000'000}}) {
+    drive({.scale_ppm = scale, .reported = reported},
           [](NodeId node) { return late_by(index_of(node) % 2 == 1 ? us(200) : Duration{}); });
     expect_all_active();
     for (const char* node : kOnFlexRay) {

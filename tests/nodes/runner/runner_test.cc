@@ -59,8 +59,8 @@ TEST_F(RunnerTest, AFrameThatIsANanosecondTooLateIsNotSentAndReported) {
   EXPECT_EQ(gateway.health.timing.slots_missed, gateway.missed().size());
   EXPECT_EQ(gateway.health.medium.sent, gateway.sent().size());
   EXPECT_GT(gateway.health.timing.late_wakeups, 0u);
-  EXPECT_EQ(gateway.health.timing.late_wakeups, gateway.out.told(recording::records::TimingFault::kLateWakeUp));
-  for (const Recorded::Told& problem : gateway.out.problems) EXPECT_EQ(problem.late, too_late);
+  EXPECT_EQ(gateway.health.timing.late_wakeups, gateway.out.reported(recording::records::TimingFault::kLateWakeUp));
+  for (const Recorded::Reported& problem : gateway.out.problems) EXPECT_EQ(problem.late, too_late);
 }
 
 // Stopped in cycle 1, going on in cycle 3: it catches up in order, except for frames that are too late.
@@ -184,17 +184,17 @@ TEST_F(RunnerTest, FramesLeaveAsACanWouldCarryThem) {
     laser.host.at(laser.at(ms(2)), [&] { laser.others_send_can(can, schedules::model::trigger_identifier(sensor)); });
     laser.run();
     ASSERT_THAT(laser.out.measured, testing::ElementsAre(sim::engine::kFirstCycle + ms(2))) << "at once";
-    const auto heard = laser.heard_on_can();
-    ASSERT_FALSE(heard.empty());
-    EXPECT_EQ(heard.front().identifier, schedules::model::strobe_identifier(sensor));
-    EXPECT_EQ(heard.front().at, laser.at(ms(2)));
-    EXPECT_EQ(laser.out.can_frames, static_cast<int>(heard.size()) - 1);
-    EXPECT_GE(heard.size(), 1u + 5);
+    const auto received = laser.received_on_can();
+    ASSERT_FALSE(received.empty());
+    EXPECT_EQ(received.front().identifier, schedules::model::strobe_identifier(sensor));
+    EXPECT_EQ(received.front().at, laser.at(ms(2)));
+    EXPECT_EQ(laser.out.can_frames, static_cast<int>(received.size()) - 1);
+    EXPECT_GE(received.size(), 1u + 5);
     // Until the list is there; its first frame has no other before it, whose last bits would delay it.
     Duration passed = ms(2) + us(500) - schedules::analysis::can_after_acceptance(cluster_.can_buses[can]);
-    for (std::size_t i = 1; i < heard.size(); ++i) {
-      passed += heard[i].duration;
-      const Duration behind = heard[i].at - laser.at(passed);
+    for (std::size_t i = 1; i < received.size(); ++i) {
+      passed += received[i].duration;
+      const Duration behind = received[i].at - laser.at(passed);
       EXPECT_GE(behind, Duration{}) << i;
       EXPECT_LE(behind, clock.in_real(us(2))) << i << ": microticks, and what its own clock is off by";
     }
@@ -248,7 +248,7 @@ TEST_F(RunnerTest, HealthIsReportedOnceASecondAtItsTurn) {
   for (const auto& [scale, lasts] : {std::pair(1'000'000, ms(3'500)), {4'000'000, ms(875)}}) {
     Alone camera(*this, "camera", {.lasts = lasts, .scale_ppm = scale});
     camera.run();
-    EXPECT_THAT(camera.told_health,
+    EXPECT_THAT(camera.reported_health,
                 testing::ElementsAre(kOrigin + ms(250), kOrigin + ms(1250), kOrigin + ms(2250), kOrigin + ms(3250)));
     EXPECT_EQ(camera.out.accounts, 5) << "and at the end";
   }
@@ -259,10 +259,10 @@ TEST_F(RunnerTest, HealthIsReportedOnceASecondAtItsTurn) {
 TEST_F(RunnerTest, HealthIsReportedWhereThereIsRoomForIt) {
   Alone gateway(*this, "gateway", {.lasts = ms(400), .scale_ppm = 2'000'000});
   gateway.run();
-  ASSERT_EQ(gateway.told_health.size(), 1u);
-  EXPECT_GT(gateway.told_health[0], kOrigin + ms(625));
-  EXPECT_GT(gateway.told_health[0], gateway.action_point(62, 21) - us(500));
-  EXPECT_LT(gateway.told_health[0], gateway.action_point(62, 21) + us(500));
+  ASSERT_EQ(gateway.reported_health.size(), 1u);
+  EXPECT_GT(gateway.reported_health[0], kOrigin + ms(625));
+  EXPECT_GT(gateway.reported_health[0], gateway.action_point(62, 21) - us(500));
+  EXPECT_LT(gateway.reported_health[0], gateway.action_point(62, 21) + us(500));
   EXPECT_EQ(gateway.waits_for_nothing, 0) << "until there is room it waits for what is due";
 }
 
@@ -270,9 +270,9 @@ TEST_F(RunnerTest, HealthIsReportedWhereThereIsRoomForIt) {
 TEST_F(RunnerTest, HealthIsPutOffByASecondAtMost) {
   Alone gateway(*this, "gateway", {.lasts = ms(18'000), .scale_ppm = 100'000});
   gateway.run();
-  ASSERT_EQ(gateway.told_health.size(), 1u);
-  EXPECT_GE(gateway.told_health[0], kOrigin + ms(1625));
-  EXPECT_LT(gateway.told_health[0], kOrigin + ms(1626));
+  ASSERT_EQ(gateway.reported_health.size(), 1u);
+  EXPECT_GE(gateway.reported_health[0], kOrigin + ms(1625));
+  EXPECT_LT(gateway.reported_health[0], kOrigin + ms(1626));
   EXPECT_EQ(gateway.waits_for_nothing, 0);
 }
 
@@ -325,7 +325,7 @@ TEST_F(RunnerTest, ASymbolIsAsLongAsInTheDrive) {
     Alone gateway(*this, "gateway",
                   {.lasts = ms(30), .scale_ppm = scale, .power_on = [](NodeId) { return sim::engine::kFirstCycle; }});
     gateway.run();
-    const auto lengths = gateway.heard_symbols();
+    const auto lengths = gateway.received_symbols();
     EXPECT_FALSE(lengths.empty());
     return lengths.empty() ? Duration{} : lengths.front();
   };

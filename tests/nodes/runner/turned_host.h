@@ -100,11 +100,11 @@ class TurnedHost::Process final : public MachineClock {
     pollfd one{descriptor, POLLIN, 0};
     return descriptor >= 0 && poll(&one, 1, 0) > 0;
   }
-  recording::records::BinnedDurations floor() const override { return told_floor; }
+  recording::records::BinnedDurations floor() const override { return stated_floor; }
 
-  recording::records::BinnedDurations told_floor;  // stated lateness of the plain thread beside it
-  std::vector<Duration> sleeps;                    // so far
-  int waits_for_nothing = 0;                       // so far: for an instant that was over
+  recording::records::BinnedDurations stated_floor;  // stated lateness of the plain thread beside it
+  std::vector<Duration> sleeps;                      // so far
+  int waits_for_nothing = 0;                         // so far: for an instant that was over
 
  private:
   friend class TurnedHost;

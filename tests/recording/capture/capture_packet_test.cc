@@ -107,7 +107,7 @@ TEST(CapturePacket, ASymbolsLengthEndsAt127Bits) {
   EXPECT_EQ(packets, std::string("\x02\x00\x82\x27\x02\x7f\x02\x7f\x02\x7f", 10));
 }
 
-TEST(CapturePacket, SymbolsAndScrapsAreToldFromFrames) {
+TEST(CapturePacket, SymbolsAndScrapsAreDistinctFromFrames) {
   const FlexRayPacket symbol = parse_flexray_packet(bytes_of({0x82, 0x1e}));
   EXPECT_EQ(symbol.kind, FlexRayPacket::Kind::kSymbol);
   EXPECT_EQ(symbol.channel, Channel::kB);

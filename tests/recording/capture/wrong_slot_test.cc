@@ -119,7 +119,7 @@ TEST(WrongSlot, ASmallClusterIsEnough) {
 }
 
 // Either of two senders may be in the wrong slot.
-TEST(WrongSlot, TwoSendersDoNotTell) {
+TEST(WrongSlot, TwoSendersDoNotDecide) {
   schedules::model::Cluster two = paper();
   std::erase_if(two.frames, [](const schedules::model::FrameSlot& frame) { return frame.slot > 2; });
   std::vector<BusFrame> frames = scheduled_frames(two, 40);
@@ -147,7 +147,7 @@ TEST(WrongSlot, AClockThatIsSetTripsNothing) {
 }
 
 // Microseconds suffice for slots of 84 us. Milliseconds do not: the verdict is then that without stamps.
-TEST(WrongSlot, CoarseStampsTellWhatTheyCan) {
+TEST(WrongSlot, CoarseStampsResolveWhatTheyCan) {
   const auto resolved = [](std::int64_t unit) { return [unit](std::int64_t time) { return time / unit * unit; }; };
   for (const std::int64_t ppm : {-1500, 0, 700}) {
     EXPECT_THAT(texts(verdict_on(stamped_by(scheduled_frames(paper(), 130, 0, ppm), resolved(1'000)))), IsEmpty());

@@ -97,18 +97,18 @@ TEST(BinnedDurations, NumbersThatDoNotFitAreTheLargest) {
 }
 
 // Histograms of one node: (local time, counts, longest).
-struct Told {
+struct Reported {
   std::int64_t local_us;
   std::vector<std::uint64_t> counts;
   std::int64_t longest_us;
 };
-records::BinnedDurations wake_ups_of(const std::vector<Told>& all) {
+records::BinnedDurations wake_ups_of(const std::vector<Reported>& all) {
   LatenessSums sums;
-  for (const Told& told : all)
-    sums.on(records::LatenessHistogram{{{}, LocalTime{told.local_us * 1000}, {}, NodeId{4}},
+  for (const Reported& reported : all)
+    sums.on(records::LatenessHistogram{{{}, LocalTime{reported.local_us * 1000}, {}, NodeId{4}},
                                        records::LatenessOf::kWakeUps,
-                                       us(told.longest_us),
-                                       told.counts});
+                                       us(reported.longest_us),
+                                       reported.counts});
   return sums.nodes()[NodeId{4}].wake_ups;
 }
 
@@ -120,7 +120,7 @@ TEST(LatenessSums, TheNewestHistogramHoldsAllBeforeIt) {
 
 TEST(LatenessSums, AnotherProcessOfTheNodeIsAdded) {
   // A bin with less than before; fewer bins; or the clock began again.
-  for (const Told& second : {Told{200, {7, 1, 1}, 2}, Told{200, {9}, 0}, Told{50, {5, 2, 9}, 2}}) {
+  for (const Reported& second : {Reported{200, {7, 1, 1}, 2}, Reported{200, {9}, 0}, Reported{50, {5, 2, 9}, 2}}) {
     const auto wake_ups = wake_ups_of({{100, {5, 2}, 1}, second});
     std::uint64_t of_second = 0;
     for (const std::uint64_t count : second.counts) of_second += count;

@@ -70,7 +70,7 @@ TEST(MeasurementWays, AListOfANodeThatDoesNotFuseIsNoImage) {
 }
 
 // A part of a log may lack the hops. For lists that a gateway passes on, the gateway is the writer.
-TEST(MeasurementWays, WhereTheWriterIsNotToldTheNumberDecides) {
+TEST(MeasurementWays, WhereTheWriterIsNotGivenTheNumberDecides) {
   for (const bool by_gateway : {false, true}) {
     TwoFusionNodes cluster;
     cluster.write(cluster.kFirst, cluster.kOfFirst, 7, 1);

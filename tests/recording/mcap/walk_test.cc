@@ -16,7 +16,7 @@
 namespace ttf::recording::mcap {
 namespace {
 
-struct Heard final : McapHandler {
+struct Received final : McapHandler {
   void on_metadata(std::string_view name, const std::vector<std::pair<std::string, std::string>>& entries) override {
     names.emplace_back(name);
     count += entries.size();
@@ -112,10 +112,10 @@ TEST(Walk, OfACraftedFileIsWorkInProportion) {
   for (const int count : {100, 1'000, 20'000})
     for (const std::string& bytes :
          {chain(count, ""), chain(count, data_end()), chain_with_many_ends(count), zeros(count), data_ends(count)}) {
-      Heard heard;
-      const McapReport report = walk_mcap(bytes, heard);
+      Received received;
+      const McapReport report = walk_mcap(bytes, received);
       EXPECT_LE(report.work, 4 * bytes.size()) << count << " of something in " << bytes.size() << " bytes";
-      EXPECT_TRUE(heard.names.empty());
+      EXPECT_TRUE(received.names.empty());
     }
 }
 
@@ -128,10 +128,10 @@ TEST(Walk, FindsMetadataBehindCraftedOnes) {
   put_text(bytes, "sound");
   put_text(bytes, entries);
   end_record(bytes, start);
-  Heard heard;
-  const McapReport report = walk_mcap(bytes, heard);
-  EXPECT_EQ(heard.names, std::vector<std::string>{"sound"});
-  EXPECT_EQ(heard.count, 3u);
+  Received received;
+  const McapReport report = walk_mcap(bytes, received);
+  EXPECT_EQ(received.names, std::vector<std::string>{"sound"});
+  EXPECT_EQ(received.count, 3u);
   ASSERT_FALSE(report.warnings.empty());
   EXPECT_EQ(report.warnings.front(),
             "the record at byte " + std::to_string(beginning().size()) + " is damaged and left out");

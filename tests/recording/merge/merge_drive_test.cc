@@ -27,7 +27,7 @@ using Read = std::function<void(ttf::recording::records::Sink&)>;
 constexpr TrueTime kNever{-1};
 
 // A drive's results, from its records alone.
-std::string told(const evaluation::accuracy::DriveSummary& s) {
+std::string reported(const evaluation::accuracy::DriveSummary& s) {
   std::string text = fmt::format("{} {} {} {} {}", s.position_rmse_truth, s.velocity_rmse_truth,
                                  s.position_rmse_reference, s.velocity_rmse_reference, s.reference_compared);
   text += fmt::format(" | {} {} {} {} {} {}", s.matched, s.missed, s.spurious, s.uses, s.stale_uses, s.warnings);
@@ -44,7 +44,7 @@ std::string told(const evaluation::accuracy::DriveSummary& s) {
   return text;
 }
 
-std::string told(const evaluation::cluster::StartupAccount& account) {
+std::string reported(const evaluation::cluster::StartupAccount& account) {
   std::string text;
   for (const evaluation::cluster::NodeStartup& node : account.nodes()) {
     text += fmt::format("{} {} {} {}", index_of(node.node), node.powered.value_or(kNever).ns, node.state, node.why);
@@ -56,7 +56,7 @@ std::string told(const evaluation::cluster::StartupAccount& account) {
   return text;
 }
 
-std::string told(const evaluation::faults::FaultEffects& effects) {
+std::string reported(const evaluation::faults::FaultEffects& effects) {
   std::string text;
   for (const auto& checks : {effects.by_others, effects.by_faulty})
     for (const evaluation::faults::CheckSeen& check : checks) {
@@ -75,13 +75,13 @@ std::string told(const evaluation::faults::FaultEffects& effects) {
   return text;
 }
 
-std::string told(const evaluation::faults::FaultFindings& findings) {
+std::string reported(const evaluation::faults::FaultFindings& findings) {
   std::string text;
   for (const evaluation::faults::FaultSeen& seen : findings.faults)
     text += fmt::format("{} {} {} {} {} {} {} {}:{}\n", seen.fault, seen.kind, index_of(seen.node), seen.begins->ns,
                         seen.ends.value_or(kNever).ns, seen.first_act.value_or(kNever).ns, seen.acts, seen.text,
-                        told(static_cast<const evaluation::faults::FaultEffects&>(seen)));
-  return text + "unattributed:" + told(findings.unattributed);
+                        reported(static_cast<const evaluation::faults::FaultEffects&>(seen)));
+  return text + "unattributed:" + reported(findings.unattributed);
 }
 
 struct Outcome {
@@ -104,9 +104,9 @@ Outcome outcome(const Drive& drive, const log::LogManifest& manifest, const Read
   read(tee);
   faults.finish(to);
   const exports::LogNames log_names(manifest);
-  return {told(measures.finish()),
-          told(startup),
-          told(faults.findings()),
+  return {reported(measures.finish()),
+          reported(startup),
+          reported(faults.findings()),
           timing.svg(),
           startup_picture.svg(),
           positions.plane_svg(),

@@ -109,7 +109,7 @@ TEST(TruthTrace, ReadsTheDocumentationsExample) {
   }
 }
 
-TEST(TruthTrace, TellsGroundTruthFromSensorView) {
+TEST(TruthTrace, DistinguishesGroundTruthFromSensorView) {
   const TruthTrace trace = parse_truth_trace(framed(steady(3)), "a.osi");
   EXPECT_EQ(trace.type, "GroundTruth");
   EXPECT_FALSE(trace.host);
@@ -192,7 +192,7 @@ TEST(TruthTrace, AnObjectMayComeAndGo) {
   EXPECT_EQ(object.lives[1].states[0].vx, 3.0);
 }
 
-TEST(TruthTrace, TellsKinds) {
+TEST(TruthTrace, DistinguishesKinds) {
   using Vehicle = osi3::MovingObject::VehicleClassification;
   std::vector<osi3::GroundTruth> truths = steady(1);
   truths[0].mutable_moving_object(0)->set_type(osi3::MovingObject::TYPE_PEDESTRIAN);

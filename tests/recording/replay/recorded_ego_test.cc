@@ -139,7 +139,7 @@ TEST(EgoRows, AreReadInAnyOrder) {
 std::string mistake(const std::string& text) {
   return support::refusal_of([&] { parse_ego_rows(text, "e.csv"); }, {});
 }
-TEST(EgoRows, MistakesAreTold) {
+TEST(EgoRows, MistakesAreReported) {
   EXPECT_EQ(mistake("time,x,y\n1,2,3\n"),
             "e.csv:1: heading: must be time, x, y, heading or time, speed, yaw_rate, in any order");
   EXPECT_EQ(mistake("time,speed,yaw_rate\n0,8,fast\n"), "e.csv:2: yaw_rate = fast: must be a number in -20..20 rad/s");

@@ -203,7 +203,7 @@ TEST(LidarScans, AStampThatLeapsAloneIsDamagedAndTheRowsAfterItAreSound) {
             "leaps is damaged");
 }
 
-TEST(Sniff, TellsTheFormatByTheBeginning) {
+TEST(Sniff, RecognisesTheFormatByTheBeginning) {
   const auto sniff = [](const std::string& text) {
     const std::string path = log::scratch("sniff");
     std::ofstream(path, std::ios::binary) << text;

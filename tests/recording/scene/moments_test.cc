@@ -23,7 +23,7 @@ constexpr NodeId kFusion{5}, kFeature{6};
 records::Stamp at(NodeId node, std::int64_t ms) { return {{ms * kMs}, {ms * kMs}, {ms * kMs}, node}; }
 
 // Writes each moment down in words.
-struct Told final : Moments {
+struct Reported final : Moments {
   std::vector<std::string> words;
 
  private:
@@ -56,23 +56,23 @@ void truth(Moments& moments, std::int64_t ms, int object, NodeId node) {
 }
 
 TEST(SceneMoments, EachComesOnceAndWhole) {
-  Told told;
-  truth(told, 10, 0, kFusion);
-  truth(told, 10, 1, kFusion);
-  truth(told, 10, 0, kFeature);  // another node's record of the same instant
-  observation(told, 20, 12, 3, 1.0);
-  observation(told, 20, 12, 3, std::numeric_limits<double>::infinity());
-  observation(told, 20, 8, 4, 1.0);  // another list at the same instant
+  Reported reported;
+  truth(reported, 10, 0, kFusion);
+  truth(reported, 10, 1, kFusion);
+  truth(reported, 10, 0, kFeature);  // another node's record of the same instant
+  observation(reported, 20, 12, 3, 1.0);
+  observation(reported, 20, 12, 3, std::numeric_limits<double>::infinity());
+  observation(reported, 20, 8, 4, 1.0);  // another list at the same instant
   records::ImageWritten image;
   image.stamp = at(kFusion, 25);
   image.valid_at = {60 * kMs};
-  told.on(image);
+  reported.on(image);
   records::FeatureUsed use;
   use.stamp = at(kFeature, 61);
-  told.on(use);
-  truth(told, 62, 0, kFeature);
-  told.finish();
-  EXPECT_THAT(told.words,
+  reported.on(use);
+  truth(reported, 62, 0, kFeature);
+  reported.finish();
+  EXPECT_THAT(reported.words,
               ElementsAre("truth 10 of 2", "list 12 of 1", "list 8 of 1", "image 60", "use 61", "truth 62 of 1"));
 }
 

@@ -169,7 +169,7 @@ std::string message_of(const std::string& svg, const std::string& path) {
   return "no error";
 }
 
-TEST(Render, NamesTheExtensionsItKnows) {
+TEST(Render, NamesTheExtensionsItSupports) {
   EXPECT_NE(message_of("", "out/a.jpg").find(".svg, .png or .pdf"), std::string::npos) << message_of("", "out/a.jpg");
   EXPECT_NE(message_of("", "out/a.jpg").find(".jpg"), std::string::npos);
   EXPECT_NE(message_of("", "dir.png/a").find("none"), std::string::npos);

@@ -102,7 +102,7 @@ TEST(DriveSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
   EXPECT_EQ(series.oldest_age[0].value, 50.0);
 }
 
-TEST(DriveSeries, AFaultIsToldByItsFirstAct) {
+TEST(DriveSeries, AFaultIsReportedByItsFirstAct) {
   DriveSeriesSink sink;
   sink.on(recording::records::FaultActivity{TrueTime{1'000'000}, 3, recording::records::FaultAct::kBegins, NodeId{2},
                                             "omission", "it begins"});
@@ -161,33 +161,34 @@ TEST(DrivesAnswer, OfSeveralSeedsDifferencesArePaired) {
     drives.push_back(drive_of(static_cast<std::uint64_t>(seed), "tt", 0.1 * seed));
   }
   drives.push_back(drive_of(5, "tt", 7.0));  // its partner is missing
-  std::vector<ToldDrive> told;
-  for (const Drive& drive : drives) told.push_back({&drive, {}});
-  const DrivesAnswer answer = answer_of(told);
+  std::vector<ReportedDrive> reported;
+  for (const Drive& drive : drives) reported.push_back({&drive, {}});
+  const DrivesAnswer answer = answer_of(reported);
   EXPECT_EQ(answer.answer.find("Over 4 runs of bend, tt has the smallest position error, for certain: 0.25 ± 0.21 m"),
             0u)
       << answer.answer;
   EXPECT_NE(answer.answer.find("; buff +0.01050 ± 0.00092 m."), std::string::npos) << answer.answer;
-  const auto tables = repeated_tables(told);
+  const auto tables = repeated_tables(reported);
   ASSERT_EQ(tables.size(), 1u);
   EXPECT_EQ(tables[0].rows[0].back(), "-0.01050 ± 0.00092 less");
   EXPECT_EQ(tables[0].rows.size(), 1u) << "rows without any value";
 }
 
 // TT is 18.8 % worse in one drive, and better in the next one.
-TEST(DrivesAnswer, NoWinnerIsNamedThatTheDrivesCannotTell) {
+TEST(DrivesAnswer, NoWinnerIsNamedThatTheDrivesCannotDecide) {
   std::vector<Drive> drives;
   const double more[] = {0.0188, -0.01, 0.004, -0.009};
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     drives.push_back(drive_of(seed, "buff", 0.1));
     drives.push_back(drive_of(seed, "tt", 0.1 + more[seed - 1]));
   }
-  std::vector<ToldDrive> told;
-  for (const Drive& drive : drives) told.push_back({&drive, {}});
-  EXPECT_EQ(answer_of(told).answer.find("4 runs of bend cannot tell which strategy has the smallest position error: "
-                                        "buff 0.100 ± 0 m (95 %); tt +0.001 ± 0.021 m."),
-            0u)
-      << answer_of(told).answer;
+  std::vector<ReportedDrive> reported;
+  for (const Drive& drive : drives) reported.push_back({&drive, {}});
+  EXPECT_EQ(
+      answer_of(reported).answer.find("4 runs of bend cannot tell which strategy has the smallest position error: "
+                                      "buff 0.100 ± 0 m (95 %); tt +0.001 ± 0.021 m."),
+      0u)
+      << answer_of(reported).answer;
 }
 
 TEST(DrivesAnswer, AStrategyWithoutAFigureWinsNothing) {
@@ -198,13 +199,14 @@ TEST(DrivesAnswer, AStrategyWithoutAFigureWinsNothing) {
     drives.push_back(drive_of(seed, "buff", 0.2 + 0.01 * static_cast<double>(seed)));
     drives.push_back(drive_of(seed, "tt", 0.1));
   }
-  std::vector<ToldDrive> told;
-  for (const Drive& drive : drives) told.push_back({&drive, {}});
-  const DrivesAnswer answer = answer_of(told);
+  std::vector<ReportedDrive> reported;
+  for (const Drive& drive : drives) reported.push_back({&drive, {}});
+  const DrivesAnswer answer = answer_of(reported);
   EXPECT_NE(answer.answer.find(", tt has the smallest position error"), std::string::npos) << answer.answer;
   EXPECT_NE(answer.answer.find("; adva has no value; buff +0.1"), std::string::npos) << answer.answer;
   EXPECT_TRUE(answer.more.empty());
-  EXPECT_EQ(answer_of({told[0], told[3]}).answer, "Over 2 runs of bend: No position was compared with the truth.");
+  EXPECT_EQ(answer_of({reported[0], reported[3]}).answer,
+            "Over 2 runs of bend: No position was compared with the truth.");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace ttf::report::drive {
 namespace {
 
-ToldStage stage(const std::string& name, double most, double age_worst, std::uint64_t beyond = 0) {
+ReportedStage stage(const std::string& name, double most, double age_worst, std::uint64_t beyond = 0) {
   return {name, 0.5, 2.5, {1.0, 1.25, most, most}, 0.5, age_worst, {1.0, 1.25, most, most}, beyond};
 }
 
@@ -25,7 +25,7 @@ class StagesSection : public ::testing::Test {
     tt.label = "tt";
     tt.stages = {{"laser", {stage("measure", 1.5, 2.0), stage("use", 41.0, 40.0, 3)}, 20, 19, true}};
   }
-  std::string html(const std::vector<ToldDrive>& drives) {
+  std::string html(const std::vector<ReportedDrive>& drives) {
     page::Page page("", "");
     stages_section(page, drives);
     return page.html();
@@ -47,7 +47,7 @@ TEST_F(StagesSection, RunsStandBelowEachOtherInTheOrderOfTheWay) {
   EXPECT_EQ(count(page, "colspan=\"4\">had</th>"), 2u);
 }
 
-TEST_F(StagesSection, AgesOutsideTheBoundsAreToldFirst) {
+TEST_F(StagesSection, AgesOutsideTheBoundsAreReportedFirst) {
   EXPECT_EQ(beyond_words("tt", tt.stages), "tt: ages outside the schedule's bounds: 3 of 19 measurements of laser.");
   EXPECT_EQ(beyond_words("buff", buff.stages), "");
   EXPECT_EQ(count(html({{&buff, {}, {}}, {&tt, {}, {}}}), "3 ▲"), 2u);

@@ -152,7 +152,7 @@ TEST_F(ExperimentReport, ASingleParadigmHasNoComparison) {
   EXPECT_EQ(page().find("No paradigm crosses"), std::string::npos);
 }
 
-TEST_F(ExperimentReport, AnExpectationSaysWhyItIsNotMet) {
+TEST_F(ExperimentReport, AnExpectationSaysWhyItFails) {
   std::string answer = answer_of(point(0, "1", "1"));
   const std::string where = R"("where_not": ["noise 40 m"])";
   write(answer.replace(answer.find(where), where.size(),

@@ -19,7 +19,7 @@ std::size_t count(const std::string& text, const std::string& word) {
 }
 
 // Reports the truth from `from` to `to`, a hundred times a second. The object ahead is `gap` ahead of the front and comes nearer.
-void tell(DrivingPicture& picture, double from, double to, double gap, double closing) {
+void report(DrivingPicture& picture, double from, double to, double gap, double closing) {
   for (int i = 0; i < static_cast<int>((to - from) * 100.0); ++i) {
     const TrueTime at{static_cast<std::int64_t>((from + 0.01 * i) * 1e9)};
     records::EgoTruth ego;
@@ -40,9 +40,9 @@ DrivingOptions options() { return {"A drive", TrueTime{}, TrueTime{10'000'000'00
 
 TEST(DrivingPicture, ALineEndsWhereTheTruthDoes) {
   DrivingPicture whole(options()), parted(options());
-  tell(whole, 0.0, 4.0, 30.0, 0.0);
-  tell(parted, 0.0, 2.0, 30.0, 0.0);
-  tell(parted, 3.0, 4.0, 30.0, 0.0);
+  report(whole, 0.0, 4.0, 30.0, 0.0);
+  report(parted, 0.0, 2.0, 30.0, 0.0);
+  report(parted, 3.0, 4.0, 30.0, 0.0);
   // Gap, two speeds, acceleration.
   EXPECT_EQ(count(whole.svg(), kTruth), 4U);
   EXPECT_EQ(count(parted.svg(), kTruth), 8U);
@@ -50,8 +50,8 @@ TEST(DrivingPicture, ALineEndsWhereTheTruthDoes) {
 
 TEST(DrivingPicture, ACollisionEndsTheGap) {
   DrivingPicture picture(options()), without(options());
-  tell(picture, 0.0, 4.0, 10.0, 5.0);
-  tell(without, 0.0, 4.0, 30.0, 5.0);
+  report(picture, 0.0, 4.0, 10.0, 5.0);
+  report(without, 0.0, 4.0, 30.0, 5.0);
   const std::string collided = picture.svg(), passed = without.svg();
   EXPECT_EQ(count(collided, ">collision<"), 1U);  // in the legend
   EXPECT_EQ(count(passed, ">collision<"), 0U);
@@ -60,7 +60,7 @@ TEST(DrivingPicture, ACollisionEndsTheGap) {
 
 TEST(DrivingPicture, TheLegendHasTheWarningsOfTheDrive) {
   DrivingPicture picture(options());
-  tell(picture, 0.0, 4.0, 30.0, 0.0);
+  report(picture, 0.0, 4.0, 30.0, 0.0);
   EXPECT_EQ(count(picture.svg(), "begins<"), 0U);
   records::Warning warning;
   warning.on = true;

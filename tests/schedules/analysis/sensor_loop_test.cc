@@ -39,7 +39,7 @@ TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
 
 // Alone on its processor, the host's task ends after its execution, though the shortest period is shorter.
 // Its ends, and with them the lists, are a round apart.
-TEST(SensorLoop, TheHostsTaskNeverMeetsItself) {
+TEST(SensorLoop, TheHostsTaskNeverOverlapsItself) {
   const model::Cluster cluster = following_cluster();
   const auto found = worst_responses(cluster, *cluster.find_node("laser_pre"));
   ASSERT_TRUE(found.has_value());

@@ -92,10 +92,10 @@ TEST(Constraints, EachHasAClusterThatFailsBecauseOfItAlone) {
     }
     EXPECT_EQ(violated(cluster), std::vector<std::string>{one.name});
     const std::vector<Finding> findings = check(cluster);
-    const bool told = std::ranges::any_of(findings, [&](const Finding& finding) {
+    const bool reported = std::ranges::any_of(findings, [&](const Finding& finding) {
       return finding.key.ends_with(std::string(".") + one.parameter) && finding.expected.starts_with("must ");
     });
-    EXPECT_TRUE(told) << sentences(findings);
+    EXPECT_TRUE(reported) << sentences(findings);
   }
 }
 

@@ -85,7 +85,7 @@ TEST(Round, TasksOverlapIfAnyInstancesDo) {
       task.best_case = task.worst_case = Duration::microseconds(draw.integer(1, 8'000));
       task.deadline = {cycle * repetition};
     }
-    bool meet = false;
+    bool overlap = false;
     const auto begins = [&](const model::Task& task, std::int64_t instance) {
       const model::CycleInstant& at = task.activation.at;
       return time_of(cluster.flexray, at.base_cycle + instance * at.repetition, at.offset).ns;
@@ -93,7 +93,7 @@ TEST(Round, TasksOverlapIfAnyInstancesDo) {
     for (std::int64_t a = 0; a < 120; ++a)
       for (std::int64_t b = 0; b < 120; ++b) {
         const std::int64_t from = begins(tasks[0], a), to = begins(tasks[1], b);
-        meet = meet || (from < to + tasks[1].worst_case.ns && to < from + tasks[0].worst_case.ns);
+        overlap = overlap || (from < to + tasks[1].worst_case.ns && to < from + tasks[0].worst_case.ns);
       }
     ClusterFindings found(cluster);
     check_tasks(cluster, found);
@@ -101,8 +101,8 @@ TEST(Round, TasksOverlapIfAnyInstancesDo) {
     const bool said = std::any_of(all.begin(), all.end(), [](const Finding& one) {
       return one.expected.find("overlaps") != std::string::npos && one.expected.find("itself") == std::string::npos;
     });
-    EXPECT_EQ(said, meet) << "set " << set;
-    overlaps += meet ? 1 : 0;
+    EXPECT_EQ(said, overlap) << "set " << set;
+    overlaps += overlap ? 1 : 0;
   }
   EXPECT_GT(overlaps, 50);
   EXPECT_LT(overlaps, 450);

@@ -124,7 +124,7 @@ TEST(EarliestInstants, TasksThatFollowCount) {
   EXPECT_NE(sentences(one.findings.list()).find("the other tasks of the node leave no time for it"), std::string::npos);
 }
 
-TEST(EarliestInstants, AFrameHasARepetitionThatControllersKnow) {
+TEST(EarliestInstants, AFrameHasARepetitionThatControllersSupport) {
   Small one;
   one.cluster.flexray.gCycleCountMax = 59;
   one.cluster.sensors[0].at.repetition = 6;

@@ -111,7 +111,7 @@ TEST(PackedBus, StartersAreThreeInEachVehicleWithOneRoleInAll) {
   EXPECT_EQ(starters_of({vehicle({0, 1, 2, 3}), vehicle({0, 2, 3, 5}), vehicle({2, 3, 5, 6})}), (std::set{0, 2, 3, 5}));
 }
 
-TEST(PackedBus, OfAVariantHasTheSlotsAndKeySlotsThatItIsToldOf) {
+TEST(PackedBus, OfAVariantHasTheSlotsAndKeySlotsThatItIsGiven) {
   const PackedBus bus = packed_bus(like_instance(60, 2));
   BusRequest request = kRequest;
   request.slots = 40;

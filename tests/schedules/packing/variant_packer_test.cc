@@ -81,7 +81,7 @@ TEST(VariantPacker, DrawnSetsAreSoundAndNeverBelowTheBoundOrAboveOneVehicle) {
     }
 }
 
-TEST(VariantPacker, VariantsThatNeverMeetOverlap) {
+TEST(VariantPacker, VariantsThatNeverCoincideOverlap) {
   const Instance instance = like_variants(like_instance(300, 4), 3, 4, 20);
   const Solution solution = pack_variants(instance);
   EXPECT_FALSE(broken_as_one_vehicle(instance, solution).empty());

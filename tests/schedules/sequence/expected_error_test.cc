@@ -49,7 +49,7 @@ TEST(ExpectedErrorOfSequence, SettlesAtTheAlphaBetaFilterAndItsPredictions) {
 
 // Two sensors of variance 0.01 m^2 look in turn, each every 40 ms. One sensor every 20 ms is worth the same. Results
 // are there at once: the detection takes a nanosecond, and another sensor's the rest.
-TEST(ExpectedErrorOfSequence, MeetsThePublishedMeans) {
+TEST(ExpectedErrorOfSequence, AgreesWithThePublishedMeans) {
   for (const auto& [q, variance] : {std::pair{0.01, 7.525e-4}, std::pair{1.0, 2.3897e-3}, std::pair{25.0, 5.446e-3}}) {
     DetectionTimes times(2, ms(20), ms(1));
     times.primary = {Duration{1}, ms(20) - Duration{1}};

@@ -72,7 +72,7 @@ TEST(Laser, ACarStraightAheadIsSeenAsItsRear) {
   EXPECT_EQ(hits.size(), 2U * static_cast<std::size_t>(std::atan(1.0 / 18.0) / exact_laser().azimuth_step_rad) + 1U);
 }
 
-TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
+TEST(Laser, RaysHitOutlinesWhereTheirEdgesAre) {
   const LaserConfig config = exact_laser();
   for (int aspect = 0; aspect < 36; ++aspect)
     for (const double y : {-12.0, 0.0, 7.0}) {

@@ -71,7 +71,7 @@ TEST(GroundPlane, FindsTheRearAhead) {
 }
 
 // From the nearest point to the mean distance it is more than a metre for a car that is turned by 45 degrees.
-TEST(GroundPlane, TheWidthTellsTheTurn) {
+TEST(GroundPlane, TheWidthShowsTheTurn) {
   Camera camera(exact_camera());
   const GroundPlane plane(sharp());
   for (const double turn : {-0.8, -0.4, 0.4, 0.8})

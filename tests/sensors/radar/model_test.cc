@@ -113,12 +113,12 @@ TEST(Radar, RangeRatesFoldAtTheEdgesOfTheirSpan) {
   RadarConfig config = exact_radar();
   config.rate_span_mps = 40.0;
   ObjectState car = car_at(0, 50.0, 0.0);
-  for (const auto& [speed, told] : {std::pair{19.0, 19.0}, {21.0, -19.0}, {60.0, 20.0}, {-21.0, 19.0}}) {
+  for (const auto& [speed, reported] : {std::pair{19.0, 19.0}, {21.0, -19.0}, {60.0, 20.0}, {-21.0, 19.0}}) {
     car.speed = speed;
     const List one = list(config, {car});
     ASSERT_EQ(one.returns.size(), 1U);
     // Off the axis by up to 0.02 rad.
-    EXPECT_NEAR(std::abs(std::remainder(one.returns[0].range_rate - told, 40.0)), 0.0, 0.02) << speed;
+    EXPECT_NEAR(std::abs(std::remainder(one.returns[0].range_rate - reported, 40.0)), 0.0, 0.02) << speed;
     EXPECT_LE(std::abs(one.returns[0].range_rate), 20.0);
   }
 }

@@ -41,7 +41,7 @@ struct Receiver final : bus::controller::ControllerEvents, bus::ports::FlexRayPo
   bool carrier(schedules::model::Channel) const override { return false; }
 
   // Delivers one frame at its action point in a cycle.
-  void hear(int cycle, int slot, schedules::model::Channel channel, std::span<const std::byte> bytes) {
+  void receive(int cycle, int slot, schedules::model::Channel channel, std::span<const std::byte> bytes) {
     const schedules::model::GlobalParameters& g = cluster.flexray;
     while (controller.clock()->cycle() < cycle) controller.advance(controller.next_event());
     const Microticks start = controller.clock()->start_of(
@@ -79,20 +79,20 @@ TEST(Bytes, ChangedPayloadWithValidCrcChangesTheImage) {
   const auto signals = nodes::fusion::bind_image(cluster, layout);
 
   Receiver true_receiver(cluster), deceived(cluster);
-  true_receiver.hear(slot->base_cycle, slot->slot, schedules::model::Channel::kA, honest);
-  deceived.hear(slot->base_cycle, slot->slot, schedules::model::Channel::kA,
-                forged(honest, schedules::model::Channel::kA, layout, x, 17.5));
-  const auto heard = true_receiver.controller.incoming(image).latest();
+  true_receiver.receive(slot->base_cycle, slot->slot, schedules::model::Channel::kA, honest);
+  deceived.receive(slot->base_cycle, slot->slot, schedules::model::Channel::kA,
+                   forged(honest, schedules::model::Channel::kA, layout, x, 17.5));
+  const auto received = true_receiver.controller.incoming(image).latest();
   const auto forgery = deceived.controller.incoming(image).latest();
-  ASSERT_TRUE(heard && forgery);
-  EXPECT_NEAR(nodes::fusion::decode_image_object(layout, *heard, 0, signals).x, 31.0, 0.003);
+  ASSERT_TRUE(received && forgery);
+  EXPECT_NEAR(nodes::fusion::decode_image_object(layout, *received, 0, signals).x, 31.0, 0.003);
   EXPECT_NEAR(nodes::fusion::decode_image_object(layout, *forgery, 0, signals).x, 17.5, 0.003);
 
   // The same change without a correct CRC is not received.
   std::vector<std::byte> broken(honest.begin(), honest.end());
   broken[bus::wire::kHeaderBytes + 10] ^= std::byte{0x10};
   Receiver careful(cluster);
-  careful.hear(slot->base_cycle, slot->slot, schedules::model::Channel::kA, broken);
+  careful.receive(slot->base_cycle, slot->slot, schedules::model::Channel::kA, broken);
   EXPECT_FALSE(careful.controller.incoming(image).latest().has_value());
 }
 

@@ -230,7 +230,7 @@ TEST(ClosedLoop, LaneKeepingNeedsALane) {
   EXPECT_THAT(refusal(drive), HasSubstr("nodes.feature.tasks.keep_lane.step = lane_keeping: needs a lane"));
 }
 
-TEST(ClosedLoop, ObjectsThatFollowAreToldNotToSeeTheVehicle) {
+TEST(ClosedLoop, ObjectsThatFollowAreReportedNotToSeeTheVehicle) {
   Drive drive = braking(StrategyKind::kTt);
   EXPECT_EQ(following_warning(drive.scenario), "");
   drive.scenario.world.objects.front().on->follow.emplace();
@@ -238,12 +238,12 @@ TEST(ClosedLoop, ObjectsThatFollowAreToldNotToSeeTheVehicle) {
                                                            "follow do not see, such as leader"));
 }
 
-TEST(ClosedLoop, ASectionWithoutItsStepIsTold) {
+TEST(ClosedLoop, ASectionWithoutItsStepIsReported) {
   const Drive drive = braking(StrategyKind::kTt, "\nlane_keeping: {}\nvehicle_control: {}\n");
-  const std::string told = unused_sections(drive.scenario, {&drive.cluster, 1});
-  EXPECT_THAT(told, HasSubstr("lane_keeping: has no effect: no task of the cluster has this step\n"));
-  EXPECT_THAT(told, HasSubstr("vehicle_control: has no effect"));
-  EXPECT_EQ(told.find("emergency_braking"), std::string::npos);
+  const std::string reported = unused_sections(drive.scenario, {&drive.cluster, 1});
+  EXPECT_THAT(reported, HasSubstr("lane_keeping: has no effect: no task of the cluster has this step\n"));
+  EXPECT_THAT(reported, HasSubstr("vehicle_control: has no effect"));
+  EXPECT_EQ(reported.find("emergency_braking"), std::string::npos);
   EXPECT_EQ(unused_sections(braking(StrategyKind::kTt).scenario, {&drive.cluster, 1}), "");
   // The gap is judged by that of adaptive cruise control, whichever service keeps it.
   const std::string file = shipped("scenarios/adaptive_detection.yaml");

@@ -22,7 +22,7 @@ NodeId named(const schedules::model::Cluster& cluster, std::string_view name) {
   return cluster.find_node(name).value();
 }
 
-struct Told final : recording::records::Sink {
+struct Reported final : recording::records::Sink {
   struct Symbol {
     TrueTime start, end;
     NodeId node;
@@ -131,29 +131,29 @@ TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
 // less than 130 ms.
 constexpr Duration kStampsAgree = Duration::microseconds(200);
 
-void expect_stamps_mean_what_was_measured(const Told& told, std::size_t at_least) {
+void expect_stamps_mean_what_was_measured(const Reported& reported, std::size_t at_least) {
   std::size_t compared = 0;
-  for (const auto& [id, said] : told.fused) {
-    const auto truly = told.measured.find(id);
-    ASSERT_NE(truly, told.measured.end());
+  for (const auto& [id, said] : reported.fused) {
+    const auto truly = reported.measured.find(id);
+    ASSERT_NE(truly, reported.measured.end());
     const Duration off = said - truly->second;
     EXPECT_LE(std::max(off, -off), kStampsAgree) << "sensor " << index_of(id.sensor) << " #" << id.sequence;
     ++compared;
   }
   EXPECT_GE(compared, at_least);
-  EXPECT_LE(told.image_off, kStampsAgree);
-  EXPECT_GT(told.images.size(), 20u);
+  EXPECT_LE(reported.image_off, kStampsAgree);
+  EXPECT_GT(reported.images.size(), 20u);
 }
 
 TEST(ColdStart, ListsSayWhenTheyWereMeasured) {
-  Told told;
-  Drive(kScenario, StrategyKind::kAdva).run(told);
-  expect_stamps_mean_what_was_measured(told, 80);
+  Reported reported;
+  Drive(kScenario, StrategyKind::kAdva).run(reported);
+  expect_stamps_mean_what_was_measured(reported, 80);
 }
 
 // GPS time is converted to the cluster's time scale: a fix has the fusion node's clock reading.
 TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
-  Told told;
+  Reported reported;
   struct Scale final : recording::records::Sink {
     std::vector<std::pair<TrueTime, GlobalTime>> readings;
     using recording::records::Sink::on;
@@ -161,14 +161,14 @@ TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
       readings.emplace_back(r.stamp.true_time, r.stamp.global);
     }
   } scale;
-  recording::records::Tee tee({&told, &scale});
+  recording::records::Tee tee({&reported, &scale});
   Drive(kScenario, StrategyKind::kTt).run(tee);
-  ASSERT_GT(told.fixes.size(), 5u);
+  ASSERT_GT(reported.fixes.size(), 5u);
   ASSERT_GT(scale.readings.size(), 100u);
   EXPECT_GT((scale.readings.front().first - TrueTime{}) - (scale.readings.front().second - GlobalTime{}),
             Duration::milliseconds(4))
       << "cycle 0 comes milliseconds later than in an integrated drive";
-  for (const recording::records::ReferenceFix& fix : told.fixes) {
+  for (const recording::records::ReferenceFix& fix : reported.fixes) {
     const auto after = std::lower_bound(scale.readings.begin(), scale.readings.end(), fix.measured_true,
                                         [](const auto& reading, TrueTime at) { return reading.first < at; });
     if (after == scale.readings.end()) continue;
@@ -187,20 +187,20 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
   for (const char* name : {"laser_pre", "feature", "laser", "camera"})
     drive.scenario.startup.power_on.push_back({name, Duration::milliseconds(1), 0});
   drive.scenario.startup.power_on.push_back({"camera_pre", Duration::milliseconds(2), 0});
-  Told told;
+  Reported reported;
   evaluation::cluster::StartupAccount account(drive.cluster.cycle());
-  recording::records::Tee tee({&told, &account});
+  recording::records::Tee tee({&reported, &account});
   drive.run(tee);
-  ASSERT_FALSE(told.symbols.empty());
-  const Told::Symbol& pattern = told.symbols.front();
+  ASSERT_FALSE(reported.symbols.empty());
+  const Reported::Symbol& pattern = reported.symbols.front();
   EXPECT_EQ(pattern.kind, recording::records::Symbol::kWakeup);
   EXPECT_EQ(pattern.node, named(drive.cluster, "fusion"));
   EXPECT_EQ(pattern.channel, 0);
-  EXPECT_EQ(std::count_if(told.symbols.begin(), told.symbols.end(),
-                          [](const Told::Symbol& s) { return s.kind == recording::records::Symbol::kWakeup; }),
+  EXPECT_EQ(std::count_if(reported.symbols.begin(), reported.symbols.end(),
+                          [](const Reported::Symbol& s) { return s.kind == recording::records::Symbol::kWakeup; }),
             1);
-  EXPECT_EQ(told.powered.size(), 6u);
-  for (const auto& [node, times] : told.powered) {
+  EXPECT_EQ(reported.powered.size(), 6u);
+  for (const auto& [node, times] : reported.powered) {
     ASSERT_EQ(times.size(), 1u);
     const std::string& name = drive.cluster.node(node).name;
     if (name == "fusion") {
@@ -216,11 +216,11 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
 }
 
 // Two lose their supply before wake-up. One gets it back after all wake-ups: it starts up at once.
-TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
+TEST(ColdStart, ASleepersSupplyIsNotReportedBeforeItIsAwake) {
   struct Supplies final : recording::records::Sink {
     using recording::records::Sink::on;
-    std::map<NodeId, std::vector<bool>> told;
-    void on(const recording::records::PowerChanged& r) override { told[r.stamp.node].push_back(r.on); }
+    std::map<NodeId, std::vector<bool>> reported;
+    void on(const recording::records::PowerChanged& r) override { reported[r.stamp.node].push_back(r.on); }
   };
   Drive drive(kScenario, StrategyKind::kTt);
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(300);
@@ -234,9 +234,10 @@ TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
   drive.scenario.faults.faults.back().duration = Duration::milliseconds(200);
   Supplies supplies;
   drive.run(supplies);
-  EXPECT_EQ(supplies.told.size(), 5u) << "all but the one that never had any";
-  EXPECT_EQ(supplies.told.count(named(drive.cluster, "feature")), 0u);
-  for (const auto& [node, told] : supplies.told) EXPECT_EQ(told, std::vector{true}) << drive.cluster.node(node).name;
+  EXPECT_EQ(supplies.reported.size(), 5u) << "all but the one that never had any";
+  EXPECT_EQ(supplies.reported.count(named(drive.cluster, "feature")), 0u);
+  for (const auto& [node, reported] : supplies.reported)
+    EXPECT_EQ(reported, std::vector{true}) << drive.cluster.node(node).name;
 }
 
 TEST(ColdStart, WithARecordingItIsRefused) {
@@ -250,7 +251,7 @@ TEST(ColdStart, WithARecordingItIsRefused) {
 // ---- a node loses its supply in the middle of a drive, and comes back
 
 struct Restarted {
-  Told told;
+  Reported reported;
   std::map<NodeId, GlobalTime> global;  // at the end, by each node's clock
 };
 
@@ -266,7 +267,7 @@ Restarted restarted(std::string_view name) {
   config.make_steps = [&](NodeId node) { return make_steps(set, node); };
   config.power_on = [&](NodeId node) { return std::optional(start + starts[index_of(node)].after); };
   Restarted result;
-  sim::engine::ClusterSimulation simulation(config, result.told);
+  sim::engine::ClusterSimulation simulation(config, result.reported);
   simulation.run_until(start + Duration::milliseconds(1'000));
   const NodeId node = named(drive.cluster, name);
   simulation.power_off(node);
@@ -293,7 +294,7 @@ TEST(ColdStart, ARestartedNodesStampsAreUnderstoodModuloARound) {
     const std::int64_t rounds = (behind.ns + cluster.round().ns / 2) / cluster.round().ns;
     EXPECT_GE(rounds, 7);
     EXPECT_LE(std::abs(behind.ns - rounds * cluster.round().ns), 10'000) << "apart by whole rounds and the precision";
-    expect_stamps_mean_what_was_measured(drive.told, 60);
+    expect_stamps_mean_what_was_measured(drive.reported, 60);
   }
 }
 

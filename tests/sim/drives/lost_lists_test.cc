@@ -67,7 +67,7 @@ struct Host {
     cluster.nodes[1].tasks = {task};
     return cluster;
   }
-  void hear(bus::MadeList& list, int fragment) {
+  void receive(bus::MadeList& list, int fragment) {
     now = now + Microticks{1'000};
     executive.receive_can(0, {0x100, false, list.fragment(fragment)}, now);
     executive.advance(now);
@@ -77,11 +77,11 @@ struct Host {
 TEST(LostLists, ATornListIsRecordedByItsOwnNumber) {
   Host host;
   bus::MadeList torn(host.cluster.pdus[0], 5, 9, 0), next(host.cluster.pdus[0], 6, 6, 0);
-  host.hear(torn, 0);
-  host.hear(torn, 1);
-  host.hear(next, 0);
+  host.receive(torn, 0);
+  host.receive(torn, 1);
+  host.receive(next, 0);
   EXPECT_EQ(host.hops.list, (std::vector<Seen>{{Hop::kTorn, 5}}));
-  host.hear(next, 1);
+  host.receive(next, 1);
   EXPECT_EQ(host.hops.list, (std::vector<Seen>{{Hop::kTorn, 5}, {Hop::kReceived, 6}, {Hop::kRead, 6}}));
   EXPECT_EQ(host.executive.counts().torn_lists, 1u);
 }
@@ -89,8 +89,8 @@ TEST(LostLists, ATornListIsRecordedByItsOwnNumber) {
 TEST(LostLists, AListOfOneFragmentDoesNotHideTheOneItTears) {
   Host host;
   bus::MadeList torn(host.cluster.pdus[0], 5, 9, 0), next(host.cluster.pdus[0], 6, 1, 0);
-  host.hear(torn, 0);
-  host.hear(next, 0);
+  host.receive(torn, 0);
+  host.receive(next, 0);
   EXPECT_EQ(host.hops.list, (std::vector<Seen>{{Hop::kTorn, 5}, {Hop::kReceived, 6}, {Hop::kRead, 6}}));
   EXPECT_EQ(host.executive.counts().torn_lists, 1u);
   EXPECT_EQ(host.executive.counts().overwritten_lists, 0u);

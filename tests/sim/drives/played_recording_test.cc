@@ -113,7 +113,7 @@ TEST(PlayedRecording, OfTheScheduleNothingIsLeftOver) {
   }
 }
 
-TEST(PlayedRecording, RowsBeyondTheDrivesEndAreTold) {
+TEST(PlayedRecording, RowsBeyondTheDrivesEndAreReported) {
   const Drive drive = recorded_drive(StrategyKind::kTt, RowsArePlayed::kAsScheduled);
   const RecordingUse longer = recording_use(drive.scenario, drive.cluster, *car(50'000, 7'000'000));
   EXPECT_FALSE(longer.ends_early());
@@ -125,7 +125,7 @@ TEST(PlayedRecording, RowsBeyondTheDrivesEndAreTold) {
 }
 
 // A device's step; it notes what the laser sent, and when.
-struct Heard final : nodes::host::Step {
+struct Received final : nodes::host::Step {
   struct List {
     double since = 0.0, x = 0.0;  // seconds since the recording's time 0, metres
   };
@@ -133,7 +133,7 @@ struct Heard final : nodes::host::Step {
   TrueTime start;
   std::vector<List>& lists;
 
-  Heard(std::shared_ptr<nodes::host::Step> of, TrueTime from, std::vector<List>& into)
+  Received(std::shared_ptr<nodes::host::Step> of, TrueTime from, std::vector<List>& into)
       : step(std::move(of)), start(from), lists(into) {}
   void run(nodes::host::StepContext& context) override {
     step->run(context);
@@ -146,18 +146,19 @@ struct Heard final : nodes::host::Step {
 };
 
 // The laser's lists. It, or its host, is without supply for 437 ms.
-std::vector<Heard::List> laser_lists(const Drive& drive, const std::shared_ptr<RecordedInput>& recording,
-                                     const char* crashes) {
+std::vector<Received::List> laser_lists(const Drive& drive, const std::shared_ptr<RecordedInput>& recording,
+                                        const char* crashes) {
   const schedules::model::Cluster cluster = cluster_that_plays(drive.scenario, drive.cluster, *recording);
   const Surroundings around = surroundings_of(drive.scenario, cluster, 1, 0, recording);
   const NodeSetConfig nodes{&drive.scenario, &cluster, drive.strategy, 1, 0, around.scene, recording};
-  std::vector<Heard::List> lists;
+  std::vector<Received::List> lists;
   sim::engine::SimulationConfig config;
   config.cluster = &cluster;
   config.seed = 1;
   config.make_steps = [&](NodeId node) {
     auto steps = make_steps(nodes, node);
-    if (cluster.node(node).name == "laser") steps[0] = std::make_shared<Heard>(steps[0], drive_start(cluster), lists);
+    if (cluster.node(node).name == "laser")
+      steps[0] = std::make_shared<Received>(steps[0], drive_start(cluster), lists);
     return steps;
   };
   recording::records::Tee nowhere({});
@@ -178,7 +179,7 @@ TEST(PlayedRecording, ARestartDoesNotShiftIt) {
       for (const char* crashes : {"laser", "laser_pre"}) {
         SCOPED_TRACE(testing::Message() << static_cast<int>(strategy) << static_cast<int>(rows) << crashes);
         const auto lists = laser_lists(recorded_drive(strategy, rows), car(50'000, 5'000'000), crashes);
-        for (const Heard::List& list : lists) EXPECT_NEAR(list.x, -40.0 + 5.0 * list.since, 0.05) << list.since;
+        for (const Received::List& list : lists) EXPECT_NEAR(list.x, -40.0 + 5.0 * list.since, 0.05) << list.since;
         const auto late = std::count_if(lists.begin(), lists.end(), [](const auto& list) { return list.since > 3.0; });
         EXPECT_GE(late, 18) << "ten a second";
         EXPECT_GE(lists.size(), 40u);

@@ -114,7 +114,7 @@ Scenario changed(std::string text, const std::string& from, const std::string& t
   return parse_scenario(text.replace(at, from.size(), to), shipped(kRadars));
 }
 
-TEST(RadarScenario, TheTrackerKnowsSpansFieldsAndBlindSides) {
+TEST(RadarScenario, TheTrackerHasSpansFieldsAndBlindSides) {
   const Scenario scenario = load_scenario(shipped(kRadars));
   const Scenario fog = changed(scenario.text, "weather: clear", "weather: fog");
   const Scenario hidden =

@@ -184,7 +184,7 @@ TEST(Odometry, AFusionThatReadsNoneHasATrackerWithoutIt) {
       "turn");
 }
 
-TEST(Odometry, AVehicleThatMovesWithoutItIsTold) {
+TEST(Odometry, AVehicleThatMovesWithoutItIsReported) {
   const schedules::model::Cluster measured = without_odometry(""), unread = without_odometry("fusion");
   Scenario scenario = with("");
   EXPECT_EQ(motion_warning(scenario, unread), "");

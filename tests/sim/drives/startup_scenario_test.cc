@@ -42,7 +42,7 @@ std::string refusal(const Startup& startup, const schedules::model::Cluster& clu
   return support::refusal_of([&] { node_starts(startup, cluster, 1, 0); });
 }
 
-TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {
+TEST(StartupScenario, BeginsIntegratedByDefault) {
   EXPECT_FALSE(startup_of("{}").cold);
   EXPECT_FALSE(startup_of("startup: integrated").cold);
   EXPECT_FALSE(startup_of("startup: {kind: integrated}").cold);

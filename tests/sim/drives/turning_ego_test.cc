@@ -39,7 +39,7 @@ TEST_P(TurningEgo, AParkedCarStands) {
 }
 
 // The node of the odometry has no supply for 600 ms: the fusion says that odometry has stopped, and coasts.
-TEST_P(TurningEgo, OdometryThatStopsIsToldAndCoasted) {
+TEST_P(TurningEgo, OdometryThatStopsIsReportedAndCoasted) {
   const evaluation::accuracy::DriveSummary sound = summary_of(past_a_parked_car(GetParam()));
   const evaluation::accuracy::DriveSummary summary = summary_of(past_a_parked_car(
       GetParam(), "faults:\n  - {kind: crash, node: odometry_pre, from: 2500 ms, duration: 600 ms}\n"));

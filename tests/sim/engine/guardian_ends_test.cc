@@ -48,7 +48,7 @@ schedules::model::Cluster breaking_off_cluster() {
 }
 
 // A node's received dynamic frames.
-struct DynamicHeard final : bus::controller::ControllerEvents {
+struct DynamicReceived final : bus::controller::ControllerEvents {
   using Frame = std::tuple<std::int64_t, int, Channel>;  // cycle, slot
   std::map<Frame, Microticks> frames;                    // when it was over
   std::uint64_t problems = 0;
@@ -62,7 +62,7 @@ struct DynamicHeard final : bus::controller::ControllerEvents {
 // Begins integrated, cycle 0 at kEndsBegin; every node sends one dynamic frame in every cycle.
 struct BreakingOff {
   schedules::model::Cluster cluster = breaking_off_cluster();
-  std::vector<std::unique_ptr<DynamicHeard>> heard;
+  std::vector<std::unique_ptr<DynamicReceived>> received;
   std::unique_ptr<BusSimulation> simulation;
   int cycle = 0;
 
@@ -75,8 +75,8 @@ struct BreakingOff {
       const std::int64_t thousand = (crystal.ticks_at(kEndsBegin + cluster.cycle() * 1000) - begin).value;
       nodes.push_back({crystal});
       nodes.back().clock = {begin + Microticks{1}, static_cast<int>((thousand + 500) / 1000 - kMicroPerCycle)};
-      heard.push_back(std::make_unique<DynamicHeard>());
-      events.push_back(heard.back().get());
+      received.push_back(std::make_unique<DynamicReceived>());
+      events.push_back(received.back().get());
     }
     simulation = std::make_unique<BusSimulation>(
         cluster, std::move(nodes), std::move(events),
@@ -104,12 +104,12 @@ struct BreakingOff {
   }
   medium::StarCoupler& coupler(Channel channel) { return *simulation->coupler(channel); }
   // Expects that all others received the others' frames of this cycle.
-  void expect_everything_heard(const std::string& when) {
+  void expect_everything_received(const std::string& when) {
     for (int receiver = 1; receiver < kEndsNodes; ++receiver)
       for (int sender = 1; sender < kEndsNodes; ++sender)
         for (const Channel channel : kBothChannels)
-          ASSERT_TRUE(sender == receiver ||
-                      heard[static_cast<std::size_t>(receiver)]->frames.contains({cycle, kFirstSlot + sender, channel}))
+          ASSERT_TRUE(sender == receiver || received[static_cast<std::size_t>(receiver)]->frames.contains(
+                                                {cycle, kFirstSlot + sender, channel}))
               << when << ": node " << receiver << " lacks node " << sender << "'s frame on "
               << (channel == Channel::kA ? "A" : "B");
   }
@@ -127,7 +127,7 @@ TEST(GuardianEnds, WhereverADynamicFrameBreaksOffAllGoOnCountingAlike) {
     run.run_to(at);
     run.simulation->power_off(kBreaksOff);
     run.run_to(kSegmentIsOver);
-    run.expect_everything_heard("draw " + std::to_string(n) + ", at " + std::to_string(at.ns) + " ns");
+    run.expect_everything_received("draw " + std::to_string(n) + ", at " + std::to_string(at.ns) + " ns");
     if (HasFatalFailure()) return;
     for (const Channel channel : kBothChannels) {
       held += run.coupler(channel).held();
@@ -159,14 +159,14 @@ TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
     run.write_all();
     run.run_to(kSegmentIsOver);
     run.simulation->set_disturbance(nullptr);
-    run.expect_everything_heard("draw " + std::to_string(n) + ", by " + std::to_string(stretched.by.ns) + " ns");
+    run.expect_everything_received("draw " + std::to_string(n) + ", by " + std::to_string(stretched.by.ns) + " ns");
     if (HasFatalFailure()) return;
     for (const Channel channel : kBothChannels) {
       held += run.coupler(channel).held();
       cut += run.coupler(channel).cut();
       // Longer or shorter, it is the same frame unless it was cut.
       for (std::size_t receiver = 1; receiver < kEndsNodes; ++receiver)
-        ASSERT_EQ(run.heard[receiver]->frames.contains({run.cycle, kFirstSlot, channel}),
+        ASSERT_EQ(run.received[receiver]->frames.contains({run.cycle, kFirstSlot, channel}),
                   run.coupler(channel).cut() == 0)
             << "draw " << n << ", by " << stretched.by.ns << " ns";
     }
@@ -181,9 +181,9 @@ TEST(GuardianEnds, WithoutAFaultNothingIsOtherThanWithoutAGuardian) {
     for (const Channel channel : kBothChannels) without.coupler(channel).fail(medium::StarCoupler::Failure::kStuckOpen);
     for (BreakingOff* run : {&with, &without}) run->whole_cycles(12);
     for (std::size_t n = 0; n < kEndsNodes; ++n) {
-      EXPECT_EQ(with.heard[n]->frames, without.heard[n]->frames) << "node " << n << " seed " << seed;
-      EXPECT_EQ(with.heard[n]->frames.size(), 2u * (kEndsNodes - 1) * 12);
-      EXPECT_EQ(with.heard[n]->problems, 0u);
+      EXPECT_EQ(with.received[n]->frames, without.received[n]->frames) << "node " << n << " seed " << seed;
+      EXPECT_EQ(with.received[n]->frames.size(), 2u * (kEndsNodes - 1) * 12);
+      EXPECT_EQ(with.received[n]->problems, 0u);
     }
     for (const Channel channel : kBothChannels) {
       EXPECT_EQ(with.coupler(channel).held(), 0u);

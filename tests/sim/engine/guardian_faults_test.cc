@@ -46,7 +46,7 @@ struct Running {
   }
 };
 
-TEST(GuardianFaults, ABabblingIdiotIsHeardByNobody) {
+TEST(GuardianFaults, ABabblingIdiotReachesNoReceiver) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Running with(true, seed), without(false, seed);
     for (Running* run : {&with, &without}) {
@@ -290,19 +290,20 @@ TEST(GuardianFaults, AGuardianOutlivesNoise) {
 }
 
 // Each intervention is reported with its node and reason.
-TEST(GuardianFaults, EveryInterventionIsTold) {
+TEST(GuardianFaults, EveryInterventionIsReported) {
   Running run(true, 3);
-  std::vector<medium::StarCoupler::Intervention> told;
+  std::vector<medium::StarCoupler::Intervention> reported;
   run.cluster.coupler(Channel::kB).on_intervention([&](const medium::StarCoupler::Intervention& one) {
-    told.push_back(one);
+    reported.push_back(one);
   });
   const std::uint64_t before = run.cluster.coupler(Channel::kB).blocked();
   StartSpoiler babble(run.simulation(), run.cluster.cluster, StartSpoiler::Plan::kBabble, 3);
   run.suffer(babble, 3);
-  EXPECT_EQ(told.size(), run.cluster.coupler(Channel::kB).blocked() - before + run.cluster.coupler(Channel::kB).cut());
-  EXPECT_GT(told.size(), 100u);
+  EXPECT_EQ(reported.size(),
+            run.cluster.coupler(Channel::kB).blocked() - before + run.cluster.coupler(Channel::kB).cut());
+  EXPECT_GT(reported.size(), 100u);
   TrueTime last{};
-  for (const auto& one : told) {
+  for (const auto& one : reported) {
     EXPECT_EQ(one.branch, kFaulty);
     EXPECT_EQ(one.channel, Channel::kB);
     EXPECT_GE(one.at, last);

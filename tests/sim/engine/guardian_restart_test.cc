@@ -13,7 +13,7 @@ using schedules::model::Channel;
 
 const timebase::Oscillator kFastGuardian{25'000, 1'000'000, 0};
 
-TEST(GuardianRestart, AGuardianThatHearsNobodyBeginsAnewWithoutAllocating) {
+TEST(GuardianRestart, AGuardianThatReceivesNothingBeginsAnewWithoutAllocating) {
   const schedules::model::Cluster cluster = star_cluster(4, 2, 3);
   medium::StarCoupler coupler(cluster, Channel::kA, kFastGuardian);
   const TrueTime first{1'000'000};

@@ -110,7 +110,7 @@ TEST(Plant, TheCutEndsTheSignalAtOnce) {
 
 // It was off for the first half of the frame. The rest counts as no frame, so the next one's schedule is
 // taken.
-TEST(Plant, ANodePoweredOnInTheMiddleOfAFrameDoesNotHearIt) {
+TEST(Plant, ANodePoweredOnInTheMiddleOfAFrameDoesNotReceiveIt) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Plant4 plant(seed);
     plant.run_to(Duration{20 * kCycle_ns});

@@ -118,7 +118,7 @@ struct ChannelDiary final : recording::records::Sink {
   }
 };
 
-struct Told {
+struct Reported {
   std::vector<Diary> diaries;
   ChannelDiary channels;
   int frames = 0, encoded = 0;
@@ -129,41 +129,41 @@ struct How {
 };
 constexpr How kReference{false, false}, kBitTrue{false, true}, kTransparent{true, true};
 
-Told run(std::uint64_t seed, bool troubled, const How& how, bool logged = false) {
+Reported run(std::uint64_t seed, bool troubled, const How& how, bool logged = false) {
   RandomStream draw({seed, 0, Purpose::kTest, 4, 0});
   const int nodes = static_cast<int>(draw.integer(2, 9));
   const int coldstart = static_cast<int>(draw.integer(2, nodes));
   const schedules::model::Cluster cluster =
       bus_cluster(nodes, coldstart, static_cast<int>(draw.integer(coldstart, nodes)));
-  Told told;
-  told.diaries.resize(static_cast<std::size_t>(nodes));
+  Reported reported;
+  reported.diaries.resize(static_cast<std::size_t>(nodes));
   std::vector<BusNode> begin;
   std::vector<bus::controller::ControllerEvents*> events;
   for (int n = 0; n < nodes; ++n) {
     begin.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
                      TrueTime{draw.integer(0, 20'000'000)}});
-    events.push_back(&told.diaries[static_cast<std::size_t>(n)]);
+    events.push_back(&reported.diaries[static_cast<std::size_t>(n)]);
   }
   BusSimulation simulation(cluster, std::move(begin), std::move(events));
   simulation.medium().set_transparent(how.transparent);
   simulation.medium().set_fast(how.fast);
-  medium::ChannelLog log(cluster.flexray, medium::FlexRayMedium::kMostLogged, told.channels);
+  medium::ChannelLog log(cluster.flexray, medium::FlexRayMedium::kMostLogged, reported.channels);
   if (logged) simulation.medium().set_log(&log);
   Trouble trouble(simulation, seed, nodes);
   trouble.transparent = how.transparent;
   if (troubled) simulation.set_disturbance(&trouble);
   simulation.run_until(TrueTime{1'000'000'000});
-  for (const Diary& diary : told.diaries) {
-    told.frames += diary.frames;
-    told.encoded += diary.encoded;
+  for (const Diary& diary : reported.diaries) {
+    reported.frames += diary.frames;
+    reported.encoded += diary.encoded;
   }
-  return told;
+  return reported;
 }
 
-TEST(TransparentMedium, ControllersAreToldTheSame) {
+TEST(TransparentMedium, ControllersReceiveTheSame) {
   for (const bool troubled : {false, true})
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-      const Told reference = run(seed, troubled, kReference), transparent = run(seed, troubled, kTransparent);
+      const Reported reference = run(seed, troubled, kReference), transparent = run(seed, troubled, kTransparent);
       ASSERT_EQ(reference.diaries.size(), transparent.diaries.size());
       for (std::size_t n = 0; n < reference.diaries.size(); ++n)
         ASSERT_EQ(reference.diaries[n].entries, transparent.diaries[n].entries) << "seed " << seed << " node " << n;
@@ -174,11 +174,11 @@ TEST(TransparentMedium, ControllersAreToldTheSame) {
     }
 }
 
-TEST(TransparentMedium, TheLogIsToldTheSameOfTheChannels) {
+TEST(TransparentMedium, TheLogReceivesTheSameOfTheChannels) {
   for (const bool troubled : {false, true})
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-      const Told unlogged = run(seed, troubled, kBitTrue), reference = run(seed, troubled, kReference, true),
-                 transparent = run(seed, troubled, kTransparent, true);
+      const Reported unlogged = run(seed, troubled, kBitTrue), reference = run(seed, troubled, kReference, true),
+                     transparent = run(seed, troubled, kTransparent, true);
       ASSERT_EQ(reference.channels.entries, transparent.channels.entries) << "seed " << seed;
       for (std::size_t n = 0; n < unlogged.diaries.size(); ++n)
         ASSERT_EQ(unlogged.diaries[n].entries, reference.diaries[n].entries) << "seed " << seed << " node " << n;

@@ -16,7 +16,7 @@ using ttf::faults::FaultKind;
 
 constexpr auto kCrcs = recording::records::ChannelState::kHeaderCrc | recording::records::ChannelState::kFrameCrc;
 
-struct Heard final : recording::records::Sink {
+struct Received final : recording::records::Sink {
   struct Frame {
     recording::records::ChannelFrame record;
     std::vector<std::byte> bytes;
@@ -33,17 +33,17 @@ struct Heard final : recording::records::Sink {
 };
 
 struct LoggedBus {
-  Heard heard;
+  Received received;
   FaultBus bus;
   medium::ChannelLog log;
 
   LoggedBus(FaultBusConfig config, int cycles)
-      : bus(config), log(config.cluster.flexray, medium::FlexRayMedium::kMostLogged, heard) {
+      : bus(config), log(config.cluster.flexray, medium::FlexRayMedium::kMostLogged, received) {
     bus.simulation().medium().set_log(&log);
     bus.run(5 * cycles);
   }
   LoggedBus(const ttf::faults::Fault& fault, int cycles) : LoggedBus(with({fault}), cycles) {}
-  const std::vector<Heard::Frame>& frames() const { return heard.frames; }
+  const std::vector<Received::Frame>& frames() const { return received.frames; }
 };
 
 FaultBusConfig star_of(std::vector<ttf::faults::Fault> faults) {
@@ -53,18 +53,18 @@ FaultBusConfig star_of(std::vector<ttf::faults::Fault> faults) {
   return config;
 }
 
-Channel channel_of(const Heard::Frame& frame) { return static_cast<Channel>(frame.record.channel); }
+Channel channel_of(const Received::Frame& frame) { return static_cast<Channel>(frame.record.channel); }
 
-bus::wire::FrameError error_of(const Heard::Frame& frame) {
+bus::wire::FrameError error_of(const Received::Frame& frame) {
   return bus::wire::decode_frame(channel_of(frame), frame.bytes).error;
 }
 
-void expect_sent_by(const Heard::Frame& frame, int node) {
+void expect_sent_by(const Received::Frame& frame, int node) {
   EXPECT_EQ(index_of(frame.record.sender), static_cast<std::size_t>(node));
   EXPECT_EQ(frame.record.slot, node + 1);
 }
 
-TEST(ChannelLog, WhereNothingGoesWrongThereIsNothingToTell) {
+TEST(ChannelLog, WhereNothingGoesWrongThereIsNothingToReport) {
   for (const bool star : {false, true}) EXPECT_TRUE(LoggedBus(star ? star_of({}) : with({}), 100).frames().empty());
 }
 
@@ -93,7 +93,7 @@ TEST(ChannelLog, AnInvertedBitFailsTheChecksThatCoverIt) {
       const LoggedBus logged(fault, 20);
       ASSERT_EQ(logged.frames().size(), 8U);
       const int at = region(kind) + bit;
-      for (Heard::Frame frame : logged.frames()) {
+      for (Received::Frame frame : logged.frames()) {
         expect_sent_by(frame, 2);
         EXPECT_EQ(frame.record.sent, frame.record.start);
         EXPECT_EQ(frame.record.sent_channel, frame.record.channel);
@@ -115,13 +115,13 @@ TEST(ChannelLog, AFrameThatOnlySomeReceiversMistakeIsOnTheChannelAsSent) {
   fault.receivers.push_back(NodeId{1});
   const LoggedBus all(fault, 20);
   EXPECT_EQ(all.frames().size(), 8U);
-  EXPECT_EQ(all.heard.count(recording::records::ChannelState::kFrameCrc), 8U);
+  EXPECT_EQ(all.received.count(recording::records::ChannelState::kFrameCrc), 8U);
 
   fault = fault_of(FaultKind::kSosValue, 2, 10, 4);
   fault.receivers = {NodeId{0}, NodeId{1}};
   EXPECT_TRUE(LoggedBus(fault, 20).frames().empty());
   fault.receivers.push_back(NodeId{3});
-  EXPECT_EQ(LoggedBus(fault, 20).heard.count(recording::records::ChannelState::kCoding), 8U);
+  EXPECT_EQ(LoggedBus(fault, 20).received.count(recording::records::ChannelState::kCoding), 8U);
 
   fault = fault_of(FaultKind::kOmission, 2, 10, 4);
   fault.direction = ttf::faults::FaultDirection::kReceive;
@@ -136,7 +136,7 @@ TEST(ChannelLog, OfAFrameThatBreaksOffThereAreTheBytesThatHadLeft) {
     fault.from = Duration{10 * kCycleNs + (43 + 7 + microseconds) * 1'000};
     const LoggedBus logged(fault, 15);
     ASSERT_EQ(logged.frames().size(), 2U) << microseconds;
-    for (const Heard::Frame& frame : logged.frames()) {
+    for (const Received::Frame& frame : logged.frames()) {
       expect_sent_by(frame, 1);
       const std::int64_t left = (frame.record.end - frame.record.start).ns;
       EXPECT_NEAR(static_cast<double>(left), microseconds * 1'000.0, 1'000.0) << "clocks agree to a microsecond";
@@ -162,7 +162,7 @@ TEST(ChannelLog, OfWhatCollidesNothingIsLeft) {
   ASSERT_EQ(logged.bus.acts(), 8U);
   ASSERT_EQ(logged.frames().size(), 16U);
   int of_the_owner = 0;
-  for (const Heard::Frame& frame : logged.frames()) {
+  for (const Received::Frame& frame : logged.frames()) {
     EXPECT_EQ(frame.record.state, recording::records::ChannelState::kCoding);
     EXPECT_TRUE(frame.bytes.empty());
     const bool of_nobody = frame.record.slot == 0;
@@ -178,7 +178,7 @@ TEST(ChannelLog, SignalsThatNoControllerSentAreThereToo) {
   fault.slot = 40;
   const LoggedBus logged(fault, 20);
   ASSERT_EQ(logged.frames().size(), 10U);
-  for (const Heard::Frame& frame : logged.frames()) {
+  for (const Received::Frame& frame : logged.frames()) {
     EXPECT_EQ(frame.record.sender, NodeId{2});
     EXPECT_EQ(frame.record.slot, 0);
     EXPECT_EQ(frame.record.state, recording::records::ChannelState::kSound);
@@ -188,8 +188,8 @@ TEST(ChannelLog, SignalsThatNoControllerSentAreThereToo) {
   ttf::faults::Fault noise = fault_of(FaultKind::kNoise, 0, 10, 5);
   noise.channels = schedules::model::Channels::kB;
   const LoggedBus noisy(noise, 20);
-  EXPECT_GE(noisy.heard.count(recording::records::ChannelState::kCoding), noisy.bus.acts());
-  const auto bursts = std::count_if(noisy.frames().begin(), noisy.frames().end(), [&](const Heard::Frame& frame) {
+  EXPECT_GE(noisy.received.count(recording::records::ChannelState::kCoding), noisy.bus.acts());
+  const auto bursts = std::count_if(noisy.frames().begin(), noisy.frames().end(), [&](const Received::Frame& frame) {
     return frame.record.sender == kNoNode && frame.record.slot == 0 && channel_of(frame) == Channel::kB &&
            frame.record.end - frame.record.start == noise.length;
   });
@@ -199,7 +199,7 @@ TEST(ChannelLog, SignalsThatNoControllerSentAreThereToo) {
 TEST(ChannelLog, FramesThatDoNotLeaveWereNowhere) {
   const LoggedBus logged(fault_of(FaultKind::kOmission, 1, 10, 5), 20);
   ASSERT_EQ(logged.frames().size(), 10U);
-  for (const Heard::Frame& frame : logged.frames()) {
+  for (const Received::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_EQ(frame.record.state, recording::records::ChannelState::kNothing);
     EXPECT_TRUE(frame.bytes.empty());
@@ -209,7 +209,7 @@ TEST(ChannelLog, FramesThatDoNotLeaveWereNowhere) {
 TEST(ChannelLog, AFrameOnTheOtherChannelFailsItsCrcThere) {
   const LoggedBus logged(fault_of(FaultKind::kChannelSwap, 1, 10, 5), 20);
   ASSERT_EQ(logged.frames().size(), 10U);
-  for (const Heard::Frame& frame : logged.frames()) {
+  for (const Received::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_NE(frame.record.channel, frame.record.sent_channel);
     EXPECT_EQ(frame.record.state, recording::records::ChannelState::kFrameCrc);
@@ -224,7 +224,7 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
   for (const bool star : {false, true}) {
     const LoggedBus logged(star ? star_of({fault}) : with({fault}), 20);
     ASSERT_EQ(logged.frames().size(), 10U);
-    for (const Heard::Frame& frame : logged.frames()) {
+    for (const Received::Frame& frame : logged.frames()) {
       expect_sent_by(frame, 1);
       // The guardian refuses a frame that is late by more than half an action point offset.
       EXPECT_EQ(frame.record.state,
@@ -237,7 +237,7 @@ TEST(ChannelLog, AFrameThatIsLateIsSoundAndLate) {
 TEST(ChannelLog, ATransientLeavesNothingThatAnybodyMakesOut) {
   const LoggedBus logged(fault_of(FaultKind::kTransient, 0, 10, 3), 20);
   EXPECT_EQ(logged.frames().size(), 3U * 2 * 4);
-  EXPECT_EQ(logged.heard.count(recording::records::ChannelState::kCoding), 3U * 2 * 4);
+  EXPECT_EQ(logged.received.count(recording::records::ChannelState::kCoding), 3U * 2 * 4);
 }
 
 TEST(ChannelLog, SignalsThatAGuardianBlocksReachNoNodeAndThoseItMakesOutAreSound) {
@@ -246,15 +246,15 @@ TEST(ChannelLog, SignalsThatAGuardianBlocksReachNoNodeAndThoseItMakesOutAreSound
   own.masquerade = ttf::faults::MasqueradeMode::kOwnSlot;
   const LoggedBus masked(star_of({own}), 20);
   EXPECT_EQ(masked.frames().size(), 10U);
-  EXPECT_EQ(masked.heard.count(recording::records::ChannelState::kNothing), 10U);
+  EXPECT_EQ(masked.received.count(recording::records::ChannelState::kNothing), 10U);
 
   ttf::faults::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
   EXPECT_TRUE(LoggedBus(star_of({babble}), 8).frames().empty());
   const LoggedBus babbling(star_of({babble}), 20);
-  for (const Heard::Frame& frame : babbling.frames()) expect_sent_by(frame, 3);  // with which its own noise collides
+  for (const Received::Frame& frame : babbling.frames()) expect_sent_by(frame, 3);  // with which its own noise collides
 
   const LoggedBus misshapen(star_of({fault_of(FaultKind::kSosValue, 1, 10, 100)}), 120);
-  EXPECT_EQ(misshapen.frames().size(), misshapen.heard.count(recording::records::ChannelState::kNothing));
+  EXPECT_EQ(misshapen.frames().size(), misshapen.received.count(recording::records::ChannelState::kNothing));
   EXPECT_EQ(misshapen.frames().size(), static_cast<std::size_t>(misshapen.bus.said(0).count(
                                            2, bus::controller::kSyntaxError | bus::controller::kNoFrame)));
 }
@@ -265,7 +265,7 @@ TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
   fault.from = Duration{10 * kCycleNs + (43 + 7 + 12) * 1'000};
   const LoggedBus logged(star_of({fault}), 15);
   ASSERT_EQ(logged.frames().size(), 2U);
-  for (const Heard::Frame& frame : logged.frames()) {
+  for (const Received::Frame& frame : logged.frames()) {
     expect_sent_by(frame, 1);
     EXPECT_EQ(frame.record.start, frame.record.sent) << "as at the sender, not at the coupler";
     EXPECT_EQ(frame.record.state, recording::records::ChannelState::kCoding | recording::records::ChannelState::kCut);
@@ -274,7 +274,7 @@ TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
 }
 
 // 100 ms of noise with a burst of 10 us in every 100 us, beside the frames of four nodes.
-TEST(ChannelLog, SignalsDrawnIntoALongNoiseAreToldAsTheyEnd) {
+TEST(ChannelLog, SignalsDrawnIntoALongNoiseAreReportedAsTheyEnd) {
   ttf::faults::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 20);
   noise.length = noise.interval = Duration::milliseconds(100);
   ttf::faults::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
@@ -284,7 +284,7 @@ TEST(ChannelLog, SignalsDrawnIntoALongNoiseAreToldAsTheyEnd) {
   const LoggedBus logged(with({noise, babble}), 40);
   // The noise, 1000 bursts, four frames in each of 20 cycles.
   ASSERT_EQ(logged.frames().size(), 1U + 1000U + 4U * 20U);
-  EXPECT_EQ(logged.heard.count(recording::records::ChannelState::kCoding), logged.frames().size())
+  EXPECT_EQ(logged.received.count(recording::records::ChannelState::kCoding), logged.frames().size())
       << "nobody can make any of it out";
   for (std::size_t f = 1; f < logged.frames().size(); ++f)
     EXPECT_LE(logged.frames()[f - 1].record.end, logged.frames()[f].record.end + Duration::microseconds(3)) << "delays";
@@ -301,7 +301,7 @@ TEST(ChannelLog, AFrameDrawnIntoALongNoiseBreaksOffWithItsSender) {
   const LoggedBus logged(with({noise, crash}), 40);
   const TrueTime breaks_off = TrueTime{1'000'000} + crash.from;
   std::size_t cut = 0;
-  for (const Heard::Frame& frame : logged.frames()) {
+  for (const Received::Frame& frame : logged.frames()) {
     if (frame.record.sender != NodeId{2} || frame.record.start < breaks_off - Duration{40'000}) continue;
     EXPECT_EQ(frame.record.end, breaks_off) << "channel " << static_cast<int>(frame.record.channel);
     ++cut;

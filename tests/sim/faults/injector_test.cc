@@ -307,7 +307,7 @@ TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
 
 // A transient begins in the middle of a frame. A receiver becomes deaf before it begins to receive a frame that
 // has left. Both are known when the frame leaves, and reported when the fault begins.
-TEST(Injector, NothingIsToldBeforeItIsSo) {
+TEST(Injector, NothingIsReportedBeforeItIsSo) {
   const TrueTime slot_three{1'000'000 + 10 * kCycleNs + 2 * 43'000 + 7'000};
   for (const FaultKind kind : {FaultKind::kTransient, FaultKind::kOmission}) {
     ttf::faults::Fault fault = fault_of(kind, 0, 10, 1);
@@ -320,10 +320,10 @@ TEST(Injector, NothingIsToldBeforeItIsSo) {
     const medium::FlexRayMedium& medium = undisturbed.simulation().medium();
     const auto carrier = [&] { return medium.carrier(NodeId{0}, Channel::kA, undisturbed.simulation().now()); };
     while (!carrier()) undisturbed.simulation().run_until(undisturbed.simulation().now() + Duration{1});
-    const TrueTime heard = undisturbed.simulation().now();
-    ASSERT_LT(heard - slot_three, Duration{10'000});
+    const TrueTime received = undisturbed.simulation().now();
+    ASSERT_LT(received - slot_three, Duration{10'000});
     ASSERT_GT(medium.delay(NodeId{2}, NodeId{0}), Duration{1});
-    const TrueTime from = kind == FaultKind::kOmission ? heard : heard + Duration{10'000};
+    const TrueTime from = kind == FaultKind::kOmission ? received : received + Duration{10'000};
     fault.from = from - TrueTime{1'000'000};
     fault.duration = Duration{kCycleNs / 2};
     config.faults = {fault};

@@ -26,12 +26,12 @@ schedules::model::Cluster star(std::int64_t min_delay_ps, std::int64_t max_delay
 }
 
 struct TestCoupler final : sim::medium::Coupler {
-  std::vector<Leaving> heard, out_of_nothing;
+  std::vector<Leaving> received, out_of_nothing;
   bool open = true;
   std::optional<TrueTime> cut, hold;
   bool pass(Leaving& signal, const bus::wire::DecodedFrame* frame) override {
     EXPECT_EQ(frame != nullptr, signal.signal == bus::ports::Signal::kFrame);
-    heard.push_back(signal);
+    received.push_back(signal);
     if (cut) signal.signal = bus::ports::Signal::kUndecodable, signal.end = *cut;
     return open;
   }
@@ -110,19 +110,19 @@ TEST(Star, TheTwoFarthestBranchesTogetherHaveTheLargestDelay) {
   EXPECT_EQ(largest, Duration{2500});
 }
 
-TEST(Star, TheCouplerHearsASignalAfterItsBranchAndTheOthersAfterTheirs) {
+TEST(Star, TheCouplerReceivesASignalAfterItsBranchAndTheOthersAfterTheirs) {
   Bench bench;
   bench.send(3, Signal::kCas, TrueTime{10'000}, TrueTime{14'000});
   const auto reached = bench.run();
-  ASSERT_EQ(bench.coupler.heard.size(), 1u);
-  const Leaving& heard = bench.coupler.heard[0];
-  EXPECT_EQ(heard.sender, NodeId{3});
-  EXPECT_EQ(heard.start, TrueTime{10'000} + bench.medium.branch(NodeId{3}));
-  EXPECT_EQ(heard.end - heard.start, Duration{4000});
+  ASSERT_EQ(bench.coupler.received.size(), 1u);
+  const Leaving& received = bench.coupler.received[0];
+  EXPECT_EQ(received.sender, NodeId{3});
+  EXPECT_EQ(received.start, TrueTime{10'000} + bench.medium.branch(NodeId{3}));
+  EXPECT_EQ(received.end - received.start, Duration{4000});
   ASSERT_EQ(reached.size(), laws::kNodes - 1);
   for (const auto& one : reached) {
     EXPECT_NE(one.node, 3u);
-    EXPECT_EQ(one.start, heard.start + bench.medium.branch(static_cast<NodeId>(one.node)));
+    EXPECT_EQ(one.start, received.start + bench.medium.branch(static_cast<NodeId>(one.node)));
     EXPECT_EQ(one.end - one.start, Duration{4000});
   }
 }
@@ -168,7 +168,7 @@ TEST(Star, NoiseOfANodeGoesThroughTheCouplerAndNoiseOutOfNothingPastIt) {
   const Leaving noise{NodeId{0}, Channel::kA, Signal::kUndecodable, TrueTime{5'000}, TrueTime{6'000}, {}};
   bench.medium.emit(noise, NodeId{2});
   EXPECT_TRUE(bench.run().empty());
-  EXPECT_EQ(bench.coupler.heard.at(0).sender, NodeId{2});
+  EXPECT_EQ(bench.coupler.received.at(0).sender, NodeId{2});
   bench.medium.emit(noise, std::nullopt);
   EXPECT_EQ(bench.coupler.out_of_nothing.size(), 1u);
   EXPECT_EQ(bench.run().size(), laws::kNodes);
@@ -199,7 +199,7 @@ TEST(Star, ADisturbanceIsAskedOnTheWayToTheCouplerAndOnTheWayFromIt) {
   EXPECT_EQ(bench.run().size(), laws::kNodes - 1);
   EXPECT_EQ(marginal.to_coupler, 1);
   EXPECT_EQ(marginal.from_coupler, static_cast<int>(laws::kNodes - 1));
-  EXPECT_EQ(bench.coupler.heard.at(0).start, TrueTime{47'000} + bench.medium.branch(NodeId{1}));
+  EXPECT_EQ(bench.coupler.received.at(0).start, TrueTime{47'000} + bench.medium.branch(NodeId{1}));
 }
 
 TEST(Star, BothLegsSayWhetherAFaultSentIt) {

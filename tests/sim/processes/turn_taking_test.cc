@@ -160,7 +160,7 @@ class Dawdling final : public bus::ports::Exchange {
     dawdle();
     port_->send(message);
   }
-  Heard receive() override {
+  Received receive() override {
     dawdle();
     return port_->receive();
   }
@@ -194,7 +194,7 @@ class Doomed final : public bus::ports::Exchange {
     ++taken_;
     port_->send(message);
   }
-  Heard receive() override { return port_->receive(); }
+  Received receive() override { return port_->receive(); }
 
  private:
   std::unique_ptr<bus::ports::Exchange> port_;

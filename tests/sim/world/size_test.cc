@@ -152,7 +152,7 @@ std::string mistake_in(const std::string& size) {
   return support::refusal_of([&] { world_from(with_size(size)); }, "accepted");
 }
 
-TEST(Sizes, MistakesAreTold) {
+TEST(Sizes, MistakesAreReported) {
   EXPECT_THAT(mistake_in("{draw: cars93}"), HasSubstr("size.draw = cars93: must be one of nominal, normal, uniform"));
   EXPECT_THAT(mistake_in("{normal: {length: 3.2}}"),
               HasSubstr("size.normal.length = 3.2: must lie `length_sigma` or more within `shortest` and `longest`"));

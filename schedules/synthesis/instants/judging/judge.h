@@ -18,17 +18,17 @@
 namespace ttf::schedules::synthesis::instants::judging {
 
 // A measurement in each round, and the first use that rests on it. It rests on all older ones as well.
-struct Met {
+struct FirstUse {
   std::size_t chain = 0;  // a chain's number in the plan
   Duration measured{};    // within the round
   Duration used{};        // not before `measured`, in any round
 };
 
 // One task that ends chains of sensors that observe objects.
-struct Meeting {
+struct ChainEnd {
   Duration round{};
-  std::vector<Duration> uses;  // within the round, rising
-  std::vector<Met> met;        // rising in `measured`
+  std::vector<Duration> uses;        // within the round, rising
+  std::vector<FirstUse> first_uses;  // rising in `measured`
 };
 
 // The same while no instant is known.
@@ -54,7 +54,7 @@ class Judge {
   virtual std::size_t parts() const { return 1; }
   // Returns max(weight * part), each part above zero and the less the better. Parts of weight 0 need not be counted.
   // The same meetings have the same value.
-  virtual double of(const std::vector<Meeting>& meetings, const std::vector<double>& weights) const = 0;
+  virtual double of(const std::vector<ChainEnd>& chain_ends, const std::vector<double>& weights) const = 0;
   // Returns a bound of this from below, whatever the instants. The search for it may end at `enough`. It has `effort`
   // steps, and more of them may find a larger bound.
   virtual double bound(const std::vector<Prospect>& prospects, const std::vector<double>& weights, double enough,
@@ -66,7 +66,7 @@ class Judge {
 using Judges = std::map<plan::Goal, const Judge*>;
 
 // Returns what the ends of chains meet in a cluster that a synthesis of the plan has made.
-std::vector<Meeting> meetings(const plan::Plan& plan, const model::Cluster& cluster);
+std::vector<ChainEnd> chain_ends(const plan::Plan& plan, const model::Cluster& cluster);
 
 // Returns max(weight * part) of such a cluster, with a weight for each part.
 double judged(const Judge& judge, const std::vector<double>& weights, const plan::Plan& plan,

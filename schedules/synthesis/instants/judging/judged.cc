@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "schedules/synthesis/instants/judging/meetings.h"
+#include "schedules/synthesis/instants/judging/chain_ends.h"
 #include "schedules/synthesis/instants/judging/moves.h"
 #include "schedules/synthesis/instants/placement.h"
 
@@ -173,7 +173,7 @@ class JudgedSearch {
 
   void weigh(Contender& one, const std::vector<double>& weights) {
     const auto value = [&](const std::vector<Ticks>& offsets) {
-      return judge_.of(meetings(plan_, one.reading.problem, one.tick_ps, offsets), weights);
+      return judge_.of(chain_ends(plan_, one.reading.problem, one.tick_ps, offsets), weights);
     };
     int moves = 0;
     const std::vector<Placed> starts = one.proposals;

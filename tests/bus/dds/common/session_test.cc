@@ -74,7 +74,7 @@ TEST(DdsSession, AMissingNodeIsNamedAfterThePatience) {
   }
 }
 
-TEST(DdsSession, ANodeThatDoesNotHearTheOthersYetIsNamed) {
+TEST(DdsSession, ANodeThatDoesNotReceiveTheOthersYetIsNamed) {
   const Session session = common::session(2);
   exchange::ExchangeSupervisor supervisor(session);
   exchange::Exchange zero(session, NodeId{0}), one(session, NodeId{1});  // one is there, but takes no notice
@@ -109,9 +109,9 @@ TEST(DdsSession, ANodeThatDiesBeforeItComesIsNotWaitedFor) {
   zero.wait_ready(10s);
   thread.join();
   supervisor.wait_ready(10s);
-  const auto heard = zero.receive();
-  EXPECT_TRUE(heard.gone);
-  EXPECT_EQ(heard.from, NodeId{2});
+  const auto received = zero.receive();
+  EXPECT_TRUE(received.gone);
+  EXPECT_EQ(received.from, NodeId{2});
 }
 
 std::string error_of(const std::function<void()>& work) {
@@ -151,7 +151,7 @@ class DdsPair : public testing::Test {
   std::optional<exchange::Exchange> zero_{std::in_place, session_, NodeId{0}}, one_{std::in_place, session_, NodeId{1}};
 };
 
-TEST_F(DdsPair, ALivingNodeAnnouncedGoneIsToldSo) {
+TEST_F(DdsPair, ALivingNodeAnnouncedGoneReceivesThat) {
   supervisor_->announce_gone(NodeId{1});
   EXPECT_TRUE(zero_->receive().gone);
   EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been removed by the supervisor");
@@ -164,7 +164,7 @@ TEST_F(DdsPair, StopsWhenTheSupervisorLeaves) {
   EXPECT_EQ(error_of([this] { zero_->receive(); }), "exchange: the supervisor has left");
 }
 
-TEST_F(DdsPair, TheSupervisorKnowsWhoHasJoinedAndLeft) {
+TEST_F(DdsPair, TheSupervisorReportsJoinedAndLeftMembers) {
   zero_.reset();
   supervisor_->announce_gone(NodeId{0});  // a launch does this for every end
   EXPECT_TRUE(one_->receive().gone);

@@ -40,7 +40,7 @@ TEST(EndAgreement, EndsWhereTheBestInformedIsWhoSaysTheRestAgain) {
   EXPECT_EQ(agreement.end(), 9u);
 }
 
-TEST(EndAgreement, WhereAllHeardTheSameNobodyHasToSayAnythingAgain) {
+TEST(EndAgreement, WhereAllReceivedTheSameNothingIsRepeated) {
   EndAgreement agreement({kA, kB});
   agreement.begin();
   agreement.report(kA, 1, 5);
@@ -103,16 +103,16 @@ class DrawnAgreement {
     for (std::size_t i = 0; i < members; ++i) {
       const NodeId node{static_cast<std::uint8_t>(i)};
       Survivor& survivor = survivors_.try_emplace(node).first->second;
-      const std::uint64_t heard = below(20);
-      for (std::uint64_t n = 0; n < heard; ++n) accept(survivor, n);
-      survivor.in_flight = heard;
-      survivor.reach = heard + below(4);
+      const std::uint64_t received = below(20);
+      for (std::uint64_t n = 0; n < received; ++n) accept(survivor, n);
+      survivor.in_flight = received;
+      survivor.reach = received + below(4);
       all.insert(node);
     }
     agreement_ = std::make_unique<EndAgreement>(all);
   }
   void run() {
-    tell_all(agreement_->begin());
+    report_all(agreement_->begin());
     for (int steps = 0; !agreement_->done(); ++steps) {
       ASSERT_LT(steps, 100'000) << "it never ends";
       if (survivors_.size() > 1 && below(12) == 0) {
@@ -120,7 +120,7 @@ class DrawnAgreement {
         const NodeId node = victim->first;
         survivors_.erase(victim);
         for (auto& other : survivors_) cut_off(node, other.second.again);
-        if (const auto order = agreement_->without(node)) tell_all(*order);
+        if (const auto order = agreement_->without(node)) report_all(*order);
         continue;
       }
       step(std::next(survivors_.begin(), static_cast<std::ptrdiff_t>(below(survivors_.size())))->second);
@@ -154,7 +154,7 @@ class DrawnAgreement {
     const auto nothing = std::make_shared<const std::vector<std::byte>>();
     survivor.stream.accept({number, common::Kind::kMessage, nothing}, survivor.entries);
   }
-  void tell_all(const EndAgreement::Order& order) {
+  void report_all(const EndAgreement::Order& order) {
     for (auto& entry : survivors_) entry.second.orders.push_back(order);
   }
   void step(Survivor& survivor) {
@@ -177,7 +177,7 @@ class DrawnAgreement {
     const EndAgreement::Order order = survivor.orders.front();
     survivor.orders.pop_front();
     if (order.kind == common::Kind::kFence) {
-      if (const auto close = agreement_->report(self, order.round, survivor.stream.fence())) tell_all(*close);
+      if (const auto close = agreement_->report(self, order.round, survivor.stream.fence())) report_all(*close);
       return;
     }
     survivor.confirm = order.round;
@@ -205,7 +205,7 @@ class DrawnAgreement {
   std::unique_ptr<EndAgreement> agreement_;
 };
 
-TEST(EndAgreement, SurvivorsHaveHeardTheSameWheneverMembersDie) {
+TEST(EndAgreement, SurvivorsHaveReceivedTheSameWheneverMembersDie) {
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
     SCOPED_TRACE(seed);
     DrawnAgreement drawn(seed);

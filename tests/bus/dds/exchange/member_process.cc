@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::uint64_t kEndless = ~std::uint64_t{0};
 
-struct HeardOf {
+struct ReceivedOf {
   std::uint64_t expected = 0;
   std::uint64_t count = 0;
   std::uint64_t hash = test::kHashBegin;
@@ -48,35 +48,35 @@ class TalkingMember {
   }
   void talk() {
     while (said_ < count_) say();
-    hear_all(kEndless);
+    receive_all(kEndless);
   }
   void rounds() {
     while (said_ < count_) {
       say();
-      hear_all(said_);
+      receive_all(said_);
     }
-    hear_all(kEndless);
+    receive_all(kEndless);
   }
   void report() const {
-    for (const auto& [node, heard] : others_)
-      fmt::print("{} {} {:016x} {}\n", index_of(node), heard.count, heard.hash, heard.gone ? "gone" : "there");
+    for (const auto& [node, received] : others_)
+      fmt::print("{} {} {:016x} {}\n", index_of(node), received.count, received.hash, received.gone ? "gone" : "there");
   }
 
  private:
   void say() { exchange_.send(test::message(self_, said_++, sizes_)); }
   // Up to message `round` of each.
-  void hear_all(std::uint64_t round) {
+  void receive_all(std::uint64_t round) {
     for (const auto& [node, other] : others_)
-      while (other.count < std::min(round, other.expected) && !other.gone) hear();
+      while (other.count < std::min(round, other.expected) && !other.gone) receive();
   }
-  void hear() {
-    const auto heard = exchange_.receive();
-    HeardOf& of = others_.at(heard.from);
+  void receive() {
+    const auto received = exchange_.receive();
+    ReceivedOf& of = others_.at(received.from);
     if (of.gone) throw std::runtime_error("heard of one who had gone");
-    of.gone = heard.gone;
-    if (heard.gone) return;
+    of.gone = received.gone;
+    if (received.gone) return;
     ++of.count;
-    of.hash = test::hash_of(heard.bytes, of.hash);
+    of.hash = test::hash_of(received.bytes, of.hash);
   }
 
   Exchange exchange_;
@@ -84,7 +84,7 @@ class TalkingMember {
   std::uint64_t count_;
   test::Sizes sizes_;
   std::uint64_t said_ = 0;
-  std::map<NodeId, HeardOf> others_;
+  std::map<NodeId, ReceivedOf> others_;
 };
 
 int run(int words, char** arguments) {

@@ -21,11 +21,11 @@ enum class Mode { kTalk, kRounds };
 
 class MemberProcess : public test::ChildProcess {
  public:
-  struct HeardOf {
+  struct ReceivedOf {
     std::uint64_t count = 0;
     std::string hash;
     bool gone = false;
-    bool operator==(const HeardOf&) const = default;
+    bool operator==(const ReceivedOf&) const = default;
   };
 
   MemberProcess(const common::Session& session, NodeId self, Mode mode, std::uint64_t count, test::Sizes sizes,
@@ -34,13 +34,13 @@ class MemberProcess : public test::ChildProcess {
 
   NodeId self() const { return self_; }
   // After wait().
-  std::map<std::size_t, HeardOf> heard() const {
-    std::map<std::size_t, HeardOf> heard;
+  std::map<std::size_t, ReceivedOf> received() const {
+    std::map<std::size_t, ReceivedOf> received;
     std::istringstream lines(said_after_ready());
     std::size_t node = 0;
-    HeardOf of;
-    for (std::string how; lines >> node >> of.count >> of.hash >> how; heard[node] = of) of.gone = how == "gone";
-    return heard;
+    ReceivedOf of;
+    for (std::string how; lines >> node >> of.count >> of.hash >> how; received[node] = of) of.gone = how == "gone";
+    return received;
   }
 
  private:

@@ -40,16 +40,16 @@ class Launch {
   // Waits for all members that were not killed. Expects `count` messages of members not in `dead`. Members in
   // `dead` must be gone, and all must have received the same beginning of their messages. Announces every end,
   // as a launch does.
-  void expect_all_heard(const std::set<std::size_t>& dead = {}) {
-    std::map<std::size_t, std::optional<MemberProcess::HeardOf>> of_dead;
+  void expect_all_received(const std::set<std::size_t>& dead = {}) {
+    std::map<std::size_t, std::optional<MemberProcess::ReceivedOf>> of_dead;
     for (MemberProcess& member : members_) {
       const std::size_t self = index_of(member.self());
       if (dead.contains(self)) continue;
       ASSERT_EQ(member.wait(), 0) << "node " << self << ": " << member.said();
       if (supervisor_) supervisor_->announce_gone(member.self());
-      const auto heard = member.heard();
-      ASSERT_EQ(heard.size(), session_.members.size() - 1);
-      for (const auto& [from, of] : heard) {
+      const auto received = member.received();
+      ASSERT_EQ(received.size(), session_.members.size() - 1);
+      for (const auto& [from, of] : received) {
         if (!dead.contains(from)) {
           EXPECT_EQ(of.count, count_) << self << " of " << from;
           EXPECT_EQ(of.hash, hash_of_messages(NodeId{static_cast<std::uint8_t>(from)}, count_, sizes_));
@@ -64,9 +64,9 @@ class Launch {
         EXPECT_EQ(of, *first) << "heard by " << self << " of " << from << ", " << of.count << " for " << first->count;
       }
     }
-    for (const auto& [node, of] : of_dead) last_heard_[node] = of->count;
+    for (const auto& [node, of] : of_dead) last_received_[node] = of->count;
   }
-  std::uint64_t last_heard(std::size_t dead) const { return last_heard_.at(dead); }
+  std::uint64_t last_received(std::size_t dead) const { return last_received_.at(dead); }
   // The next event of this kind about this node; others are passed over.
   std::optional<ExchangeSupervisor::Event> await(What what, std::size_t node) {
     const auto deadline = std::chrono::steady_clock::now() + 20s;
@@ -82,32 +82,32 @@ class Launch {
   std::uint64_t count_;
   std::optional<ExchangeSupervisor> supervisor_;
   std::list<MemberProcess> members_;
-  std::map<std::size_t, std::uint64_t> last_heard_;
+  std::map<std::size_t, std::uint64_t> last_received_;
 };
 
 class DdsProcesses : public testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Members, DdsProcesses, testing::Values(2, 3, 6));
 
-TEST_P(DdsProcesses, HearEachOtherInRounds) {
+TEST_P(DdsProcesses, ReceiveEachOtherInRounds) {
   Launch launch(common::session(GetParam()), Mode::kRounds, 400, Sizes::kAll);
   launch.wait_ready();
-  launch.expect_all_heard();
+  launch.expect_all_received();
 }
 
-TEST_P(DdsProcesses, HearEachOtherAsFastAsTheyCan) {
+TEST_P(DdsProcesses, ReceiveEachOtherAsFastAsTheyCan) {
   Launch launch(common::session(GetParam()), Mode::kTalk, 600, Sizes::kAll);
   launch.wait_ready();
-  launch.expect_all_heard();
+  launch.expect_all_received();
 }
 
-TEST_P(DdsProcesses, HearEachOtherWithoutSupervisor) {
+TEST_P(DdsProcesses, ReceiveEachOtherWithoutSupervisor) {
   common::Session session = common::session(GetParam());
   session.supervised = false;
   Launch launch(session, Mode::kRounds, 1200, Sizes::kSmall);
-  launch.expect_all_heard();
+  launch.expect_all_received();
 }
 
-TEST(DdsKill, AllSurvivorsHearTheSameOfTheDead) {
+TEST(DdsKill, AllSurvivorsReceiveTheSameOfTheDead) {
   for (const auto delay : {0ms, 3ms, 20ms, 100ms, 300ms}) {
     SCOPED_TRACE(delay.count());
     Launch launch(common::session(5), Mode::kTalk, 300, Sizes::kAll, {1});
@@ -117,8 +117,8 @@ TEST(DdsKill, AllSurvivorsHearTheSameOfTheDead) {
     launch.supervisor().announce_gone(NodeId{1});
     const auto gone = launch.await(What::kGone, 1);
     ASSERT_TRUE(gone);
-    launch.expect_all_heard({1});
-    EXPECT_EQ(gone->samples, launch.last_heard(1) + 1);  // and its hello
+    launch.expect_all_received({1});
+    EXPECT_EQ(gone->samples, launch.last_received(1) + 1);  // and its hello
   }
 }
 
@@ -131,7 +131,7 @@ TEST(DdsKill, TheOthersGoOnInRoundsWithoutTheDead) {
   launch.supervisor().announce_gone(NodeId{2});
   ASSERT_TRUE(launch.await(What::kGone, 2));
   EXPECT_LT(std::chrono::steady_clock::now() - began, 5s);  // without waiting for its lease of 10 s
-  launch.expect_all_heard({2});
+  launch.expect_all_received({2});
 }
 
 TEST(DdsKill, TwoAtOnceAndOneWhileItsEndIsAgreedUpon) {
@@ -144,7 +144,7 @@ TEST(DdsKill, TwoAtOnceAndOneWhileItsEndIsAgreedUpon) {
     launch.supervisor().announce_gone(NodeId{static_cast<std::uint8_t>(victim)});
     std::this_thread::sleep_for(5ms);
   }
-  launch.expect_all_heard({0, 3, 5});
+  launch.expect_all_received({0, 3, 5});
 }
 
 TEST(DdsKill, WithoutSupervisorItIsAnErrorThatNamesTheDead) {
@@ -171,7 +171,7 @@ TEST(DdsStop, ForLongerThanTheLeaseChangesNothing) {
   std::this_thread::sleep_for(500ms);
   launch.member(1).signal(SIGCONT);
   EXPECT_TRUE(launch.await(What::kBack, 1));
-  launch.expect_all_heard();
+  launch.expect_all_received();
 }
 
 TEST(DdsStop, ShortOnesOfAnybodyChangeNothing) {
@@ -186,7 +186,7 @@ TEST(DdsStop, ShortOnesOfAnybodyChangeNothing) {
     member.signal(SIGCONT);
     std::this_thread::sleep_for(std::chrono::milliseconds(draw / 256 % 20));
   }
-  launch.expect_all_heard();
+  launch.expect_all_received();
 }
 
 TEST(DdsSessions, TwoAtOnceDoNotMix) {
@@ -194,8 +194,8 @@ TEST(DdsSessions, TwoAtOnceDoNotMix) {
   Launch other(common::session(3), Mode::kTalk, 2000, Sizes::kSmall);
   one.wait_ready();
   other.wait_ready();
-  one.expect_all_heard();
-  other.expect_all_heard();
+  one.expect_all_received();
+  other.expect_all_received();
 }
 
 TEST(DdsConfiguration, TheShippedFileServes) {
@@ -203,7 +203,7 @@ TEST(DdsConfiguration, TheShippedFileServes) {
   {
     Launch launch(common::session(3), Mode::kRounds, 100, Sizes::kSmall);
     launch.wait_ready();
-    launch.expect_all_heard();
+    launch.expect_all_received();
   }
   unsetenv("CYCLONEDDS_URI");
 }

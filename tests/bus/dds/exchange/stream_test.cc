@@ -1,5 +1,5 @@
 // A member's stream of another, sample by sample (bus/dds/exchange/stream.h), and the messages that all have
-// received (bus/dds/exchange/heard.h).
+// received (bus/dds/exchange/received_counts.h).
 #include "bus/dds/exchange/stream.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/dds/exchange/heard.h"
+#include "bus/dds/exchange/received_counts.h"
 
 namespace ttf::bus::dds::exchange {
 namespace {
@@ -29,7 +29,7 @@ class StreamTest : public testing::Test {
     stream_.accept(said(number, kind), entries_);
   }
   void close(std::uint64_t end) { stream_.close(end, entries_); }
-  std::string heard() const {
+  std::string received() const {
     std::string text;
     for (const common::Entry& entry : entries_)
       text += (text.empty() ? "" : " ") + (entry.kind == common::Kind::kBye ? "bye" : std::to_string(entry.number));
@@ -48,10 +48,10 @@ class StreamTest : public testing::Test {
   std::vector<common::Entry> entries_;
 };
 
-TEST_F(StreamTest, IsHeardInOrderAndEachSampleOnce) {
+TEST_F(StreamTest, IsReceivedInOrderAndEachSampleOnce) {
   for (const std::uint64_t number : {0, 1, 0, 1, 2, 1, 3}) accept(number);
-  EXPECT_EQ(heard(), "0 1 2 3");
-  EXPECT_EQ(stream_.heard(), 4u);
+  EXPECT_EQ(received(), "0 1 2 3");
+  EXPECT_EQ(stream_.received(), 4u);
 }
 
 TEST_F(StreamTest, AGapIsAnErrorThatNamesIt) {
@@ -64,23 +64,23 @@ TEST_F(StreamTest, EndsWithItsGoodbye) {
   accept(1, common::Kind::kBye);
   EXPECT_TRUE(stream_.closed());
   accept(2);
-  EXPECT_EQ(heard(), "0 bye");
+  EXPECT_EQ(received(), "0 bye");
 }
 
-TEST_F(StreamTest, BehindTheFenceNothingIsHeardUntilItIsClosed) {
+TEST_F(StreamTest, BehindTheFenceNothingIsReceivedUntilItIsClosed) {
   accept(0);
   EXPECT_EQ(stream_.fence(), 1u);
   accept(1);
   accept(2);
-  EXPECT_EQ(heard(), "0");
+  EXPECT_EQ(received(), "0");
   close(2);
-  EXPECT_EQ(heard(), "0 1 bye");  // 2 was received by no survivor when they reported
+  EXPECT_EQ(received(), "0 1 bye");  // 2 was received by no survivor when they reported
   accept(2);
   accept(3);
-  EXPECT_EQ(heard(), "0 1 bye");
+  EXPECT_EQ(received(), "0 1 bye");
 }
 
-TEST_F(StreamTest, MissingSamplesThatComeInAnyOrderAreHeardInOrder) {
+TEST_F(StreamTest, MissingSamplesThatComeInAnyOrderAreReceivedInOrder) {
   accept(0);
   stream_.fence();
   close(4);
@@ -90,7 +90,7 @@ TEST_F(StreamTest, MissingSamplesThatComeInAnyOrderAreHeardInOrder) {
   accept(2);
   EXPECT_EQ(stream_.missing(), "exchange: samples 1 to 1 of node 3 are lost");
   accept(1);
-  EXPECT_EQ(heard(), "0 1 2 3 bye");
+  EXPECT_EQ(received(), "0 1 2 3 bye");
   EXPECT_TRUE(stream_.closed());
 }
 
@@ -100,7 +100,7 @@ TEST_F(StreamTest, AGoodbyeSaidAgainEndsItOnce) {
   close(3);
   accept(1);
   accept(2, common::Kind::kBye);
-  EXPECT_EQ(heard(), "0 1 bye");
+  EXPECT_EQ(received(), "0 1 bye");
 }
 
 TEST_F(StreamTest, ALaterRoundMayEndItEarlier) {
@@ -110,21 +110,21 @@ TEST_F(StreamTest, ALaterRoundMayEndItEarlier) {
   accept(1);
   EXPECT_EQ(stream_.fence(), 2u);  // the member with the rest has died
   accept(2);
-  EXPECT_EQ(heard(), "0 1");
+  EXPECT_EQ(received(), "0 1");
   close(2);
-  EXPECT_EQ(heard(), "0 1 bye");
+  EXPECT_EQ(received(), "0 1 bye");
 }
 
-TEST_F(StreamTest, ClosedItReportsAllItHeardInALaterRoundAndStaysClosed) {
+TEST_F(StreamTest, ClosedItReportsAllItReceivedInALaterRoundAndStaysClosed) {
   accept(0);
   accept(1, common::Kind::kBye);
   EXPECT_EQ(stream_.fence(), 2u);
   close(2);
   EXPECT_TRUE(stream_.closed());
-  EXPECT_EQ(heard(), "0 bye");
+  EXPECT_EQ(received(), "0 bye");
 }
 
-TEST_F(StreamTest, KeepsWhatNotEverybodyHasHeard) {
+TEST_F(StreamTest, KeepsWhatNotEverybodyHasReceived) {
   for (std::uint64_t i = 0; i < 10; ++i) accept(i);
   stream_.settle(4);
   ASSERT_EQ(stream_.again(4).size(), 6u);
@@ -145,12 +145,12 @@ TEST_F(StreamTest, KeepsNoMoreThanItMay) {
   EXPECT_NE(error_of([&] { none.again(0); }), "none");
 }
 
-TEST(Heard, ReportsSurviveTheWire) {
-  const HeardCounts heard{{NodeId{0}, 0}, {NodeId{7}, 0x0123456789abcdef}, {NodeId{255}, 300}};
-  EXPECT_EQ(decode(encode(heard)), heard);
+TEST(Received, ReportsSurviveTheWire) {
+  const ReceivedCounts received{{NodeId{0}, 0}, {NodeId{7}, 0x0123456789abcdef}, {NodeId{255}, 300}};
+  EXPECT_EQ(decode(encode(received)), received);
   EXPECT_EQ(encode({{NodeId{2}, 0x0102}}),
             (std::vector<std::byte>{std::byte{2}, std::byte{2}, std::byte{1}, {}, {}, {}, {}, {}, {}}));
-  auto bytes = encode(heard);
+  auto bytes = encode(received);
   bytes.pop_back();
   EXPECT_THROW(decode(bytes), std::runtime_error);
   auto twice = encode({{NodeId{1}, 5}});
@@ -158,9 +158,9 @@ TEST(Heard, ReportsSurviveTheWire) {
   EXPECT_THROW(decode(twice), std::runtime_error);
 }
 
-TEST(Heard, HeardByAllIsTheLeastOfTheRemainingMembers) {
+TEST(Received, ReceivedByAllIsTheLeastOfTheRemainingMembers) {
   const NodeId a{1}, b{2}, c{3};
-  HeardTable table({a, b, c});
+  ReceivedTable table({a, b, c});
   EXPECT_EQ(table.by_all(a), 0u);
   table.note(b, {{a, 10}, {c, 3}});
   EXPECT_EQ(table.by_all(a), 0u);  // c has not spoken yet

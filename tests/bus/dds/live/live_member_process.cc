@@ -39,23 +39,23 @@ class LiveMember {
   LiveMember(const common::Session& session, NodeId self, Delivery delivery, std::size_t count,
              const std::set<std::size_t>& spoilt)
       : medium_(session, self, lines_of(live_lines(session.members.size()), self), delivery), self_(index_of(self)),
-        members_(session.members.size()), count_(count), spoilt_(spoilt), heard_(members_) {
+        members_(session.members.size()), count_(count), spoilt_(spoilt), received_(members_) {
     medium_.wait_ready(30s);
     fmt::print("ready\n");
     std::fflush(stdout);
   }
   void work() {
-    told(-1);
+    commanded(-1);
     const bool endless = spoilt_.contains(self_);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(count_) + 30s;
     auto next = std::chrono::steady_clock::now();
-    while (wrong_.empty() && !(endless ? told(0) : said_ == count_ && heard_all())) {
+    while (wrong_.empty() && !(endless ? commanded(0) : said_ == count_ && received_all())) {
       if (std::chrono::steady_clock::now() > deadline) wrong_ = "waits in vain";
       if ((endless || said_ < count_) && std::chrono::steady_clock::now() >= next) {
         say();
         next = std::max(next + 1ms, std::chrono::steady_clock::now() - 100ms);
       }
-      while (const auto arrival = medium_.receive()) hear(*arrival);
+      while (const auto arrival = medium_.receive()) receive(*arrival);
       std::this_thread::sleep_for(200us);
     }
     if (!medium_.failure().empty()) wrong_ = medium_.failure();
@@ -64,13 +64,13 @@ class LiveMember {
     fmt::print("lost {} longest_us {} wrong {}\n", medium_.counts().lost,
                std::chrono::duration_cast<std::chrono::microseconds>(longest_).count(), wrong_.empty() ? "-" : wrong_);
     for (std::size_t i = 0; i < members_; ++i)
-      if (i != self_) fmt::print("{} {}\n", i, heard_[i][0] + heard_[i][1]);
+      if (i != self_) fmt::print("{} {}\n", i, received_[i][0] + received_[i][1]);
   }
   bool well() const { return wrong_.empty(); }
 
  private:
   // Returns whether stdin has a line or has ended; waits up to `patience` ms, -1: for ever.
-  static bool told(int patience) {
+  static bool commanded(int patience) {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     char letter = 0;
     if (poll(&input, 1, patience) != 1) return false;
@@ -87,21 +87,21 @@ class LiveMember {
     }
     ++said_;
   }
-  void hear(const ports::LiveArrival& arrival) {
+  void receive(const ports::LiveArrival& arrival) {
     const std::size_t from = laws::speaker_of(arrival, members_);
     const ports::Line line = laws::line_of(arrival);
     if (from >= members_ || from == self_ || line > 1) {
       wrong_ = fmt::format("hears {} on line {}", from, line);
       return;
     }
-    const std::size_t number = heard_[from][line]++;
+    const std::size_t number = received_[from][line]++;
     if (spoilt_.contains(from) || spoilt_.contains(self_)) return;
     if (!laws::Utterance(line, {from, members_}, number, laws::Traffic::kAll).is(arrival))
       wrong_ = fmt::format("line {}: what is heard of {} is not its number {}", line, from, number);
   }
-  bool heard_all() const {
+  bool received_all() const {
     for (std::size_t i = 0; i < members_; ++i)
-      if (i != self_ && !spoilt_.contains(i) && (heard_[i][0] < count_ || heard_[i][1] < count_)) return false;
+      if (i != self_ && !spoilt_.contains(i) && (received_[i][0] < count_ || received_[i][1] < count_)) return false;
     return true;
   }
 
@@ -109,7 +109,7 @@ class LiveMember {
   std::size_t self_, members_, count_;
   std::set<std::size_t> spoilt_;
   std::size_t said_ = 0;
-  std::vector<std::array<std::size_t, 2>> heard_;  // by member and channel
+  std::vector<std::array<std::size_t, 2>> received_;  // by member and channel
   std::chrono::steady_clock::duration longest_{};
   std::string wrong_;
 };

@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 struct LiveReport {
   std::uint64_t lost = 0, longest_us = 0;
   std::string wrong;
-  std::vector<std::uint64_t> heard;  // by member, on both channels
+  std::vector<std::uint64_t> received;  // by member, on both channels
 };
 
 LiveReport report_of(const test::ChildProcess& child, std::size_t members) {
@@ -35,8 +35,8 @@ LiveReport report_of(const test::ChildProcess& child, std::size_t members) {
   std::istringstream lines(child.said_after_ready());
   lines >> word >> report.lost >> word >> report.longest_us >> word;
   std::getline(lines, report.wrong);
-  report.heard.resize(members);
-  for (std::size_t node = 0; lines >> node && node < members;) lines >> report.heard[node];
+  report.received.resize(members);
+  for (std::size_t node = 0; lines >> node && node < members;) lines >> report.received[node];
   return report;
 }
 
@@ -48,16 +48,16 @@ class LiveProcesses {
       : session_(session), count_(count), spoilt_(std::move(spoilt)), delivery_(delivery) {
     for (std::size_t i = 0; i < session.members.size(); ++i) members_.push_back(start(i));
     for (auto& member : members_) member->await_ready();
-    for (auto& member : members_) member->tell("begin");
+    for (auto& member : members_) member->report("begin");
   }
   test::ChildProcess& member(std::size_t index) { return *members_[index]; }
   void start_anew(std::size_t index) {
     members_[index] = start(index);
     members_[index]->await_ready();
-    members_[index]->tell("begin");
+    members_[index]->report("begin");
   }
   LiveReport end(std::size_t spoilt) {
-    members_[spoilt]->tell("end");
+    members_[spoilt]->report("end");
     EXPECT_EQ(members_[spoilt]->wait(), 0) << members_[spoilt]->said();
     return report_of(*members_[spoilt], members_.size());
   }
@@ -77,7 +77,7 @@ class LiveProcesses {
       EXPECT_LT(reports[i].longest_us, 500'000u) << i;
       for (std::size_t other = 0; other < members_.size(); ++other) {
         if (other == i || spoilt_.contains(other)) continue;
-        EXPECT_EQ(reports[i].heard[other], 2 * count_) << i << " of " << other;
+        EXPECT_EQ(reports[i].received[other], 2 * count_) << i << " of " << other;
       }
     }
     return reports;
@@ -108,12 +108,12 @@ class DdsLiveProcesses : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Delivery, DdsLiveProcesses, testing::Values("best-effort", "reliable"),
                          [](const auto& instance) { return instance.param[0] == 'r' ? "Reliable" : "BestEffort"; });
 
-TEST_P(DdsLiveProcesses, HearEachOther) {
+TEST_P(DdsLiveProcesses, ReceiveEachOther) {
   LiveProcesses processes(common::session(4), 2000, {}, GetParam());
   processes.expect_undisturbed();
 }
 
-TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
+TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndReceiveItStartedAnew) {
   LiveProcesses processes(common::session(4), 4000, {2}, GetParam());
   std::this_thread::sleep_for(700ms);
   processes.member(2).signal(SIGKILL);
@@ -123,9 +123,9 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
   std::this_thread::sleep_for(1s);
   const LiveReport anew = processes.end(2);
   EXPECT_EQ(anew.lost, 0u);
-  for (const std::size_t i : {0, 1, 3}) EXPECT_GT(anew.heard[i], 500u) << i;
+  for (const std::size_t i : {0, 1, 3}) EXPECT_GT(anew.received[i], 500u) << i;
   const auto reports = processes.expect_undisturbed();  // a new beginning is no gap
-  for (const std::size_t i : {0, 1, 3}) EXPECT_GT(reports[i].heard[2], 2 * 1000u) << i;
+  for (const std::size_t i : {0, 1, 3}) EXPECT_GT(reports[i].received[2], 2 * 1000u) << i;
 }
 
 // Stopped within its lease: it counts its losses.
@@ -138,12 +138,12 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
   processes.expect_undisturbed();
   std::this_thread::sleep_for(300ms);
   const LiveReport stopped = processes.end(1);
-  EXPECT_EQ(stopped.heard[0] + stopped.heard[2] + stopped.heard[3] + stopped.lost, 3 * 2 * 4500u);
+  EXPECT_EQ(stopped.received[0] + stopped.received[2] + stopped.received[3] + stopped.lost, 3 * 2 * 4500u);
 }
 
 // Stopped for longer than its lease: it is found again. Its messages until then reach no member, and are
 // counted.
-TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
+TEST_P(DdsLiveProcesses, ReceiveANodeStoppedForLongerThanItsLease) {
   common::Session session = common::session(3);
   session.lease = 1s;
   LiveProcesses processes(session, 12'000, {1}, GetParam());
@@ -154,8 +154,8 @@ TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
   const auto reports = processes.expect_undisturbed(LiveProcesses::Lost::kButOfSpoilt);
   const LiveReport stopped = processes.end(1);
   for (const std::size_t i : {0, 2}) {
-    EXPECT_GT(stopped.heard[i], 2 * 2000u) << i;
-    EXPECT_GT(reports[i].heard[1], 2 * 2000u) << i;
+    EXPECT_GT(stopped.received[i], 2 * 2000u) << i;
+    EXPECT_GT(reports[i].received[1], 2 * 2000u) << i;
   }
 }
 

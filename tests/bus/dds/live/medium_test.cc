@@ -96,9 +96,9 @@ TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   const auto plans = bus::dds::live::live_lines(2);
   bus::dds::live::DdsMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
-  auto heard_by_one = plans;
-  for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
-  Stranger on_a(session, heard_by_one[0]), on_can(session, heard_by_one[2]);
+  auto received_by_one = plans;
+  for (auto& plan : received_by_one) plan.nodes = {NodeId{1}};
+  Stranger on_a(session, received_by_one[0]), on_can(session, received_by_one[2]);
   auto form = [number = 0u](auto&& change) mutable {
     ttf_LiveSample sample{};
     sample.slot = 1;
@@ -135,10 +135,10 @@ TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   on_a.say(form([](Sample&) {}), 262);
   on_can.say(form([](Sample& s) { s.kind = 5, s.identifier = 0x7FF; }), 64);
   const auto deadline = std::chrono::steady_clock::now() + 10s;
-  for (std::size_t heard = 0; heard < 2 && std::chrono::steady_clock::now() < deadline;) {
+  for (std::size_t received = 0; received < 2 && std::chrono::steady_clock::now() < deadline;) {
     const auto arrival = medium.receive();
     if (!arrival) continue;
-    EXPECT_EQ(arrival->signal.bytes.size() + arrival->can.data.size(), heard++ == 0 ? 262u : 64u);
+    EXPECT_EQ(arrival->signal.bytes.size() + arrival->can.data.size(), received++ == 0 ? 262u : 64u);
   }
   EXPECT_FALSE(medium.receive());
   EXPECT_EQ(medium.counts().malformed, said);
@@ -150,9 +150,9 @@ TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   const auto plans = bus::dds::live::live_lines(2);
   bus::dds::live::DdsMedium medium(session, NodeId{1}, bus::dds::live::lines_of(plans, NodeId{1}));
-  auto heard_by_one = plans;
-  for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
-  Stranger on_a(session, heard_by_one[0]);
+  auto received_by_one = plans;
+  for (auto& plan : received_by_one) plan.nodes = {NodeId{1}};
+  Stranger on_a(session, received_by_one[0]);
   const std::uint64_t here = bus::dds::common::host_identity();
   const bus::ports::MachineTime now = bus::ports::host_now(), ahead = now + Duration::milliseconds(1'000'000);
   struct Said {
@@ -168,40 +168,41 @@ TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
     sample.sent = said.sent.ns;
     on_a.say(sample, 8);
   }
-  std::size_t heard = 0;
+  std::size_t received = 0;
   const auto deadline = std::chrono::steady_clock::now() + 10s;
-  while (heard < all.size() && std::chrono::steady_clock::now() < deadline) {
+  while (received < all.size() && std::chrono::steady_clock::now() < deadline) {
     const auto arrival = medium.receive();
     if (!arrival) continue;
-    const Said& said = all[heard++];
-    EXPECT_EQ(arrival->left.has_value(), said.host == here) << heard;
+    const Said& said = all[received++];
+    EXPECT_EQ(arrival->left.has_value(), said.host == here) << received;
     if (arrival->left) {
-      EXPECT_EQ(*arrival->left, std::min(said.sent, arrival->received)) << heard;
+      EXPECT_EQ(*arrival->left, std::min(said.sent, arrival->received)) << received;
     }
     EXPECT_GE(arrival->received, now);
   }
-  EXPECT_EQ(heard, all.size());
+  EXPECT_EQ(received, all.size());
 }
 
 // A listener receives the identifiers it was given, of a stranger that names no node; malformed frames, too.
-TEST(DdsListener, HearsWhatNodesWouldAndWhatTheyRefuse) {
+TEST(DdsListener, ReceivesWhatNodesWouldAndWhatTheyRefuse) {
   const bus::dds::common::Session session = bus::dds::common::session(2);
   auto plans = bus::dds::live::live_lines(2);
   bus::dds::live::DdsListener listener(session, plans, {.slots = {2, 3}, .can = {{}, {0x50}}});
-  auto heard_by_one = plans;
-  for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
-  Stranger on_a(session, heard_by_one[0]), on_can(session, heard_by_one[3]);
-  using Form = bus::ports::Heard::Form;
+  auto received_by_one = plans;
+  for (auto& plan : received_by_one) plan.nodes = {NodeId{1}};
+  Stranger on_a(session, received_by_one[0]), on_can(session, received_by_one[3]);
+  using Form = bus::ports::ReceivedFrame::Form;
   std::vector<std::pair<Form, int>> all;  // with slot or identifier
   const auto next = [&](std::size_t more) {
     const auto deadline = std::chrono::steady_clock::now() + 10s;
     for (more += all.size(); all.size() < more && std::chrono::steady_clock::now() < deadline;) {
-      const auto heard = listener.hear();
-      if (!heard) continue;
-      all.emplace_back(heard->form, heard->line == 0 ? heard->slot : static_cast<int>(heard->can.identifier));
-      EXPECT_GT(heard->at, bus::ports::MachineTime{});
-      if (heard->form == Form::kFollowUp) {
-        EXPECT_EQ(heard->late, Duration::nanoseconds(77));
+      const auto received = listener.receive();
+      if (!received) continue;
+      all.emplace_back(received->form,
+                       received->line == 0 ? received->slot : static_cast<int>(received->can.identifier));
+      EXPECT_GT(received->at, bus::ports::MachineTime{});
+      if (received->form == Form::kFollowUp) {
+        EXPECT_EQ(received->late, Duration::nanoseconds(77));
       }
     }
   };
@@ -230,7 +231,7 @@ TEST(DdsListener, HearsWhatNodesWouldAndWhatTheyRefuse) {
       {Form::kFrame, 2},     {Form::kFrame, 3}, {Form::kFollowUp, 3},     {Form::kMalformed, 2}, {Form::kMalformed, 2},
       {Form::kMalformed, 2}, {Form::kFrame, 3}, {Form::kMalformed, 0x50}, {Form::kCan, 0x50}};
   EXPECT_EQ(all, expected);
-  EXPECT_FALSE(listener.hear());
+  EXPECT_FALSE(listener.receive());
   EXPECT_EQ(listener.lost(), 0u);
   EXPECT_EQ(listener.failure(), "");
 }

@@ -84,7 +84,7 @@ TEST_F(RosListen, TheBoxesOfAnImageArrive) {
   EXPECT_EQ(second.at("results").at(0).at("covariance").size(), 36u);
 }
 
-TEST_F(RosListen, TracksTruthAndHealthArriveAsTheyWereTold) {
+TEST_F(RosListen, TracksTruthAndHealthArriveAsTheyWereSent) {
   const json tracks = sample_of(topic("tracks"));
   const std::int64_t at = tracks.at("step").get<std::int64_t>() * kPeriodMs * 1'000'000;
   EXPECT_EQ(tracks.at("stamp_ns"), kOrigin + at);
@@ -130,7 +130,7 @@ TEST_F(RosListen, AKilledPublisherIsNoticedByItsLease) {
 }
 
 // Stopped for longer than its deadline: the listener reports that, and the recovery.
-TEST_F(RosListen, AStoppedPublisherMissesItsDeadlineAndIsHeardAgain) {
+TEST_F(RosListen, AStoppedPublisherMissesItsDeadlineAndIsReceivedAgain) {
   const std::int64_t before = sample_of(topic("image")).at("sequence_number").get<std::int64_t>();
   talker_.signal(SIGSTOP);
   EXPECT_TRUE(event_of("deadline_missed", topic("image")).has_value());
@@ -143,7 +143,7 @@ TEST_F(RosListen, AStoppedPublisherMissesItsDeadlineAndIsHeardAgain) {
             [&](const json& line) { return line.at("sequence_number").get<std::int64_t>() > before + 10; });
 }
 
-TEST_F(RosListen, EndsWhenItIsToldTo) {
+TEST_F(RosListen, EndsOnCommand) {
   sample_of(topic("image"));
   listener_.signal(SIGTERM);
   EXPECT_EQ(listener_.wait(), 0);

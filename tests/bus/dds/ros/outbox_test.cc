@@ -125,7 +125,7 @@ TEST(Outbox, TooManyTracksAreCutAndCountedOnce) {
   EXPECT_EQ(outbox.dropped().cut, 1u);
 }
 
-TEST(Outbox, TheTruthOfAnInstantIsTakenOnceWhoeverTellsIt) {
+TEST(Outbox, TheTruthOfAnInstantIsTakenOnceFromAnySender) {
   Outbox outbox(small());
   EXPECT_TRUE(outbox.put(truth_at(100, 0, 1)));
   EXPECT_TRUE(outbox.put(truth_at(100, 1, 1)));

@@ -14,8 +14,8 @@
 namespace ttf::cli::launch::external {
 namespace {
 
-using bus::ports::Heard;
 using bus::ports::MachineTime;
+using bus::ports::ReceivedFrame;
 using schedules::model::Channel;
 
 constexpr MachineTime kBegin{7'000'000'000};
@@ -58,24 +58,24 @@ struct Judging : testing::Test {
     std::array<std::byte, bus::wire::kMaxFrameBytes> bytes{};
     const std::size_t size = bus::wire::encode_frame(header, how.channel, payload, bytes);
     if (how.spoil >= 0) bytes[static_cast<std::size_t>(how.spoil)] ^= std::byte{1};
-    Heard heard;
-    heard.line = bus::ports::line_of(how.channel);
-    heard.slot = how.slot;
-    heard.at = start_of(cycle) + action_point(how.slot) + behind + wobble;
-    heard.bytes = std::span(bytes).first(size);
-    take(heard);
+    ReceivedFrame received;
+    received.line = bus::ports::line_of(how.channel);
+    received.slot = how.slot;
+    received.at = start_of(cycle) + action_point(how.slot) + behind + wobble;
+    received.bytes = std::span(bytes).first(size);
+    take(received);
   }
   void ours(std::int64_t cycle, Duration behind = {}) { frame(cycle, behind, Frame{}); }
   void ours_like(std::int64_t cycle, const Frame& how) { frame(cycle, {}, how); }
 
-  void take(const Heard& heard) {
+  void take(const ReceivedFrame& received) {
     if (in_line_order)
-      in_order.add(heard);
+      in_order.add(received);
     else
-      judge.hear(heard);
+      judge.receive(received);
   }
   void hand_over() {
-    in_order.hand_over([&](const Heard& heard) { judge.hear(heard); });
+    in_order.hand_over([&](const ReceivedFrame& received) { judge.receive(received); });
   }
 
   // The others' sync frames of a cycle, each late by another time, which its follow-up states.
@@ -83,14 +83,14 @@ struct Judging : testing::Test {
     for (const int slot : {1, 3, 4, 5}) {
       const Duration late = us(70 * slot);
       frame(cycle, late + (slot == 1 ? out_of_step : Duration{}), {.slot = slot, .channel = channel});
-      Heard told;
-      told.form = Heard::Form::kFollowUp;
-      told.slot = slot;
-      told.cycle_counter = static_cast<std::uint8_t>(cycle % 64);
-      told.late = late;
-      told.line = bus::ports::line_of(channel);
-      told.at = start_of(cycle) + action_point(slot) + late + wobble + us(1);
-      take(told);
+      ReceivedFrame follow_up;
+      follow_up.form = ReceivedFrame::Form::kFollowUp;
+      follow_up.slot = slot;
+      follow_up.cycle_counter = static_cast<std::uint8_t>(cycle % 64);
+      follow_up.late = late;
+      follow_up.line = bus::ports::line_of(channel);
+      follow_up.at = start_of(cycle) + action_point(slot) + late + wobble + us(1);
+      take(follow_up);
     }
   }
   Counts counts() const { return judge.counts(0); }
@@ -185,7 +185,7 @@ TEST_F(Judging, FramesNeverSentAreMissing) {
   }
   EXPECT_EQ(counts().in_window, 595u);
   EXPECT_EQ(counts().missing, 593u + 74u);  // on channel B in 6 to 598; triggers in 9, 17 to 593
-  EXPECT_EQ(wrongs_text({{"camera_pre", counts(), {}, {}, judge.never_heard(0)}, {"camera", counts(), {}, {}}}),
+  EXPECT_EQ(wrongs_text({{"camera_pre", counts(), {}, {}, judge.never_received(0)}, {"camera", counts(), {}, {}}}),
             "camera_pre: 667 missing, camera_objects never heard; camera: 667 missing");
   ours_like(600, {.channel = Channel::kB});
   others(600);
@@ -215,15 +215,15 @@ TEST(InOrder, ALineKeepsItsOrder) {
   std::array<std::byte, 1> bytes{};
   const auto add = [&](bus::ports::Line line, std::int64_t at, int name) {
     bytes[0] = static_cast<std::byte>(name);
-    Heard heard;
-    heard.line = line;
-    heard.at = {at};
-    heard.bytes = bytes;
-    in_order.add(heard);
+    ReceivedFrame received;
+    received.line = line;
+    received.at = {at};
+    received.bytes = bytes;
+    in_order.add(received);
   };
   const auto names = [&] {
     std::vector<int> all;
-    in_order.hand_over([&](const Heard& heard) { all.push_back(std::to_integer<int>(heard.bytes[0])); });
+    in_order.hand_over([&](const ReceivedFrame& received) { all.push_back(std::to_integer<int>(received.bytes[0])); });
     return all;
   };
   add(0, 10, 1);
@@ -237,7 +237,7 @@ TEST(InOrder, ALineKeepsItsOrder) {
   EXPECT_EQ(names(), std::vector<int>{7});
 }
 
-TEST_F(Judging, TellsHowAFrameIsMalformed) {
+TEST_F(Judging, ReportsHowAFrameIsMalformed) {
   judge.begin(kBegin);
   others(0);
   ours_like(0, {.spoil = 20});    // frame CRC
@@ -247,12 +247,12 @@ TEST_F(Judging, TellsHowAFrameIsMalformed) {
   ours_like(4, {});
   ours_like(4, {});                        // again
   ours_like(4, {.channel = Channel::kB});  // another frame
-  Heard heard;
-  heard.form = Heard::Form::kMalformed;
-  heard.slot = 2;
-  judge.hear(heard);
-  heard.slot = 30;  // another node's
-  judge.hear(heard);
+  ReceivedFrame received;
+  received.form = ReceivedFrame::Form::kMalformed;
+  received.slot = 2;
+  judge.receive(received);
+  received.slot = 30;  // another node's
+  judge.receive(received);
   const Counts all = counts();
   EXPECT_EQ(all.in_window, 2u);
   EXPECT_EQ(all.malformed, (std::array<std::uint64_t, kMalformedKinds>{1, 1, 3, 0, 0, 1, 0}));
@@ -269,12 +269,12 @@ struct JudgingCan : Judging {
   std::array<std::byte, 64> bytes{};
 
   void can(std::size_t bus, std::uint32_t identifier, MachineTime at, bool fd, std::size_t size) {
-    Heard heard;
-    heard.form = Heard::Form::kCan;
-    heard.line = bus::ports::line_of_can(bus);
-    heard.at = at;
-    heard.can = {identifier, fd, std::span<const std::byte>(bytes).first(size)};
-    judge.hear(heard);
+    ReceivedFrame received;
+    received.form = ReceivedFrame::Form::kCan;
+    received.line = bus::ports::line_of_can(bus);
+    received.at = at;
+    received.can = {identifier, fd, std::span<const std::byte>(bytes).first(size)};
+    judge.receive(received);
   }
   void list(std::uint32_t sequence, std::uint32_t fragment, std::uint32_t count, MachineTime at) {
     const schedules::model::PduLayout& layout = cluster.pdu(*cluster.find_pdu("camera_objects"));
@@ -313,13 +313,13 @@ TEST_F(JudgingCan, AListMayBeImpossible) {
 
 TEST_F(JudgingCan, AListComesOnce) {
   judge.begin(kBegin);
-  EXPECT_TRUE(judge.never_heard(0).empty());
+  EXPECT_TRUE(judge.never_received(0).empty());
   ours(0);
-  EXPECT_EQ(judge.never_heard(0), std::vector<std::string>{"camera_objects"});
+  EXPECT_EQ(judge.never_received(0), std::vector<std::string>{"camera_objects"});
   for (int i = 0; i < 500; ++i) list(7, 0, 2, kBegin + us(200 * i));  // whole, as it has one fragment
   EXPECT_EQ(counts().in_window, 2u);
   EXPECT_EQ(counts().malformed[static_cast<std::size_t>(Malformed::kRepeated)], 499u);
-  EXPECT_TRUE(judge.never_heard(0).empty());
+  EXPECT_TRUE(judge.never_received(0).empty());
 }
 
 // A receiver refuses lists from before, until a third one shows that their sender began anew.
@@ -361,8 +361,8 @@ TEST_F(JudgingATrigger, ATriggerHasItsInstant) {
   EXPECT_EQ(counts().missing, 1u);  // cycle 17; 33 is not over
 }
 
-TEST_F(Judging, HearsNoMoreThanItNeeds) {
-  const bus::ports::HeardIdentifiers all = judge.identifiers();
+TEST_F(Judging, ReceivesNoMoreThanItNeeds) {
+  const bus::ports::ReceivedIdentifiers all = judge.identifiers();
   EXPECT_EQ(all.slots, (std::vector<int>{1, 2, 3, 4, 5}));
   EXPECT_EQ(all.can, (std::vector<std::vector<std::uint32_t>>{{}, {4}, {80}}));
 }
@@ -374,7 +374,7 @@ TEST(ExternalAccounts, SayTheState) {
   account.counts.in_window = 12;
   account.silent = us(1'230'000);
   EXPECT_EQ(status_text(account), "silent for 1.2 s, 12 in window");
-  EXPECT_EQ(told({account})[0].state, "silent for 1.2 s");
+  EXPECT_EQ(follow_up({account})[0].state, "silent for 1.2 s");
   EXPECT_EQ(table_text({}), "");
 }
 

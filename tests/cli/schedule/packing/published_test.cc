@@ -52,7 +52,7 @@ class PublishedSignals : public ::testing::Test {
   SignalFile file_;
 };
 
-TEST_F(PublishedSignals, TwoCannotMeetTheirOwnWindows) {
+TEST_F(PublishedSignals, TwoCannotKeepTheirOwnWindows) {
   ASSERT_EQ(file_.impossible.size(), 2u);
   EXPECT_EQ(file_.impossible[0].value, "1039");
   EXPECT_EQ(file_.impossible[0].line, 1041);

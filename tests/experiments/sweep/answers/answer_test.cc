@@ -154,11 +154,11 @@ TEST_F(SweepAnswers, FewDrivesDoNotAgree) {
   const SweepDrives drives(sweep);
   results::Store few = store(drives, "few");
   const double spread[] = {-0.010, 0.012, -0.002};
-  EXPECT_EQ(answer_of(sweep, few).expectations[0].outcome, Outcome::kCannotTell) << "without any drive";
+  EXPECT_EQ(answer_of(sweep, few).expectations[0].outcome, Outcome::kUndecided) << "without any drive";
   for (std::uint32_t r = 0; r < 3; ++r) {
     for (const std::uint32_t point : {0u, 1u}) few.add({{{point, r, 0}, results::kDone, {0.0124 + spread[r], 0.0351}}});
     const SweepAnswer answer = answer_of(sweep, few);
-    EXPECT_EQ(answer.expectations[0].outcome, Outcome::kCannotTell) << r;
+    EXPECT_EQ(answer.expectations[0].outcome, Outcome::kUndecided) << r;
     EXPECT_THAT(unmet(answer.expectations[0]), testing::HasSubstr("more replications")) << r;
     EXPECT_THAT(answer_text(sweep, answer), testing::HasSubstr("margin 10 %: cannot tell\n  noise 1: cannot tell:"));
     EXPECT_FALSE(answer.holds());
@@ -200,7 +200,7 @@ TEST_F(SweepAnswers, ValuesOfAnAxisAreCompared) {
 // From noise 1 to 40 adva falls to a half, in every drive, and tt to a quarter.
 TEST_F(SweepAnswers, InteractionsAnswerFirst) {
   const std::string asked = "interactions: [{axis: noise, lowers: tt, more_than: adva}]\n";
-  const auto told = [&](const std::string& name, const std::string& more, double adva, double tt, double spread) {
+  const auto reported = [&](const std::string& name, const std::string& more, double adva, double tt, double spread) {
     const SweepFile sweep = small_sweep(4, more);
     const SweepDrives drives(sweep);
     results::Store made = store(drives, name);
@@ -220,28 +220,28 @@ TEST_F(SweepAnswers, InteractionsAnswerFirst) {
     return text.substr(begin, text.find('\n', begin) - begin);
   };
   const std::string change = "noise from 1 to 40 changes position_rmse_truth of ";
-  EXPECT_EQ(told("yes", asked, 0.5, 0.25, 0.0),
+  EXPECT_EQ(reported("yes", asked, 0.5, 0.25, 0.0),
             "Yes: " + change +
                 "tt by -75.0 % (-75.0 to -75.0), and that of adva by -50.0 % (-50.0 to -50.0). Beside that of "
                 "adva, tt's becomes less by 50.0 % (50.0 to 50.0).");
-  EXPECT_THAT(told("no", asked, 0.5, 0.9, 0.01), testing::StartsWith("No: " + change + "tt by -10.0 %"));
-  EXPECT_THAT(told("both", asked, 2.0, 1.5, 0.01), testing::StartsWith("No, it only raises tt less: "));
-  EXPECT_THAT(told("none", asked, 0.5, 0.5, 0.5),
+  EXPECT_THAT(reported("no", asked, 0.5, 0.9, 0.01), testing::StartsWith("No: " + change + "tt by -10.0 %"));
+  EXPECT_THAT(reported("both", asked, 2.0, 1.5, 0.01), testing::StartsWith("No, it only raises tt less: "));
+  EXPECT_THAT(reported("none", asked, 0.5, 0.5, 0.5),
               AllOf(testing::StartsWith("There is no difference that these drives can tell: " + change),
                     testing::HasSubstr(" tt against adva: ")));
   // In metres the changes are half and a quarter of 5 +- 1.3.
-  EXPECT_EQ(
-      told("metres", "interactions: [{axis: noise, from: 1, to: 40, lowers: tt, more_than: adva, by: difference}]\n",
-           0.5, 0.75, 0.0),
-      "No: " + change +
-          "tt by -1.25 +- 0.32 m, and that of adva by -2.50 +- 0.65 m. Beside that of adva, tt's becomes "
-          "more by 1.25 +- 0.32 m.");
+  EXPECT_EQ(reported("metres",
+                     "interactions: [{axis: noise, from: 1, to: 40, lowers: tt, more_than: adva, by: difference}]\n",
+                     0.5, 0.75, 0.0),
+            "No: " + change +
+                "tt by -1.25 +- 0.32 m, and that of adva by -2.50 +- 0.65 m. Beside that of adva, tt's becomes "
+                "more by 1.25 +- 0.32 m.");
 }
 
 // On a dry and on a wet road. adva changes by a factor, in every drive. tt changes by `dry` and `wet`, more or less.
 class InteractionsOnTwoRoads : public SweepAnswers {
  protected:
-  std::string told(const std::string& interaction, double adva, double dry, double wet) {
+  std::string reported(const std::string& interaction, double adva, double dry, double wet) {
     std::string file = sweep_text(4, "interactions: [" + interaction + "]\n");
     file.insert(file.find("measures:"), "  road: {settings: {dry: {}, wet: {world.own_speed: 12}}}\n");
     const SweepFile sweep = parse_sweep(file, TTF_SOURCE_DIR "/experiments/small.yaml");
@@ -261,7 +261,7 @@ class InteractionsOnTwoRoads : public SweepAnswers {
 
 TEST_F(InteractionsOnTwoRoads, AnInteractionMayDependOnOtherAxes) {
   const auto of = [&](double dry, double wet) {
-    return told("{axis: noise, lowers: tt, more_than: adva}", 0.5, dry, wet);
+    return reported("{axis: noise, lowers: tt, more_than: adva}", 0.5, dry, wet);
   };
   EXPECT_THAT(of(0.1, 0.2),
               AllOf(testing::StartsWith("Yes, at all 2 points: noise from 1 to 40 changes position_rmse_truth of "
@@ -287,7 +287,7 @@ TEST_F(InteractionsOnTwoRoads, AnInteractionMayDependOnOtherAxes) {
 // The error of adva doubles, that of tt rises on both roads or on one.
 TEST_F(InteractionsOnTwoRoads, AnErrorThatRisesIsNotCalledLowered) {
   const auto of = [&](double dry, double wet) {
-    return told("{axis: noise, lowers: tt, more_than: adva}", 2.0, dry, wet);
+    return reported("{axis: noise, lowers: tt, more_than: adva}", 2.0, dry, wet);
   };
   EXPECT_THAT(of(1.5, 2.0),
               AllOf(testing::StartsWith("No: noise from 1 to 40 raises position_rmse_truth of tt (+49 %) less than "
@@ -301,7 +301,7 @@ TEST_F(InteractionsOnTwoRoads, AnErrorThatRisesIsNotCalledLowered) {
 }
 
 TEST_F(InteractionsOnTwoRoads, DifferencesHaveTheirUnit) {
-  EXPECT_THAT(told("{axis: noise, lowers: tt, more_than: adva, by: difference}", 0.5, 0.1, 0.2),
+  EXPECT_THAT(reported("{axis: noise, lowers: tt, more_than: adva, by: difference}", 0.5, 0.1, 0.2),
               testing::EndsWith(" of tt (estimates from -5.2 to -4.6 m) and of adva (-2.9 m). tt's change is estimated "
                                 "1.7 to 2.3 m below adva's."));
 }

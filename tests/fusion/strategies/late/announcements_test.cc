@@ -34,7 +34,7 @@ TEST(Announcements, AreOfTheListsThatTimePasses) {
   EXPECT_THAT(passed(announcements, list(0, 9, 79'999)), IsEmpty()) << "each once";
 }
 
-TEST(Announcements, KnowTheListAgainByItsInstant) {
+TEST(Announcements, MatchTheListByItsInstant) {
   Announcements announcements(in_turn());
   const auto when = [&](const OwnedList& list) { return announcements.when(list.view()); };
   EXPECT_EQ(when(list(1, 5, 20'004)).stamp, oosm::Stamp(GlobalTime{20'004'000}, {SensorId{1}, 5})) << "not announced";

@@ -55,7 +55,7 @@ double span_of(double range, double angle) { return subtended(range, angle, {4.4
 Extent wide() { return Extent(config::Sizes{.length = 4.5, .length_sigma = 2.0, .width = 1.8, .width_sigma = 0.5}); }
 
 // 20 m ahead, from behind and from the side: the visible side becomes known, the other does not.
-TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
+TEST(Extent, ASpanMeasuresTheSideTurnedToTheSensor) {
   Extent behind = wide(), beside = wide();
   for (int k = 0; k < 10; ++k) {
     correct_span(behind, seen(20.0, 0.0, 0.02), span_of(20.0, 0.0), 0.002);
@@ -72,7 +72,7 @@ TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
 
 // At 45 degrees the span is a mixture. Alone it determines neither side; with a length it determines the
 // width.
-TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
+TEST(Extent, AMixtureMeasuresOneWhereTheOtherIsKnown) {
   Extent extent = wide();
   for (int k = 0; k < 10; ++k)
     correct_span(extent, seen(25.0, std::numbers::pi / 4, 0.02), span_of(25.0, std::numbers::pi / 4), 0.001);
@@ -131,9 +131,9 @@ TEST(Extent, StartsAtThePrior) {
   EXPECT_EQ(extent.size, Eigen::Vector2d(4.65, 1.76));
   EXPECT_NEAR(extent.covariance(0, 0), 0.37 * 0.37, 1e-15);
   EXPECT_NEAR(extent.covariance(0, 1), 0.82 * 0.37 * 0.1, 1e-15);
-  Extent told = extent;
-  correct_length(told, 4.95, 0.01);
-  EXPECT_NEAR(told.size(1), 1.76 + 0.3 * 0.82 * 0.1 / 0.37, 1e-3) << "a longer car is wider";
+  Extent reported = extent;
+  correct_length(reported, 4.95, 0.01);
+  EXPECT_NEAR(reported.size(1), 1.76 + 0.3 * 0.82 * 0.1 / 0.37, 1e-3) << "a longer car is wider";
 }
 
 TEST(Extent, ForgetsAtTheStatedRate) {

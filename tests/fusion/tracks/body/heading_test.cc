@@ -100,7 +100,7 @@ TEST(Heading, LateAxesAreThoseInOrder) {
   expect_same(late, in_order);
 }
 
-TEST(Heading, AVelocityBeyondItsErrorTellsTheFront) {
+TEST(Heading, AVelocityBeyondItsErrorResolvesTheFront) {
   const auto along_y = [](double speed, double sigma) {
     return linear::Gaussian<2>{{9.0, speed}, linear::Vector<2>(100.0, sigma * sigma).asDiagonal()};
   };

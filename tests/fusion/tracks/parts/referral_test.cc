@@ -167,7 +167,7 @@ TEST(Anchoring, SilhouettesAloneFollowTheirOwnPlace) {
   }
 }
 
-TEST(Anchoring, CornersTellBothSides) {
+TEST(Anchoring, CornersMeasureBothSides) {
   const Errors e = follow(
       calm(), 60,
       [](int) {

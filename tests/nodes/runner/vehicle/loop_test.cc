@@ -115,7 +115,7 @@ TEST_F(LiveLoop, EverySensorSeesTheVehicleOfTheActuatorsLogToTheBit) {
     }
     ASSERT_TRUE(counts_[n]);
     EXPECT_TRUE(counts_[n]->whole);
-    EXPECT_EQ(counts_[n]->heard, actuator.applied.size()) << name;
+    EXPECT_EQ(counts_[n]->received, actuator.applied.size()) << name;
     EXPECT_EQ(counts_[n]->late + counts_[n]->gaps + counts_[n]->malformed, 0u) << name;
   }
   EXPECT_GT(compared, 80u);
@@ -129,20 +129,20 @@ TEST(VehicleLine, AProcessThatBeginsLaterCatchesUp) {
   Driven of_actuator(config, nullptr, ms(60'000)), of_sensor(config, nullptr, ms(60'000)),
       of_late(config, nullptr, ms(60'000));
   Line actuator({session, 0, {1, 2}, TrueTime{}}, of_actuator), sensor({session, 1, {0, 2}, TrueTime{}}, of_sensor);
-  for (std::int64_t k = 1; k <= 5; ++k) actuator.tell({TrueTime{} + ms(40 * k), -1.0, 0.0});
+  for (std::int64_t k = 1; k <= 5; ++k) actuator.report({TrueTime{} + ms(40 * k), -1.0, 0.0});
   sensor.take_in();
   EXPECT_EQ(of_sensor.actuations().size(), 5u);
   {
     Line late({session, 2, {0, 1}, TrueTime{}}, of_late);
     EXPECT_FALSE(late.catch_up(std::chrono::milliseconds(0)));
-    actuator.tell({TrueTime{} + ms(240), -1.0, 0.0});
+    actuator.report({TrueTime{} + ms(240), -1.0, 0.0});
     late.take_in();    // asks
     sensor.take_in();  // answers
     late.take_in();
     EXPECT_EQ(of_late.actuations().size(), 6u);
     EXPECT_THROW(Line({session, 2, {}, TrueTime{}}, of_late), std::runtime_error) << "its name is in use";
   }
-  actuator.tell({TrueTime{} + ms(280), -1.0, 0.0});
+  actuator.report({TrueTime{} + ms(280), -1.0, 0.0});
   Line again({session, 2, {0, 1}, TrueTime{}}, of_late);  // its name is free
 }
 

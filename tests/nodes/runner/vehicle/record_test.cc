@@ -70,11 +70,11 @@ void expect_same_way(Process& one, Process& other, std::int64_t until) {
 TEST(VehicleRecord, IsThatOfTheActuatorBeforeACommandBegins) {
   Process actuator, sensor;
   for (std::int64_t k = 1; k <= 40; ++k) {
-    EXPECT_FALSE(sensor.record->take(actuator.record->tell(command(k))).asks);
+    EXPECT_FALSE(sensor.record->take(actuator.record->report(command(k))).asks);
     for (const std::int64_t later : {0, 17, 39})
       EXPECT_EQ(sensor.x(k * kEvery + later), actuator.x(k * kEvery + later));
   }
-  EXPECT_EQ(sensor.counts().heard, 40u);
+  EXPECT_EQ(sensor.counts().received, 40u);
   EXPECT_EQ(sensor.counts().late + sensor.counts().gaps + sensor.counts().malformed, 0u);
 }
 
@@ -82,7 +82,7 @@ TEST(VehicleRecord, IsThatOfTheActuatorBeforeACommandBegins) {
 TEST(VehicleRecord, TheNextMessageMakesLostOnesGood) {
   Process actuator, sensor;
   for (std::int64_t k = 1; k <= 9; ++k) {
-    const Bytes message = copy(actuator.record->tell(command(k)));
+    const Bytes message = copy(actuator.record->report(command(k)));
     if (k <= 2 || k == 9) {
       EXPECT_FALSE(sensor.record->take(message).asks);
     }
@@ -95,8 +95,8 @@ TEST(VehicleRecord, TheNextMessageMakesLostOnesGood) {
 
 TEST(VehicleRecord, ALateMessageChangesNoEarlierLookAndEveryLaterOne) {
   Process actuator, sensor;
-  (void)sensor.record->take(actuator.record->tell(command(1)));
-  const Bytes late = copy(actuator.record->tell({at_ms(200), -6.0, 0.0}));
+  (void)sensor.record->take(actuator.record->report(command(1)));
+  const Bytes late = copy(actuator.record->report({at_ms(200), -6.0, 0.0}));
   const double seen = sensor.x(400);
   EXPECT_NE(seen, actuator.x(400));
   (void)sensor.record->take(late);
@@ -108,7 +108,7 @@ TEST(VehicleRecord, ALateMessageChangesNoEarlierLookAndEveryLaterOne) {
 TEST(VehicleRecord, TheOrderOfMessagesAndTheirRepetitionMakeNoDifference) {
   Process actuator;
   std::vector<Bytes> messages;
-  for (std::int64_t k = 1; k <= 60; ++k) messages.push_back(copy(actuator.record->tell(command(k))));
+  for (std::int64_t k = 1; k <= 60; ++k) messages.push_back(copy(actuator.record->report(command(k))));
   for (std::uint32_t draw = 0; draw < 10; ++draw) {
     RandomStream stream({7, draw, Purpose::kTest, 0, 0});
     Process sensor;
@@ -120,7 +120,7 @@ TEST(VehicleRecord, TheOrderOfMessagesAndTheirRepetitionMakeNoDifference) {
     for (const std::size_t k : order)
       if (sensor.record->take(messages[k]).asks) (void)ask_until_quiet(sensor, {&actuator});
     EXPECT_TRUE(sensor.record->whole()) << draw;
-    EXPECT_EQ(sensor.counts().heard, 60u) << draw;
+    EXPECT_EQ(sensor.counts().received, 60u) << draw;
     expect_same_way(sensor, actuator, 3'000);
   }
 }
@@ -128,7 +128,7 @@ TEST(VehicleRecord, TheOrderOfMessagesAndTheirRepetitionMakeNoDifference) {
 TEST(VehicleRecord, AGapIsAskedForAndAnyProcessWithAWholeRecordAnswers) {
   Process actuator, sensor, other, gone;
   for (std::int64_t k = 1; k <= 30; ++k) {
-    const Bytes message = copy(actuator.record->tell(command(k)));
+    const Bytes message = copy(actuator.record->report(command(k)));
     (void)other.record->take(message);
     if (k < 3) (void)sensor.record->take(message);
     if (k == 30) {
@@ -147,11 +147,11 @@ TEST(VehicleRecord, AGapIsAskedForAndAnyProcessWithAWholeRecordAnswers) {
 // An answer from before the gap does not close it.
 TEST(VehicleRecord, AnOldAnswerDoesNotMakeItWhole) {
   Process actuator, sensor;
-  (void)sensor.record->take(actuator.record->tell(command(1)));
+  (void)sensor.record->take(actuator.record->report(command(1)));
   const Bytes question = copy(sensor.record->ask());
   const Bytes old = copy(actuator.record->take(question).answer);
-  for (std::int64_t k = 2; k < 20; ++k) (void)actuator.record->tell(command(k));
-  EXPECT_TRUE(sensor.record->take(actuator.record->tell(command(20))).asks);
+  for (std::int64_t k = 2; k < 20; ++k) (void)actuator.record->report(command(k));
+  EXPECT_TRUE(sensor.record->take(actuator.record->report(command(20))).asks);
   EXPECT_FALSE(sensor.record->take(old).asks);
   EXPECT_FALSE(sensor.record->whole());
   EXPECT_EQ(ask_until_quiet(sensor, {&actuator}), 1);
@@ -161,23 +161,23 @@ TEST(VehicleRecord, AnOldAnswerDoesNotMakeItWhole) {
 // 600 commands are three pages. Two processes answer each question, and the pages are asked for once.
 TEST(VehicleRecord, AProcessThatBeginsLaterReceivesAll) {
   Process actuator, other, late;
-  for (std::int64_t k = 1; k <= 600; ++k) (void)other.record->take(actuator.record->tell(command(k)));
+  for (std::int64_t k = 1; k <= 600; ++k) (void)other.record->take(actuator.record->report(command(k)));
   late.record->begins_later();
-  EXPECT_TRUE(late.record->take(actuator.record->tell(command(601))).asks) << "each message is an occasion to ask";
-  (void)other.record->take(actuator.record->tell(command(602)));
+  EXPECT_TRUE(late.record->take(actuator.record->report(command(601))).asks) << "each message is an occasion to ask";
+  (void)other.record->take(actuator.record->report(command(602)));
   EXPECT_EQ(ask_until_quiet(late, {&actuator, &other}), 3);
   EXPECT_TRUE(late.record->whole());
-  EXPECT_EQ(late.counts().heard, 602u);
+  EXPECT_EQ(late.counts().received, 602u);
   expect_same_way(late, actuator, 26'000);
 }
 
 // A new actuator's process has none of the old one's commands, and all others go on.
 TEST(VehicleRecord, AnActuatorThatBeginsAnewGoesOn) {
   Process first, sensor, second;
-  for (std::int64_t k = 1; k <= 20; ++k) (void)sensor.record->take(first.record->tell(command(k)));
+  for (std::int64_t k = 1; k <= 20; ++k) (void)sensor.record->take(first.record->report(command(k)));
   second.record->begins_later();
   EXPECT_EQ(ask_until_quiet(second, {&sensor}), 1);
-  const bool asks = sensor.record->take(second.record->tell(command(50))).asks;
+  const bool asks = sensor.record->take(second.record->report(command(50))).asks;
   EXPECT_TRUE(asks) << "the old one may have told a last command that got lost";
   EXPECT_EQ(ask_until_quiet(sensor, {&second}), 1);
   EXPECT_TRUE(sensor.record->whole());
@@ -186,8 +186,8 @@ TEST(VehicleRecord, AnActuatorThatBeginsAnewGoesOn) {
 
 TEST(VehicleRecord, AMalformedMessageIsCountedAndNotUsed) {
   Process actuator, sensor;
-  (void)actuator.record->tell(command(1));
-  const Bytes sound = copy(actuator.record->tell(command(2)));
+  (void)actuator.record->report(command(1));
+  const Bytes sound = copy(actuator.record->report(command(2)));
   const auto with = [&](std::size_t place, auto value) {
     Bytes bytes = sound;
     std::memcpy(bytes.data() + place, &value, sizeof value);
@@ -228,7 +228,7 @@ TEST(VehicleRecord, AllocatesNothing) {
   Process actuator, sensor;
   const std::int64_t before = support::allocations();
   for (std::int64_t k = 1; k <= 500; ++k) {
-    const auto message = actuator.record->tell(command(k));
+    const auto message = actuator.record->report(command(k));
     if (k % 20 == 0 && sensor.record->take(message).asks)
       (void)sensor.record->take(actuator.record->take(sensor.record->ask()).answer);
     (void)sensor.x(k * kEvery);

@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "schedules/check/checker.h"
 #include "schedules/file/inherit.h"
-#include "schedules/synthesis/instants/judging/meetings.h"
+#include "schedules/synthesis/instants/judging/chain_ends.h"
 #include "schedules/synthesis/instants/judging/moves.h"
 #include "schedules/synthesis/instants/placement.h"
 #include "schedules/synthesis/instants/synthesize.h"
@@ -19,12 +19,12 @@
 namespace ttf::schedules::synthesis::instants {
 namespace {
 
+using judging::chain_ends;
+using judging::ChainEnd;
+using judging::FirstUse;
 using judging::Judge;
 using judging::judged;
 using judging::kMostMoves;
-using judging::Meeting;
-using judging::meetings;
-using judging::Met;
 using judging::moved_measurements;
 using judging::placed_within;
 using judging::Prospect;
@@ -42,9 +42,9 @@ Plan paper(const std::string& objectives, const std::string& cycles = "8535 us")
 }
 
 // The age of a chain's measurement when it is first used.
-Duration age_of(const std::vector<Meeting>& meetings, std::size_t chain) {
-  for (const Meeting& meeting : meetings)
-    for (const Met& one : meeting.met)
+Duration age_of(const std::vector<ChainEnd>& chain_ends, std::size_t chain) {
+  for (const ChainEnd& chain_end : chain_ends)
+    for (const FirstUse& one : chain_end.first_uses)
       if (one.chain == chain) return one.used - one.measured;
   return {};
 }
@@ -55,10 +55,10 @@ class WantsApart : public Judge {
  public:
   explicit WantsApart(std::vector<double> apart_us) : apart_us_(std::move(apart_us)) {}
   std::size_t parts() const override { return apart_us_.size(); }
-  double of(const std::vector<Meeting>& meetings, const std::vector<double>& weights) const override {
+  double of(const std::vector<ChainEnd>& chain_ends, const std::vector<double>& weights) const override {
     ++asked_;
-    const double laser = 1e-3 * static_cast<double>(age_of(meetings, 0).ns);
-    const double camera = 1e-3 * static_cast<double>(age_of(meetings, 1).ns);
+    const double laser = 1e-3 * static_cast<double>(age_of(chain_ends, 0).ns);
+    const double camera = 1e-3 * static_cast<double>(age_of(chain_ends, 1).ns);
     double most = 0.0;
     for (std::size_t i = 0; i < apart_us_.size(); ++i)
       most = std::max(most, weights[i] * (std::abs(camera - laser - apart_us_[i]) + laser / 1'000.0));
@@ -82,7 +82,7 @@ TEST(Judged, MeasurementsMoveToWhereTheJudgeWantsThem) {
     const Synthesis made = synthesize(plan, {{Goal::kError, &judge}});
     ASSERT_TRUE(made.found);
     EXPECT_TRUE(check::check(made.cluster).empty());
-    const auto ends = meetings(plan, made.cluster);
+    const auto ends = chain_ends(plan, made.cluster);
     EXPECT_NEAR(1e-3 * static_cast<double>((age_of(ends, 1) - age_of(ends, 0)).ns), apart, 1.0);
     EXPECT_EQ(made.reached[0].value, judge.of(ends, {1.0}));
     EXPECT_LE(made.reached[0].bound, made.reached[0].value);
@@ -109,7 +109,7 @@ TEST(Judged, RegretLiesBetweenTheWishes) {
     const WantsApart alone({i == 0 ? 1'000.0 : 5'000.0});
     EXPECT_NEAR(1.0 / weights[i], synthesize(plan, {{Goal::kError, &alone}}).reached[0].value, 0.01);
   }
-  const auto ends = meetings(plan, made.cluster);
+  const auto ends = chain_ends(plan, made.cluster);
   EXPECT_NEAR(1e-3 * static_cast<double>((age_of(ends, 1) - age_of(ends, 0)).ns), 3'000.0, 25.0);
 }
 
@@ -144,30 +144,30 @@ TEST(Judged, WithoutInstantsThereIsNoValue) {
 }
 
 // A cluster has the meetings of the offsets that it was made from.
-TEST(Meetings, AreThoseOfTheProblem) {
+TEST(ChainEnds, AreThoseOfTheProblem) {
   const Plan plan = paper("worst_age");
   const auto read = read_of(plan, candidates(plan)[0]);
   const Search found = place(read->reading, {});
   ASSERT_TRUE(found.best);
   const model::Cluster cluster = with_instants(plan, read->timed, read->reading, found.best->solution);
   EXPECT_EQ(offsets_of(*read, cluster), found.best->solution.offsets);
-  const auto by_cluster = meetings(plan, cluster);
+  const auto by_cluster = chain_ends(plan, cluster);
   const auto by_problem =
-      meetings(plan, read->reading.problem, cluster.flexray.gdMacrotick_ps, found.best->solution.offsets);
+      chain_ends(plan, read->reading.problem, cluster.flexray.gdMacrotick_ps, found.best->solution.offsets);
   ASSERT_EQ(by_cluster.size(), 1u);
-  ASSERT_EQ(by_cluster[0].met.size(), 2u);
+  ASSERT_EQ(by_cluster[0].first_uses.size(), 2u);
   EXPECT_EQ(by_cluster[0].round, Duration::microseconds(34'140));
   EXPECT_EQ(by_cluster[0].uses, by_problem[0].uses);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(by_cluster[0].met[i].measured, by_problem[0].met[i].measured);
+    EXPECT_EQ(by_cluster[0].first_uses[i].measured, by_problem[0].first_uses[i].measured);
     // The longest way of the chain, in macroticks of 1 us.
-    const Met& one = by_cluster[0].met[i];
+    const FirstUse& one = by_cluster[0].first_uses[i];
     EXPECT_EQ((one.used - one.measured).ns, found.best->ages[one.chain] * 1'000);
   }
 }
 
 // So it is where the payload is free: lists take other slots with each payload.
-TEST(Meetings, AreThoseOfThePayloadThatWasChosen) {
+TEST(ChainEnds, AreThoseOfThePayloadThatWasChosen) {
   std::string text = changed(file::inherited(plan_path("paper_payload")).text, "shortest: 8.5 ms", "shortest: 8.6 ms");
   text = changed(text, "longest: 9 ms", "longest: 8.6 ms");
   text = changed(text, "payload: \\{[^}]*\\}", "payload: {shortest: 60, longest: 120, step: 20}");
@@ -183,9 +183,9 @@ TEST(Meetings, AreThoseOfThePayloadThatWasChosen) {
       if (!found.best) continue;
       ++placed;
       const model::Cluster cluster = with_instants(plan, read->timed, read->reading, found.best->solution);
-      const std::vector<Meeting> ends = meetings(plan, cluster);
+      const std::vector<ChainEnd> ends = chain_ends(plan, cluster);
       ASSERT_EQ(ends.size(), 1u);
-      for (const Met& one : ends[0].met)
+      for (const FirstUse& one : ends[0].first_uses)
         EXPECT_EQ((one.used - one.measured).ns, found.best->ages[one.chain] * 1'000) << candidate.payload << " bytes";
     }
   }

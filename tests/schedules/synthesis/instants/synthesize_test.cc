@@ -107,7 +107,7 @@ TEST(SynthesizePayload, TheBestOneIsNoWorseThanAnyAlone) {
 }
 
 // A wide range of periods has all repetitions that divide the round, and sensors of different ones.
-TEST(SynthesizePaper, SensorsOfDifferentPeriodsMeetInARound) {
+TEST(SynthesizePaper, SensorsOfDifferentPeriodsCoincideInARound) {
   std::string text = changed(plan_text("paper"), "gCycleCountMax: 63", "gCycleCountMax: 39");
   text = changed(text, "cycle: \\{[^}]*\\}", "cycle: {shortest: 9 ms, longest: 9 ms, step: 1 ms}");
   text = changed(text, "laser: \\{shortest: [^}]*\\}", "laser: {shortest: 36 ms, longest: 36 ms}");
@@ -306,7 +306,7 @@ TEST(SynthesizeSlots, MayHaveOneSenderEach) {
   EXPECT_TRUE(check::check(owned.cluster).empty());
 }
 
-TEST(SynthesizeChannels, NodesMustHearThem) {
+TEST(SynthesizeChannels, NodesMustReceiveThem) {
   std::string text =
       changed(plan_text("paper"), "cycle: \\{[^}]*\\}", "cycle: {shortest: 8600 us, longest: 8600 us, step: 100 us}");
   text = changed(text, "plan:\n", "plan:\n  one_channel: [image]\n");

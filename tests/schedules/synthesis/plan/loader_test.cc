@@ -12,7 +12,7 @@
 namespace ttf::schedules::synthesis::plan {
 namespace {
 
-TEST(PlanLoader, KnowsWhatThePaperPlanLeavesOut) {
+TEST(PlanLoader, LoadsWhatThePaperPlanLeavesOut) {
   const Plan plan = load_plan(plan_path("paper"));
   EXPECT_TRUE(plan.free_cycle);
   EXPECT_TRUE(plan.parameters.static_slots && plan.parameters.idle_time && plan.parameters.correction_start);
@@ -136,7 +136,7 @@ TEST(PlanLoader, ABaseThatCannotBeIsAMistakeOfItsHeir) {
   }
 }
 
-TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsMeet) {
+TEST(PlanLoader, FurtherSensorsHaveAllThatTheirListsNeed) {
   const Plan plan = load_plan(plan_path("paper_two_lasers_radar"));
   ASSERT_EQ(plan.cluster.sensors.size(), 4u);
   const auto rear = plan.cluster.find_sensor("rear_laser"), radar = plan.cluster.find_sensor("front_radar");

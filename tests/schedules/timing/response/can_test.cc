@@ -79,7 +79,7 @@ TEST(CanMessages, NoPhaseExceedsTheResponse) {
         jobs.push_back({i, at, at + stream.integer(0, messages[i].jitter), messages[i].transmission});
     const auto longest = simulated_longest(jobs, messages.size(), Preemption::kNever);
     for (std::size_t i = 0; i < messages.size(); ++i)
-      ASSERT_TRUE(responses[i].meets(kLongestResponse) && longest[i] <= responses[i].longest);
+      ASSERT_TRUE(responses[i].keeps(kLongestResponse) && longest[i] <= responses[i].longest);
   }
 }
 

@@ -28,19 +28,19 @@ std::vector<TaskTimes> drawn_tasks(RandomStream& stream, std::size_t count, doub
   return tasks;
 }
 
-// Calls `meets` with every order, and returns whether one of them is right.
-template <class T, class Meets> bool any_order(const std::vector<T>& list, Meets meets) {
+// Calls `keeps` with every order, and returns whether one of them is right.
+template <class T, class Keeps> bool any_order(const std::vector<T>& list, Keeps keeps) {
   PriorityOrder order(list.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   do {
-    if (meets(in_order(list, order))) return true;
+    if (keeps(in_order(list, order))) return true;
   } while (std::next_permutation(order.begin(), order.end()));
   return false;
 }
 
-template <class T> bool all_meet(const std::vector<Response>& responses, const std::vector<T>& list) {
+template <class T> bool all_keep(const std::vector<Response>& responses, const std::vector<T>& list) {
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!responses[i].meets(list[i].deadline)) return false;
+    if (!responses[i].keeps(list[i].deadline)) return false;
   return true;
 }
 
@@ -50,11 +50,11 @@ struct Tally {
 };
 
 // An order is found just where there is one, and it meets all deadlines.
-template <class T, class Meets>
-void expect_optimal(const std::vector<T>& list, const std::optional<PriorityOrder>& order, Meets meets, Tally& tally) {
-  EXPECT_EQ(order.has_value(), any_order(list, meets));
+template <class T, class Keeps>
+void expect_optimal(const std::vector<T>& list, const std::optional<PriorityOrder>& order, Keeps keeps, Tally& tally) {
+  EXPECT_EQ(order.has_value(), any_order(list, keeps));
   if (order) {
-    EXPECT_TRUE(meets(in_order(list, *order)));
+    EXPECT_TRUE(keeps(in_order(list, *order)));
   }
   tally.add(order.has_value());
 }
@@ -66,7 +66,7 @@ TEST(Audsley, IsOptimalForPreemptiveTasks) {
     const std::vector<TaskTimes> tasks = drawn_tasks(stream, 4, 1.8);
     expect_optimal(
         tasks, audsley_preemptive(tasks),
-        [](const std::vector<TaskTimes>& ordered) { return all_meet(preemptive(ordered), ordered); }, tally);
+        [](const std::vector<TaskTimes>& ordered) { return all_keep(preemptive(ordered), ordered); }, tally);
   }
   EXPECT_GT(tally.found, 50);
   EXPECT_GT(tally.none, 50);
@@ -79,7 +79,7 @@ TEST(Audsley, IsOptimalForNonPreemptiveTasks) {
     const std::vector<TaskTimes> tasks = drawn_tasks(stream, 4, 1.8);
     expect_optimal(
         tasks, audsley_non_preemptive(tasks),
-        [](const std::vector<TaskTimes>& ordered) { return all_meet(non_preemptive(ordered), ordered); }, tally);
+        [](const std::vector<TaskTimes>& ordered) { return all_keep(non_preemptive(ordered), ordered); }, tally);
   }
   EXPECT_GT(tally.found, 50);
   EXPECT_GT(tally.none, 50);
@@ -95,12 +95,12 @@ TEST(Audsley, IsOptimalForCanWhereDeadlineMonotonicIsNot) {
       messages.push_back({one.period, one.work, one.deadline, one.jitter});
     std::stable_sort(messages.begin(), messages.end(),
                      [](const CanMessage& a, const CanMessage& b) { return a.deadline < b.deadline; });
-    const auto meets = [&](const std::vector<CanMessage>& ordered) {
-      return all_meet(can_responses(bus, ordered), ordered);
+    const auto keeps = [&](const std::vector<CanMessage>& ordered) {
+      return all_keep(can_responses(bus, ordered), ordered);
     };
     const auto order = audsley_can(bus, messages);
-    expect_optimal(messages, order, meets, tally);
-    deadline_order.add(meets(messages));
+    expect_optimal(messages, order, keeps, tally);
+    deadline_order.add(keeps(messages));
   }
   EXPECT_GT(tally.none, 50);
   EXPECT_GT(deadline_order.found, 20);
@@ -114,9 +114,9 @@ TEST(DeadlineMonotonic, IsOptimalForShortDeadlines) {
   for (int set = 0; set < 400; ++set) {
     std::vector<TaskTimes> tasks = drawn_tasks(stream, 4, 1.0);
     for (TaskTimes& one : tasks) one.jitter = 0, one.deadline = std::min(one.deadline, one.period);
-    const auto meets = [](const std::vector<TaskTimes>& ordered) { return all_meet(preemptive(ordered), ordered); };
-    const bool found = meets(in_order(tasks, deadline_monotonic(tasks)));
-    EXPECT_EQ(found, any_order(tasks, meets));
+    const auto keeps = [](const std::vector<TaskTimes>& ordered) { return all_keep(preemptive(ordered), ordered); };
+    const bool found = keeps(in_order(tasks, deadline_monotonic(tasks)));
+    EXPECT_EQ(found, any_order(tasks, keeps));
     tally.add(found);
   }
   EXPECT_GT(tally.found, 50);

@@ -102,8 +102,8 @@ TEST(PublishedCan, CounterexampleOfDavis) {
   const std::vector<Response> responses = can_responses({.bit = 8, .errors = {}}, messages);
   EXPECT_EQ(published_longest(responses), (std::vector<std::int64_t>{2'000, 3'000, 3'500}));
   for (const Response& one : responses) EXPECT_EQ(one.quality, Quality::kExact);
-  EXPECT_TRUE(responses[1].meets(messages[1].deadline));
-  EXPECT_FALSE(responses[2].meets(messages[2].deadline));
+  EXPECT_TRUE(responses[1].keeps(messages[1].deadline));
+  EXPECT_FALSE(responses[2].keeps(messages[2].deadline));
 }
 
 // The instances of C, queued at 0 and 3500, simulated: 3.0 and 3.5 ms.

@@ -9,14 +9,14 @@
 
 namespace ttf::cli::exports {
 
-class ToldUses final : public evaluation::accuracy::ImageUses {
+class ReportedUses final : public evaluation::accuracy::ImageUses {
  public:
   using Use = recording::records::FeatureUsed;
   using Ages = std::span<const evaluation::accuracy::SensorAge>;
   using OnAges = std::function<void(const Use&, Ages)>;
   using OnErrors = std::function<void(const evaluation::accuracy::JudgedUse&)>;
 
-  ToldUses(OnAges on_ages, OnErrors on_errors)
+  ReportedUses(OnAges on_ages, OnErrors on_errors)
       : ImageUses(evaluation::accuracy::kGate_m), on_ages_(std::move(on_ages)), on_errors_(std::move(on_errors)) {}
   void finish() { finish_use(); }  // judges the last use; call it once, at the end
 

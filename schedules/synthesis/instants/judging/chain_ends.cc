@@ -1,4 +1,4 @@
-#include "schedules/synthesis/instants/judging/meetings.h"
+#include "schedules/synthesis/instants/judging/chain_ends.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -155,24 +155,24 @@ std::vector<End> ends(const plan::Plan& plan, const Problem& problem) {
 Duration duration_of(Ticks count, std::int64_t tick_ps) { return {count * tick_ps / 1'000}; }
 
 // A list waits for older ones: no measurement is used before an older one.
-void wait_for_older(Meeting& meeting) {
-  Duration latest = meeting.met.front().used;
+void wait_for_older(ChainEnd& chain_end) {
+  Duration latest = chain_end.first_uses.front().used;
   for (const int round : {0, 1})
-    for (Met& one : meeting.met) {
-      latest = std::max(latest, one.used + meeting.round * round);
-      if (round == 1) one.used = latest - meeting.round;
+    for (FirstUse& one : chain_end.first_uses) {
+      latest = std::max(latest, one.used + chain_end.round * round);
+      if (round == 1) one.used = latest - chain_end.round;
     }
 }
 
-Meeting meeting_of(const End& end, const Problem& problem, std::int64_t tick_ps, const std::vector<Ticks>& offsets) {
+ChainEnd chain_end_of(const End& end, const Problem& problem, std::int64_t tick_ps, const std::vector<Ticks>& offsets) {
   const Ticks every = problem.activities[end.activity].period;
   Ticks round = every;
   for (const std::size_t c : end.chains)
     round = std::lcm(round, problem.activities[problem.chains[c].activities.front()].period);
-  Meeting meeting;
-  meeting.round = duration_of(round, tick_ps);
+  ChainEnd chain_end;
+  chain_end.round = duration_of(round, tick_ps);
   const Ticks first = modulo(offsets[end.activity], every);
-  for (Ticks use = first; use < round; use += every) meeting.uses.push_back(duration_of(use, tick_ps));
+  for (Ticks use = first; use < round; use += every) chain_end.uses.push_back(duration_of(use, tick_ps));
   for (const std::size_t c : end.chains) {
     const Chain& chain = problem.chains[c];
     const std::size_t sensor = chain.activities.front();
@@ -181,22 +181,23 @@ Meeting meeting_of(const End& end, const Problem& problem, std::int64_t tick_ps,
       // The use is counted in whole rounds, so that it is one of `uses` to the nanosecond.
       const Ticks used = read_at(problem, chain, offsets, at);
       const Ticks within = modulo(used, round);
-      const Duration of_round = meeting.uses[static_cast<std::size_t>((within - first) / every)];
-      meeting.met.push_back({c, duration_of(at, tick_ps), of_round + meeting.round * ((used - within) / round)});
+      const Duration of_round = chain_end.uses[static_cast<std::size_t>((within - first) / every)];
+      chain_end.first_uses.push_back(
+          {c, duration_of(at, tick_ps), of_round + chain_end.round * ((used - within) / round)});
     }
   }
-  std::stable_sort(meeting.met.begin(), meeting.met.end(),
-                   [](const Met& a, const Met& b) { return a.measured < b.measured; });
-  wait_for_older(meeting);
-  return meeting;
+  std::stable_sort(chain_end.first_uses.begin(), chain_end.first_uses.end(),
+                   [](const FirstUse& a, const FirstUse& b) { return a.measured < b.measured; });
+  wait_for_older(chain_end);
+  return chain_end;
 }
 
 }  // namespace
 
-std::vector<Meeting> meetings(const plan::Plan& plan, const Problem& problem, std::int64_t tick_ps,
-                              const std::vector<Ticks>& offsets) {
-  std::vector<Meeting> found;
-  for (const End& end : ends(plan, problem)) found.push_back(meeting_of(end, problem, tick_ps, offsets));
+std::vector<ChainEnd> chain_ends(const plan::Plan& plan, const Problem& problem, std::int64_t tick_ps,
+                                 const std::vector<Ticks>& offsets) {
+  std::vector<ChainEnd> found;
+  for (const End& end : ends(plan, problem)) found.push_back(chain_end_of(end, problem, tick_ps, offsets));
   return found;
 }
 
@@ -224,17 +225,17 @@ std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, 
   return found;
 }
 
-std::vector<Meeting> meetings(const plan::Plan& plan, const model::Cluster& cluster) {
+std::vector<ChainEnd> chain_ends(const plan::Plan& plan, const model::Cluster& cluster) {
   Candidate candidate{cluster.cycle(), {}, plan.payload ? 2 * cluster.flexray.gPayloadLengthStatic : 0, {}};
   for (const model::Sensor& sensor : cluster.sensors) candidate.repetitions.push_back(sensor.at.repetition);
   const auto read = read_of(plan, candidate);
   TTF_CHECK(read.has_value(), "a cluster of another plan");
-  return meetings(plan, read->reading.problem, cluster.flexray.gdMacrotick_ps, offsets_of(*read, cluster));
+  return chain_ends(plan, read->reading.problem, cluster.flexray.gdMacrotick_ps, offsets_of(*read, cluster));
 }
 
 double judged(const Judge& judge, const std::vector<double>& weights, const plan::Plan& plan,
               const model::Cluster& cluster) {
-  return judge.of(meetings(plan, cluster), weights);
+  return judge.of(chain_ends(plan, cluster), weights);
 }
 
 }  // namespace ttf::schedules::synthesis::instants::judging

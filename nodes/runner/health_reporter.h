@@ -17,14 +17,14 @@
 
 namespace ttf::nodes::runner {
 
-class HealthTeller {
+class HealthReporter {
  public:
   // `report` is called on the other thread, with the instant of the handing over. It must not throw. The other
   // thread inherits the maker's priority and processors, so make it before asking for real time.
-  explicit HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell);
-  ~HealthTeller();  // close()
-  HealthTeller(const HealthTeller&) = delete;
-  HealthTeller& operator=(const HealthTeller&) = delete;
+  explicit HealthReporter(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> report);
+  ~HealthReporter();  // close()
+  HealthReporter(const HealthReporter&) = delete;
+  HealthReporter& operator=(const HealthReporter&) = delete;
 
   // Hands health over, always from one thread. Returns whether it will be reported.
   bool hand_over(const Health& health);
@@ -35,7 +35,7 @@ class HealthTeller {
  private:
   void run();
 
-  const std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell_;
+  const std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> report_;
   Health health_;                 // belongs to the thread that hands over, and to the other one while health waits
   bus::ports::MachineTime at_{};  // likewise
   std::atomic<bool> waits_{false};

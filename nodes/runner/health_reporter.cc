@@ -1,4 +1,4 @@
-#include "nodes/runner/health_teller.h"
+#include "nodes/runner/health_reporter.h"
 
 #include <cerrno>
 #include <utility>
@@ -7,18 +7,19 @@
 
 namespace ttf::nodes::runner {
 
-HealthTeller::HealthTeller(std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> tell)
-    : tell_(std::move(tell)) {
+HealthReporter::HealthReporter(
+    std::function<void(const ttf::nodes::runner::Health&, ttf::bus::ports::MachineTime)> report)
+    : report_(std::move(report)) {
   TTF_CHECK(sem_init(&called_, 0, 0) == 0);
   thread_ = std::thread([this] { run(); });
 }
 
-HealthTeller::~HealthTeller() {
+HealthReporter::~HealthReporter() {
   close();
   sem_destroy(&called_);
 }
 
-bool HealthTeller::hand_over(const Health& health) {
+bool HealthReporter::hand_over(const Health& health) {
   if (waits_.load(std::memory_order_acquire)) {
     ++left_out_;
     return false;
@@ -30,17 +31,17 @@ bool HealthTeller::hand_over(const Health& health) {
   return true;
 }
 
-void HealthTeller::run() {
+void HealthReporter::run() {
   for (bool last = false; !last;) {
     while (sem_wait(&called_) != 0) TTF_CHECK(errno == EINTR, "errno {}", errno);
     last = closing_.load(std::memory_order_acquire);
     if (!waits_.load(std::memory_order_acquire)) continue;
-    tell_(health_, at_);
+    report_(health_, at_);
     waits_.store(false, std::memory_order_release);
   }
 }
 
-void HealthTeller::close() {
+void HealthReporter::close() {
   if (!thread_.joinable()) return;
   closing_.store(true, std::memory_order_release);
   sem_post(&called_);

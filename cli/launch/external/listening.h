@@ -17,11 +17,11 @@
 
 namespace ttf::cli::launch::external {
 
-class Hearing {
+class Listening {
  public:
   // `nodes`: the real ones. `set` must outlive the object, and its medium have listeners. Throws InputError if an interface
   // is unsuitable.
-  Hearing(const node_set::NodeSet& set, std::vector<NodeId> nodes);
+  Listening(const node_set::NodeSet& set, std::vector<NodeId> nodes);
 
   // `origin` is the drive's time 0.
   void begin(bus::ports::MachineTime origin);

@@ -9,8 +9,8 @@
 namespace ttf::bus::dds::exchange {
 namespace {
 
-// The bytes received between two kHeard, which let the others forget them.
-constexpr std::size_t kTellEvery = 256 << 10;
+// The bytes received between two kReceived, which let the others forget them.
+constexpr std::size_t kReportEvery = 256 << 10;
 // The approximate memory of a kept sample beside its bytes.
 constexpr std::size_t kSampleBytes = 96;
 
@@ -44,16 +44,16 @@ void Exchange::Member::on_data(const common::Said& said) {
   Other& sender = other(said.sender);
   sender.stream.accept({said.number, said.kind, copy(said.bytes)}, entries_);
   deliver(said.sender);
-  heard_bytes_ += kSampleBytes + said.bytes.size();
-  if (session_.supervised && heard_bytes_ >= kTellEvery) tell_heard();
+  received_bytes_ += kSampleBytes + said.bytes.size();
+  if (session_.supervised && received_bytes_ >= kReportEvery) report_received();
 }
 
-void Exchange::Member::tell_heard() {
-  HeardCounts heard;
-  for (const auto& [id, state] : others_) heard[id] = state.stream.heard();
-  const std::vector<std::byte> bytes = encode(heard);
-  control_.say({.sender = self_, .kind = common::Kind::kHeard, .bytes = bytes});
-  heard_bytes_ = 0;
+void Exchange::Member::report_received() {
+  ReceivedCounts received;
+  for (const auto& [id, state] : others_) received[id] = state.stream.received();
+  const std::vector<std::byte> bytes = encode(received);
+  control_.say({.sender = self_, .kind = common::Kind::kReceived, .bytes = bytes});
+  received_bytes_ = 0;
 }
 
 void Exchange::Member::deliver(NodeId from) {
@@ -63,7 +63,7 @@ void Exchange::Member::deliver(NodeId from) {
     if (entry.kind == common::Kind::kBye) {
       coming_.push_back({from, nullptr});
       gone_.insert(from);
-      heard_table_.without(from);
+      received_table_.without(from);
     }
   }
   entries_.clear();
@@ -86,9 +86,9 @@ void Exchange::Member::on_control(const common::Said& said) {
       if (const Other& about = other(said.about); about.round == said.round && about.stream.wanting())
         throw std::runtime_error(about.stream.missing());
       return;
-    case common::Kind::kHeard:
-      heard_table_.note(said.sender, decode(said.bytes));
-      for (auto& [id, state] : others_) state.stream.settle(heard_table_.by_all(id));
+    case common::Kind::kReceived:
+      received_table_.note(said.sender, decode(said.bytes));
+      for (auto& [id, state] : others_) state.stream.settle(received_table_.by_all(id));
       return;
     case common::Kind::kReport:
     case common::Kind::kClosed: return;  // for the supervisor
@@ -104,7 +104,7 @@ void Exchange::Member::on_fence(const common::Said& said) {
   Other& about = other(said.about);
   drain_data();
   last_death_ = Clock::now();
-  heard_table_.without(said.about);
+  received_table_.without(said.about);
   const std::uint64_t end = about.stream.fence();
   control_.say({.sender = self_, .kind = common::Kind::kReport, .about = said.about, .round = said.round, .end = end});
 }

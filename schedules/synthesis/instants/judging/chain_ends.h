@@ -12,8 +12,8 @@
 namespace ttf::schedules::synthesis::instants::judging {
 
 // Chains of one sensor to one task count once. `tick_ps`: the macrotick.
-std::vector<Meeting> meetings(const plan::Plan& plan, const Problem& problem, std::int64_t tick_ps,
-                              const std::vector<Ticks>& offsets);
+std::vector<ChainEnd> chain_ends(const plan::Plan& plan, const Problem& problem, std::int64_t tick_ps,
+                                 const std::vector<Ticks>& offsets);
 
 // Within the limits. The reading must outlive what is returned.
 std::vector<Prospect> prospects(const plan::Plan& plan, const Reading& reading, const Limits& limits,
