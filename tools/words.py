@@ -8,7 +8,8 @@
 
 A text is what comments (C++, shell, Python, CMake, YAML) and Markdown pages say in sentences. Code blocks, tables,
 drawings and formulas are left out. A sentence ends at a full stop, question or exclamation mark, at a colon that ends a
-line, at an empty line, and at each item of a list. A find is a phrase of PHRASES below, or a test's name as in TEST_NAME.
+line, at an empty line, and at each item of a list. A find is a phrase of PHRASES below, a test's name as in TEST_NAME, or
+a name of C++ with a verb of PERSON_VERBS.
 """
 import re
 import subprocess
@@ -35,6 +36,11 @@ PHRASES = [
 ]
 # A GoogleTest's name begins with its subject: ACarThatGoesRoundKeepsItsName.
 TEST_NAME = re.compile(r"^(?:TYPED_)?TEST(?:_[FP])?\(\s*\w+,\s*((?:What|Who)(?:ever|m|se)?(?![a-z])\w*)\s*\)", re.M)
+# A machine receives, reports and has (docs/glossary.md); `known` and `unknown` are the field's words. Whole parts of a name.
+PERSON_VERBS = {"hear", "hears", "heard", "unheard", "hearing", "hearer", "tell", "tells", "told", "telling", "teller",
+                "know", "knows", "knew", "knowing", "learn", "learns", "learned", "learnt", "learning", "learner"}
+PERSON_STEM = re.compile(r"hear|tell|told|know(?!n)|knew|learn", re.I)
+WIRE_NAMES = {"tells_late"}  # a field of bus/dds/live/live_sample.idl
 CODE_SUFFIXES = {".h", ".cc", ".inc"}
 HASH_SUFFIXES = {".sh", ".py", ".cmake", ".toml", ".yaml", ".yml"}
 
@@ -133,6 +139,28 @@ def test_names(path):
             yield text.count("\n", 0, match.start(1)) + 1, "a clause as a test's name", match[1], match[0]
 
 
+def has_person_verb(name):
+    parts = re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)
+    return name not in WIRE_NAMES and any(part.lower() in PERSON_VERBS for part in parts)
+
+
+def person_verbs(path):
+    """Finds among the names of C++, each name once: its first place in code. Comments and texts are left out."""
+    if path.suffix not in CODE_SUFFIXES:
+        return
+    text = path.read_text(errors="replace")
+    if not PERSON_STEM.search(text):
+        return
+    no_code = r"""//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)'(?:\\.|[^'\\\n])+'"""
+    code = re.sub(no_code, lambda match: "\n" * match[0].count("\n") or " ", text, flags=re.S)
+    named = set()
+    for match in re.finditer(r"[A-Za-z_]\w*", code):
+        if PERSON_STEM.search(match[0]) and match[0] not in named and has_person_verb(match[0]):
+            named.add(match[0])
+            number = code.count("\n", 0, match.start())
+            yield number + 1, "a person's verb in a name", match[0], text.splitlines()[number].strip()
+
+
 def measure(path):
     said = list(sentences(path))
     lengths = [len(re.findall(r"[^\s]+", sentence)) for _, sentence in said]
@@ -140,7 +168,7 @@ def measure(path):
              for line, sentence in said
              for phrase, reason in PHRASES
              if (match := re.search(phrase, sentence, re.IGNORECASE))]
-    finds += test_names(path)
+    finds += [*test_names(path), *person_verbs(path)]
     return said, lengths, finds
 
 

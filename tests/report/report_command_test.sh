@@ -171,7 +171,7 @@ mkdir changed away
 sed 's/^replications: .*/replications: 5/' small.yaml >changed/small.yaml
 (cd changed && "$program" report ../small -o page.html >/dev/null 2>said) || fail "no page where the file is another"
 grep -q '^warning: No drive is shown here: small.yaml, or a file that it names, has changed' changed/said ||
-  fail "another file is not reported of: $(cat changed/said)"
+  fail "another file is not named: $(cat changed/said)"
 has changed/page.html 'No drive is shown here: small.yaml, or a file that it names, has changed'
 lacks changed/page.html 'class="diagram"'
 (cd away && "$program" report ../small -o page.html >/dev/null 2>&1) || fail "no page where there is no file"

@@ -70,7 +70,7 @@ class Words(unittest.TestCase):
         self.assertEqual(finds, [])
 
     def test_a_tests_name_is_no_clause(self):
-        for macro, name in [("TEST", "WhatIsLostIsCounted"), ("TEST_F", "WhoMaySend"), ("TEST_P", "WhoeverSendsIsHeard"),
+        for macro, name in [("TEST", "WhatIsLostIsCounted"), ("TEST_F", "WhoMaySend"), ("TEST_P", "WhoeverSendsIsReceived"),
                             ("TYPED_TEST", "WhateverComesIsKept"), ("TEST", "WhomItHarms"), ("TEST", "WhoseSlotItIs")]:
             for between in [" ", "\n     "]:
                 _, _, finds = self.measured("a_test.cc", f"\n{macro}(Bus,{between}{name}) {{\n}}\n")
@@ -79,6 +79,20 @@ class Words(unittest.TestCase):
                      "TEST(Bus, ItCountsWhatIsLost) {\n", "// TEST(Bus, WhatIsLostIsCounted)\n"]:
             _, _, finds = self.measured("a_test.cc", text)
             self.assertEqual(finds, [], text)
+
+    def test_a_machine_has_no_verbs_of_persons_in_its_names(self):
+        reason = "a person's verb in a name"
+        for name in ["hear_frame", "knows", "ToldDrive", "kTellsFront", "last_heard_", "unheard", "learns_rate", "L2_ANodeDoesNotHearIt"]:
+            _, _, finds = self.measured("a.cc", f"int a = 1'000;\nint {name} = {name} + 1'000;\n")
+            self.assertEqual(finds, [(2, reason)], name)
+        for text in ["bool known = unknown(kNow, knowledge_of, shear, foretells);\n", "int a;  // `told` is called\n", '#include "a/heard.h"\n',
+                     'json["told"] = counts.reported;\n', "/* knows\n   tells */\n", "sample.tells_late = 1;\n", 'R"(int told;)";\n']:
+            _, _, finds = self.measured("a.cc", text)
+            self.assertEqual(finds, [], text)
+        _, _, finds = self.measured("a.py", "told = 1\n")
+        self.assertEqual(finds, [])
+        _, _, finds = self.measured("a.h", "/* two\n   lines */\nint b;\nvoid tell();\n")
+        self.assertEqual(finds, [(4, reason)])
 
     def test_the_tree_is_within_its_bounds_and_bounds_only_fall(self):
         with tempfile.TemporaryDirectory() as folder:
