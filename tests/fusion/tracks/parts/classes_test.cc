@@ -205,7 +205,7 @@ TEST(Classes, WithoutAChoiceTheExtentStaysAsItIs) {
 }
 
 // Each in the middle between both widths. A motorbike is less frequent.
-TEST(Classes, SpeedTellsAMotorbikeFromAPedestrianOnlyOverGround) {
+TEST(Classes, ASpeedDecidesBetweenMotorbikeAndPedestrianOnlyOverGround) {
   for (const bool over_ground : {false, true})
     for (const double speed : {0.5, 10.0}) {
       config::TrackerConfig config = with_classes({"motorbike", "pedestrian"});
