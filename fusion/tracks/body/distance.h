@@ -10,6 +10,11 @@
 //   p < c   The size is corrected in the same way. Then p is the variance that repeats.
 // So an observation corrects one of the two, and none twice.
 //
+// A radar's range rate is that of matter. A rigid body's point at the lever l from the anchor has the velocity v + w l', where l' is
+// l on by a quarter turn and w is the turn rate. Along the line of sight s, this adds w s l' to the range rate, and the variance of w
+// times (s l')^2 to its variance. A silhouette's derivative by the heading is no lever: near end-on a hidden side comes into view,
+// and the silhouette runs along the outline by metres a radian.
+//
 // How the object lies and turns: fusion/tracks/body/turn.h. Where its heading is lost: fusion/tracks/body/behind.h.
 #pragma once
 

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "fusion/tracks/body/distance.h"
 #include "tests/fusion/scenes.h"
+#include "tests/fusion/tracks/body/drawn_outline.h"
 
 namespace ttf::fusion::tracks::body {
 namespace {
@@ -23,35 +24,15 @@ SeenBox outline(double x, double y, double heading, double speed, double turn_ra
   return o;
 }
 
-// Evenly over the azimuths, on the first of the four edges that each ray meets.
 linear::Matrix<3> by_drawing(const SeenBox& o) {
   constexpr int kPoints = 20'000;
-  const double c = std::cos(o.box.heading), s = std::sin(o.box.heading), l = 0.5 * o.box.size(0),
-               w = 0.5 * o.box.size(1);
-  std::vector<linear::Vector<2>> corners;
-  for (const auto& [u, v] : {std::pair{l, w}, {-l, w}, {-l, -w}, {l, -w}})
-    corners.emplace_back(o.centre.x() + c * u - s * v, o.centre.y() + s * u + c * v);
-  double low = kPi, high = -kPi;
-  for (const auto& corner : corners) {
-    low = std::min(low, std::atan2(corner.y(), corner.x()));
-    high = std::max(high, std::atan2(corner.y(), corner.x()));
-  }
+  const DrawnOutline drawn(o.centre, o.box);
   linear::Vector<3> sum = linear::Vector<3>::Zero();
   linear::Matrix<3> squares = linear::Matrix<3>::Zero();
   RandomStream stream({1, 0, Purpose::kTest, 0, 0});
   for (int k = 0; k < kPoints; ++k) {
-    const double azimuth = stream.uniform(low, high), dx = std::cos(azimuth), dy = std::sin(azimuth);
-    double range = 1e9;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const linear::Vector<2> a = corners[i], e = corners[(i + 1) % 4] - a;
-      const double determinant = dy * e.x() - dx * e.y();
-      if (std::abs(determinant) < 1e-12) continue;
-      const double at = (a.y() * e.x() - a.x() * e.y()) / determinant, along = (dx * a.y() - dy * a.x()) / determinant;
-      if (at > 0 && along >= 0 && along <= 1) range = std::min(range, at);
-    }
-    const double vx = o.velocity.x() - o.turn_rate * (range * dy - o.centre.y()),
-                 vy = o.velocity.y() + o.turn_rate * (range * dx - o.centre.x());
-    const linear::Vector<3> point(range, azimuth, dx * vx + dy * vy);
+    const linear::Vector<2> at = drawn.draw(stream);
+    const linear::Vector<3> point(at(0), at(1), range_rate_of(at, o.centre, o.velocity, o.turn_rate));
     sum += point;
     squares += point * point.transpose();
   }
@@ -71,6 +52,84 @@ TEST(Returns, SpreadAsPointsDrawnOnTheOutline) {
 }
 
 TEST(Returns, AroundTheSensorThereIsNoOutline) { EXPECT_TRUE(spread_of(outline(0.0, 0.0, 0.0, 1.0)).isZero(0.0)); }
+
+// A car almost end-on, whose course alone tells the heading: the rear and, turned a little, a side as well. Headings are drawn as
+// the track states them, and returns on the outline turned so. Returns the mean d2, of three degrees of freedom, of the
+// innovation by its stated covariance; the anchor's place is exact.
+double mean_squared_distance(const Anchor& anchor, double aspect, double sigma, int returns) {
+  constexpr int kDraws = 1'000;
+  constexpr double kFast = 8.0;
+  const auto estimator = estimators::make_estimator({});
+  const linear::Vector<2> at(40.0, 0.0), along(std::cos(aspect), std::sin(aspect)), left(-along.y(), along.x());
+  const linear::Matrix<2> unsure = sigma * sigma * kFast * kFast * left * left.transpose();
+  Body body;
+  body.anchor = anchor;
+  body.extent.covariance.setZero();
+  linear::Gaussian<4> state;
+  state.x << at, kFast * along;
+  state.p.setZero();
+  state.p.bottomRightCorner<2, 2>() = unsure;
+  body.estimate = state;
+  RandomStream stream({6, 0, Purpose::kTest, 0, 0});
+  double sum = 0.0;
+  for (int k = 0; k < kDraws; ++k) {
+    const double across = sigma * stream.normal();
+    const linear::Vector<2> velocity = kFast * (along + across * left), ahead = velocity.normalized();
+    const Box box{body.extent.size, std::atan2(velocity.y(), velocity.x())};
+    linear::Vector<2> centre = at + 0.5 * box.size(0) * ahead;
+    if (anchor.point == sensors::SeenPoint::kSilhouette)
+      for (int step = 0; step < 2; ++step) centre += at - plane_of(DrawnOutline(centre, box).mean());
+    const DrawnOutline outline(centre, box);
+    linear::Vector<3> mean = linear::Vector<3>::Zero();
+    for (int i = 0; i < returns; ++i) {
+      const linear::Vector<2> point = outline.draw(stream);
+      mean += linear::Vector<3>(point(0) + 0.1 * stream.normal(), point(1) + 0.003 * stream.normal(),
+                                range_rate_of(point, centre, velocity, 0.0) + 0.05 * stream.normal()) /
+              returns;
+    }
+    const double root = std::sqrt(returns);
+    sensors::Observation z = radar(mean(0), mean(1), mean(2), 0.1 / root, 0.003 / root, 0.05 / root);
+    z.seen = sensors::SeenPoint::kSilhouette;
+    z.sensor = SensorId{0};
+    z.returns = static_cast<std::uint8_t>(returns);
+    z = with_spread(z, body, *estimator, {});
+    if (const std::optional<Distance> distance = distance_to(body, *estimator, z, {})) z = expected(z, *distance, {});
+    const linear::Vector<3> off = z.z - linear::Vector<3>(at.x(), 0.0, kFast * along.x());
+    z.r(2, 2) += unsure(0, 0);
+    sum += off.dot(z.r.inverse() * off);
+  }
+  return sum / kDraws;
+}
+
+TEST(Returns, LieWithinTheirCovarianceWhereTheHeadingIsUncertainNearEndOn) {
+  const Anchor silhouette{sensors::SeenPoint::kSilhouette, 0, 0, SensorId{0}}, rear{sensors::SeenPoint::kEnd, -1, 0};
+  for (const double aspect : {0.0, 0.05, 0.1, 0.3})
+    for (const double sigma : {0.05, 0.08, 0.1})
+      for (const int returns : {1, 2, 4}) {
+        const double of_silhouette = mean_squared_distance(silhouette, aspect, sigma, returns),
+                     of_rear = mean_squared_distance(rear, aspect, sigma, returns);
+        EXPECT_GT(of_silhouette, 2.4) << aspect << " +- " << sigma << ", returns " << returns;
+        EXPECT_LT(of_silhouette, 4.2) << aspect << " +- " << sigma << ", returns " << returns;
+        // The distance from the rear has the heading's error to first order: end-on, the silhouette only gets nearer.
+        EXPECT_GT(of_rear, 2.4) << aspect << " +- " << sigma << ", returns " << returns;
+        EXPECT_LT(of_rear, 5.2) << aspect << " +- " << sigma << ", returns " << returns;
+      }
+}
+
+TEST(Returns, SpreadAsOverTheBoxWhereTheHeadingIsExact) {
+  const auto estimator = estimators::make_estimator({});
+  for (const double heading : {0.0, 0.05, 0.8}) {
+    const SeenBox box = outline(30.0, 2.0, heading, 8.0, 0.2);
+    Body body;
+    body.extent.size = box.box.size;
+    body.heading = {{heading, 0.0, true}, box.turn_rate};
+    linear::Gaussian<4> state;
+    state.x << box.centre, box.velocity;
+    state.p = 0.01 * linear::Matrix<4>::Identity();
+    body.estimate = state;
+    EXPECT_TRUE(spread_of(body, *estimator, {}).isApprox(spread_of(box), 1e-9)) << heading;
+  }
+}
 
 TEST(Returns, AMeanOfManyHasLess) {
   sensors::Observation one = radar(40.0, 0.1, 3.0, 0.1, 0.003, 0.05);
