@@ -165,7 +165,7 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
     object.seen = SeenPoint::kSide;
     set_heading(object, t, errors(1, 1));
     set_length(object, size);
-  } else if (surely_a_width(config, size)) {
+  } else if (is_a_width(config, size) && size.value + size.margin < config.widest_rear_m) {
     object.seen = SeenPoint::kEnd;
     set_heading(object, n, errors(1, 1));
     set_width(object, size);
