@@ -353,7 +353,7 @@ TEST(TrackerConfig, TheDocumentedExamplesLoad) {
     root.finish();
     EXPECT_TRUE(findings.empty());
   }
-  ASSERT_EQ(configs.size(), 4u);
+  ASSERT_EQ(configs.size(), 5u);
   EXPECT_EQ(configs[0].motion, MotionModel::kCtrv);
   EXPECT_EQ(configs[0].filter, FilterKind::kUnscented);
   const Sizes defaults;  // as the page calls them
@@ -362,12 +362,15 @@ TEST(TrackerConfig, TheDocumentedExamplesLoad) {
   EXPECT_EQ(configs[1].sizes.width, defaults.width);
   EXPECT_EQ(configs[1].sizes.width_sigma, defaults.width_sigma);
   EXPECT_EQ(configs[1].sizes.correlation, defaults.correlation);
-  ASSERT_EQ(configs[2].sensors.size(), 1u);
-  EXPECT_EQ(configs[2].sensors[0].name, "camera");
-  ASSERT_TRUE(configs[2].sensors[0].field.has_value());
-  EXPECT_EQ(configs[2].sensors[0].field->max_range, 90.0);
-  EXPECT_EQ(configs[3].association, Association::kJpda);
-  EXPECT_EQ(configs[3].birth, Birth::kExistence);
+  ASSERT_EQ(configs[2].classes.size(), 3u);
+  EXPECT_EQ(configs[2].classes[1].sizes.length, 16.5);
+  EXPECT_EQ(configs[2].classes[2].share, 0.3);
+  ASSERT_EQ(configs[3].sensors.size(), 1u);
+  EXPECT_EQ(configs[3].sensors[0].name, "camera");
+  ASSERT_TRUE(configs[3].sensors[0].field.has_value());
+  EXPECT_EQ(configs[3].sensors[0].field->max_range, 90.0);
+  EXPECT_EQ(configs[4].association, Association::kJpda);
+  EXPECT_EQ(configs[4].birth, Birth::kExistence);
 }
 
 // A track that ends before it coasts would never be marked as coasting.
