@@ -143,7 +143,7 @@ template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arg
     verdict = verdict_of({&plan.set.cluster, &*result->real_time, result->service, health.restarts(),
                           end ? end->sentence() : std::string(), wrongs_text(accounts)});
   const nlohmann::ordered_json launched =
-      to_json(drive::LaunchFindings{end ? std::optional(end->absent) : std::nullopt, judged(accounts), verdict});
+      to_json(drive::LaunchFindings{end ? std::optional(end->absent) : std::nullopt, reported(accounts), verdict});
   if (!accounts.empty()) folder.set(kExternal, launched.at(kExternal));
   if (result) report_result(plan.set, *result, verdict, launched, accounts, arguments);
   std::fflush(stdout);  // both streams may share one file

@@ -374,7 +374,7 @@ TEST(ExternalAccounts, SayTheState) {
   account.counts.in_window = 12;
   account.silent = us(1'230'000);
   EXPECT_EQ(status_text(account), "silent for 1.2 s, 12 in window");
-  EXPECT_EQ(follow_up({account})[0].state, "silent for 1.2 s");
+  EXPECT_EQ(reported({account})[0].state, "silent for 1.2 s");
   EXPECT_EQ(table_text({}), "");
 }
 

@@ -118,12 +118,12 @@ TEST(Classes, OneWidthAndReportsGiveTheMostProbableClass) {
 }
 
 TEST(Classes, ReportsOutweighAShare) {
-  Bench silent(with_classes()), reported(with_classes());
+  Bench silent(with_classes()), with_report(with_classes());
   silent.step(0, {rear(1.9, 0.1)});
-  reported.step(0, {reported(rear(1.9, 0.1), 2)});
+  with_report.step(0, {reported(rear(1.9, 0.1), 2)});
   EXPECT_EQ(class_of(silent), "car") << "of both that may be so wide, the more frequent one";
-  EXPECT_EQ(class_of(reported), "van");
-  EXPECT_NEAR(reported.set.tracks[0].extent.size(0), 5.5, 1e-9);
+  EXPECT_EQ(class_of(with_report), "van");
+  EXPECT_NEAR(with_report.set.tracks[0].extent.size(0), 5.5, 1e-9);
 }
 
 TEST(Classes, OneWrongReportInTwentyListsChangesNothing) {
