@@ -34,7 +34,7 @@ constexpr Description kTracker[] = {
     {"max_observations", "A list has at most so many observations."},
     {"history_scans", "A late list is taken in up to so many lists back."},
     {"heading_noise", "The heading of an object wanders with this spectral density."},
-    {"sizes", "Objects are assumed to be so long and wide, until sensors have seen it."},
+    {"sizes", "Objects are assumed to be so long and wide, until sensors have seen it; without `classes`."},
     {"sizes.length", "Lengths have this mean."},
     {"sizes.length_sigma", "Lengths have this standard deviation."},
     {"sizes.width", "Widths have this mean."},
@@ -42,7 +42,7 @@ constexpr Description kTracker[] = {
     {"sizes.correlation", "Length and width have this correlation."},
     {"classes",
      "An object is the most probable of these classes: `car`, `truck`, `van`, `motorbike`, `cyclist`, `pedestrian`; "
-     "absent, all objects have `sizes`."},
+     "absent, all objects have `sizes`; needs `late: rewind` and no `extent_noise`."},
     {"classes.NAME.length", "Lengths of the class have this mean; absent, its own.", "16.5"},
     {"classes.NAME.length_sigma", "Lengths of the class have this standard deviation; absent, its own.", "0.5"},
     {"classes.NAME.width", "Widths of the class have this mean; absent, its own.", "2.55"},
@@ -90,7 +90,7 @@ constexpr Description kTracker[] = {
     {"merge_scans", "Two tracks become one after so many lists in a row that leave them so close."},
     {"late",
      "ADVA takes a late list in by this method, TT only if it is `clone`; other methods than `rewind` need straight "
-     "motion, the extended filter, and the default association, birth and `systematic`."},
+     "motion, the extended filter, the default association, birth and `systematic`, and no `classes`."},
 };
 
 }  // namespace

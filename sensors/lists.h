@@ -43,7 +43,8 @@ void read_list(const nodes::host::Input& input, const std::array<std::size_t, kC
   }
 }
 
-// Writes a whole list. `values_of` returns an element's values, an array in the order of `signals`. Signals may end earlier.
+// Writes a whole list. `values_of` returns an element's values, an array in the order of `signals`. `signals` may be
+// shorter than that array; the rest is not written.
 template <class Element, class Signals, class ValuesOf>
 void write_list(nodes::host::Output& out, std::uint32_t sequence, GlobalTime at, const Signals& signals,
                 const std::vector<Element>& elements, ValuesOf values_of) {

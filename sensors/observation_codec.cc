@@ -29,7 +29,7 @@ ttf::fusion::sensors::SeenPoint seen_point(int valid) {
 
 // A code that is no class is none.
 void take_class(ttf::fusion::sensors::Observation& observation, double code) {
-  if (code >= ttf::fusion::config::kClassCount) return;
+  if (!(code >= 0.0 && code < ttf::fusion::config::kClassCount)) return;
   observation.class_id = static_cast<ttf::fusion::sensors::ClassId>(code);
   observation.score = 1.0;
 }

@@ -1,5 +1,5 @@
 // The lists of silhouettes that cameras of all kinds have: position, covariance, and the angle that the outline spans. A camera
-// that tells classes has `class`, too (fusion/config/classes.h).
+// that reports classes adds `class` (fusion/config/classes.h).
 #pragma once
 
 #include <vector>

@@ -25,6 +25,7 @@ import re
 
 NAMES = re.compile(r"<!-- names: ([^>]*?) -->")
 DIRECTIVE = re.compile(r"<!-- table: ([^>]*?) -->\n*(?:\*[^*\n]+\*\n+)?((?:\|[^\n]*\n)*)")
+SMALLEST = 1e-9  # below, a figure is rounding
 KINDS = ("values", "means", "differences", "percent", "changes", "interactions")
 
 
@@ -78,7 +79,7 @@ def brief(value, sign=""):
     """Writes a figure without an interval. It is a dash if no drive has one."""
     if value is None:
         return "-"
-    return f"{value:{sign}.{decimals(value, None)}f}" if value else "0"
+    return f"{value:{sign}.{decimals(value, None)}f}" if abs(value) >= SMALLEST else "0"
 
 
 def change(estimate):

@@ -70,7 +70,7 @@ struct NodeSet {
 // Reads a node set from a scenario or a cluster file. A cluster file drives the default scene: an
 // accelerating car ahead. In real time the cluster must be fit for it at the time scale
 // (schedules/check/real_time_rules.h), and faults are refused. The caller checks the
-// steps of libraries: it reports whose nodes it has. Throws InputError.
+// steps of libraries, for the nodes that it runs. Throws InputError.
 NodeSet read_node_set(const NodeSetArguments& arguments);
 
 // Returns the node of this name, from an argument of the command line. Throws InputError with the argument, its text and

@@ -3,7 +3,7 @@
 // The loop is that of docs/schedules/expected_error.md. Adaptive cruise control has the default gains of nodes/control/time_gap.h.
 // The drive train has a lag. White noise drives the speed of the lead, which forgets. The loop is linear: it has no
 // limits, no tracker, and no noise of sensors. A sensor's measurement samples the gap and the speeds. The command of a
-// use rests on the newest sample before the use. It acts from there on.
+// use rests on the newest sample that has reached it. It acts from there on.
 #pragma once
 
 #include <vector>

@@ -16,7 +16,7 @@ using schedules::synthesis::plan::Plan;
 
 namespace {
 
-// Returns by use of the chain the newest measurement before it.
+// Returns, by use of the chain, the newest measurement that it rests on.
 CommandRound commands_of(const ChainEnd& chain_end, std::size_t chain, Duration delay) {
   CommandRound round{chain_end.round, {}, {}};
   for (const FirstUse& one : chain_end.first_uses)

@@ -1,7 +1,7 @@
 // A bound of the error that instants can reach, by branch and bound over the phases of measurements.
 //
-// A measurement is at best `least_age` old at its first use. Let each one be known that early: a filter that has more
-// has no larger error. So the error of any instants is not below that of their phases alone. A box of phases has a
+// A measurement is at best `least_age` old at its first use. Let each one be there that early: a filter with earlier
+// data has no larger error. So the error of any instants is not below that of their phases alone. A box of phases has a
 // bound of its own (trial_path.h). The box with the least bound is halved, a counted number of times, at the side whose
 // length matters most: by the information of its stream. The least bound that is left holds for all phases.
 //

@@ -13,7 +13,7 @@ namespace {
 
 double to_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-// A measurement's instant, as its age at the use: the newest one before the use, and older ones by rounds.
+// A measurement's instant, as its age at the use: the newest one that the use rests on, and older ones by rounds.
 struct Window {
   std::int64_t newest = 0, oldest = 0;
   double variance = 0.0;

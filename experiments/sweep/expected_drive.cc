@@ -19,7 +19,7 @@ using sensors::kinds::SensorsOfKind;
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 constexpr double kWorldStep_s = 0.01;  // the world draws once per step (sim/world/world.h)
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
-// A prior that is nearer to the nominal size has it [m].
+// A prior counts as the nominal size if it is nearer to it than this [m].
 constexpr double kKnown_m = 0.02;
 // The share of a measured side's variance that repeats (fusion/tracks/body/extent.cc).
 constexpr double kRepeating = 0.8;
@@ -131,7 +131,8 @@ double distance_to_outline(const recording::records::TruthState& box, double x, 
 
 bool ExpectedError::is_defined(const sim::drives::Scenario& scenario) {
   if (scenario.world.objects.size() != 1 || scenario.tracker.motion != fusion::config::MotionModel::kConstantVelocity ||
-      scenario.tracker.extent_noise > 0.0 || scenario.world.ego || scenario.world.objects.front().on)
+      scenario.tracker.extent_noise > 0.0 || !scenario.tracker.classes.empty() || scenario.world.ego ||
+      scenario.world.objects.front().on)
     return false;
   return size_is_known(scenario.tracker.sizes, scenario.world.objects.front()) || shows_one_face(scenario);
 }

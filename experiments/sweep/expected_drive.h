@@ -4,14 +4,16 @@
 //   face      The point that the track follows, the one that sensors see (fusion/tracks/body/anchor.h), by the recursion of
 //             expected_error.h. The scenario's process noise is assumed, and the world's is actual, with its memory.
 //   position  The centre, half of the hidden side behind it: half of the length, if a rear is in view. That side's error
-//             is the same in every image (expected_size.h). Sizes are as drawn, and the widths that sensors see correct
-//             lengths as far as the prior correlates both. The heading's error swings the centre about the face. The heading
+//             is the same in every image (expected_size.h). Sizes are as drawn. Seen widths correct the length as far
+//             as the prior correlates both. The heading's error swings the centre about the face. The heading
 //             is that of course and measured axis, each by its certainty (expected_heading.h).
 //
 // A laser's end and a camera's silhouette are one point as long as one face alone is in view. The tracker takes the
 // silhouette's mean depth for a mean range, which is w^2 / (24 range) more for a face of width w: 0.014 m for 1.8 m at
 // 10 m. The value leaves that out. A turned car of unknown size shows different points, and has no value. If its size is
 // known, the value leaves out the heading.
+//
+// A tracker with classes has no value: its prior changes with the measurements.
 //
 // It leaves out systematic errors of sensors and manoeuvres, which are no noise, and the bus' rounding. It takes a
 // sensor's covariance for its true noise. Instead of an association it takes every list's observation next to the

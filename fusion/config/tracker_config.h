@@ -87,7 +87,8 @@ struct TrackerConfig {
   Sizes sizes;  // without classes, those of all objects
   // An object is of one of them: of the first one while nothing of it is measured.
   std::vector<ClassPrior> classes;
-  // A reported class is any other one with this probability. Reports of one sensor agree in their errors.
+  // A report names another class than the true one with this probability. Reports count as independent, though those of one
+  // sensor repeat their errors: choose it larger than the sensor's own.
   double class_confusion = 0.05;
   double extent_noise = 0.0;  // spectral density of a random walk of length and width [m^2/s]
   // The sensors' vehicle moves, and its odometry has these errors: tracks live in the odometry frame (fusion/ego/ego_path.h).

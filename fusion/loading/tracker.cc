@@ -97,6 +97,7 @@ ClassPrior class_of(const std::string& name, YamlMap& entry) {
 // entry has none. A share of zero leaves the class out. The order is that of the table, whatever the file's.
 std::vector<ClassPrior> load_classes(YamlMap& yaml) {
   std::vector<ClassPrior> classes;
+  bool all_left_out = yaml.value_text("classes") == "{}";
   for (auto& [name, entry] : yaml.named_maps("classes")) {
     ClassPrior prior = class_of(name, entry);
     prior.sizes = load_sizes(entry, prior.sizes, own_or_given);
@@ -104,7 +105,10 @@ std::vector<ClassPrior> load_classes(YamlMap& yaml) {
     prior.share = own_or_given(entry, "share", prior.share, {0.0, 1.0}, "");
     entry.finish();
     if (prior.share > 0.0) classes.push_back(prior);
+    // A share that cannot be read is zero, too, and has a finding of its own.
+    all_left_out = all_left_out || entry.value_text("share") == "0";
   }
+  if (classes.empty() && all_left_out) yaml.fail("classes", "must have one with a share above zero");
   std::sort(classes.begin(), classes.end(), [](const ClassPrior& a, const ClassPrior& b) { return a.id < b.id; });
   return classes;
 }
@@ -209,10 +213,10 @@ TrackerConfig load_tracker(YamlMap& yaml, SensorsAre sensors) {
   if (yaml.has("classes")) {
     if (yaml.has("sizes")) yaml.fail("sizes", "must be absent with classes: each class has its own");
     c.classes = load_classes(yaml);
-    if (c.classes.empty()) yaml.fail("classes", "must have one with a share above zero");
+    if (c.extent_noise > 0.0) yaml.fail("extent_noise", "must be 0 with classes: sizes that wander are no evidence");
   }
   c.class_confusion = yaml.number_or("class_confusion", c.class_confusion, {1e-6, 0.8});
-  if (c.classes.empty() && yaml.has("class_confusion"))
+  if (!yaml.has("classes") && yaml.has("class_confusion"))
     yaml.fail("class_confusion", "must be absent without classes: no report of a class counts");
   if (yaml.has("odometry")) c.odometry_line = yaml.line("odometry");
   if (yaml.has("odometry")) c.odometry = load_odometry(yaml.map("odometry"));

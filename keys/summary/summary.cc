@@ -91,7 +91,8 @@ constexpr const char* kBegin =
     "# summary.json: every member\n\n"
     "<!-- Written by `ttfusion keys summary --format markdown`. Meanings: evaluation/measures/table.cc. -->\n\n"
     "`ttfusion run` and `ttfusion launch` write `summary.json` into their folder, and print it with `--json`.\n"
-    "`[]` stands for each entry of a list, `NAME` for any name. A value that a drive has not is null, and a part that "
+    "`[]` stands for each entry of a list, `NAME` for any name. A value that a drive does not have is null, and a part "
+    "that "
     "it\n"
     "cannot have is absent. `keys/schemas/summary.schema.json` has the same for programs.\n";
 
@@ -115,7 +116,7 @@ std::vector<Member> measured() {
     if (measure.path.empty()) continue;
     Member member = member_of(measure);
     for (const Member& part : parts)
-      if (member.path.starts_with(part.path) && begun.insert(part.path).second) all.push_back(part);
+      if (member.path.starts_with(part.path + ".") && begun.insert(part.path).second) all.push_back(part);
     if (all.empty() || all.back().path != member.path) all.push_back(std::move(member));
   }
   return all;

@@ -100,7 +100,7 @@ LaserObject silhouette(const RectangleConfig& config, std::span<const PlanePoint
 
 struct Size {
   double value = 0.0, sigma = 0.0;
-  double margin = 0.0;  // without noise it is within so much of the value
+  double margin = 0.0;  // [m], without noise the true size differs by at most this
   bool known = false;
 };
 

@@ -8,10 +8,11 @@
 // is taken if t > 2 log(n / 2p): a face is taken for a corner with a probability below p.
 //
 // Then, with the face's width of 1.3 m to 2.6 m:
-//   - A face longer than any width is a side, one of a vehicle's width an end. The choice holds for all lengths within
-//     the face's margin, half a beam's step at either end: a truck's rear of 2.5 m may look 2.8 m long at 46 m. A face that may be either
-//     is a silhouette, since a wrong axis is off by a quarter turn at a stated error of a hundredth of a radian. Objects
-//     narrower than vehicles break this: a motorcycle's side of 2.2 m is an end by its length.
+//   - A face longer than any width is a side, one of a vehicle's width an end. The upper limit holds for all lengths within the
+//     face's margin, half a beam's step at either end: a truck's rear of 2.5 m may look 2.8 m long at 46 m. The lower limit holds
+//     for the value alone, so that a small car's rear stays an end at 60 m. A face that may be either is a silhouette: a wrong axis
+//     is off by a quarter turn at a stated error of a hundredth of a radian. Objects narrower than vehicles break this: a
+//     motorcycle's side of 2.2 m is an end by its length.
 //   - At a corner one face decides for both.
 //   - The outline ends up to one beam's step after its last beam, anywhere in between. An end is known only if the
 //     next beam would have met the same face near enough to be held together with it (segmentation.h), and if nothing

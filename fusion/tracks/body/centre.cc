@@ -169,4 +169,14 @@ CentrePosition centre_position(const Body& body, const estimators::Cartesian& es
   return centre_of_track<2>(body.anchor, body.extent, body.heading, body.shown, estimate);
 }
 
+std::optional<Aspect> aspect_of(const Body& body, const estimators::Cartesian& estimate,
+                                const linear::Vector<2>& from) {
+  const CentrePosition now = centre_position(body, estimate);
+  const double x = now.estimate.x(0) - from.x(), y = now.estimate.x(1) - from.y(), range = std::hypot(x, y);
+  if (range <= 0.0) return std::nullopt;
+  const linear::Vector<2> sight(x / range, y / range);
+  return Aspect{range, std::sqrt(sight.dot(now.estimate.p * sight)),
+                motion::to_half_turn(now.facing.heading - std::atan2(y, x)), now.facing.sigma};
+}
+
 }  // namespace ttf::fusion::tracks::body

@@ -33,4 +33,7 @@ inline Centre centred(const Body& body, const estimators::Cartesian& estimate) {
 // Returns the position of centred() to the bit, for less work.
 CentrePosition centre_position(const Body& body, const estimators::Cartesian& estimate);
 
+// Returns the aspect of the outline from a place [m]. Returns no value if the centre is there.
+std::optional<Aspect> aspect_of(const Body& body, const estimators::Cartesian& estimate, const linear::Vector<2>& from);
+
 }  // namespace ttf::fusion::tracks::body

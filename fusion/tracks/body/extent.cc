@@ -17,18 +17,6 @@ void correct_directly(Extent& extent, const Eigen::Vector2d& h, double measured,
   correct_combination(extent, h, measured - h.dot(extent.size), (1.0 - kRepeating) * variance, kRepeating * variance);
 }
 
-// A side stays positive. One that an update brings below a bound is put there, and takes the other one along.
-void keep_positive(Extent& extent) {
-  constexpr double kSmallest = 0.1;  // [m]
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    if (extent.size(k) >= kSmallest) continue;
-    const double step = kSmallest - extent.size(k), variance = extent.covariance(k, k);
-    const double other = variance > 0.0 ? extent.covariance(1 - k, k) / variance : 0.0;
-    extent.size(1 - k) = std::max(kSmallest, extent.size(1 - k) + other * step);
-    extent.size(k) = kSmallest;
-  }
-}
-
 // A corner of the outline: along and across the line of sight. u and v are 0.5 or -0.5.
 struct Corner {
   double u = 0.0, v = 0.0, along = 1.0, across = 0.0;
@@ -98,6 +86,17 @@ std::optional<ExpectedSpan> expected_span(const Extent& extent, const Aspect& as
 }
 
 }  // namespace
+
+void keep_positive(Extent& extent) {
+  constexpr double kSmallest = 0.1;  // [m]
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    if (extent.size(k) >= kSmallest) continue;
+    const double step = kSmallest - extent.size(k), variance = extent.covariance(k, k);
+    const double other = variance > 0.0 ? extent.covariance(1 - k, k) / variance : 0.0;
+    extent.size(1 - k) = std::max(kSmallest, extent.size(1 - k) + other * step);
+    extent.size(k) = kSmallest;
+  }
+}
 
 Extent::Extent(const config::Sizes& prior) : size(prior.length, prior.width) {
   const double cross = prior.correlation * prior.length_sigma * prior.width_sigma;

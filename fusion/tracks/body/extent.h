@@ -37,6 +37,9 @@ struct Extent {
 // Predicts by dt >= 0 seconds; noise is the spectral density of both random walks [m^2/s].
 void predict(Extent& extent, double noise, double dt);
 
+// Keeps both sides positive, as all updates do. A side below 0.1 m is put there, and takes the other one along.
+void keep_positive(Extent& extent);
+
 // Updates by a measured value with sigma > 0, [m]. Most of the variance counts as repeating: while range and aspect hardly
 // change, the beams' raster meets the outline in the same places.
 void correct_length(Extent& extent, double length, double sigma);

@@ -32,6 +32,7 @@ Explained explained(const SizeEvidence& evidence, const config::Sizes& prior) {
   extent.size = extent.covariance * weighted;
   result.log_likelihood =
       -0.5 * (std::log(prior_determinant / extent.covariance.determinant()) + squares - extent.size.dot(weighted));
+  keep_positive(extent);
   return result;
 }
 

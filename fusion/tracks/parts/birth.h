@@ -15,7 +15,8 @@
 
 namespace ttf::fusion::tracks::parts {
 
-// Returns the track that begins with this observation. Its object has the sizes of the configuration's prior.
+// Returns the track that begins with this observation. Its object has the prior of the configuration, or of the first class until a size
+// is measured.
 Track born(const sensors::Observation& observation, const ObservationId& id, const config::TrackerConfig& config,
            const estimators::Estimator& estimator);
 

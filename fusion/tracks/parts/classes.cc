@@ -2,31 +2,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
+#include "fusion/tracks/body/centre.h"
 #include "fusion/tracks/body/size_evidence.h"
 
 namespace ttf::fusion::tracks::parts {
 namespace {
 
-// As log_density_of_span(), for an aspect of which nothing is known: the mean density over all aspects.
-double log_density_of_any_aspect(const body::Extent& extent, const SeenSpan& span) {
-  constexpr int kAspects = 9;        // between the end and the side
-  constexpr double kLeast = 1e-300;  // has a finite logarithm
+constexpr double kLeast = 1e-300;  // a density whose logarithm is finite
+
+// As log_density_of_span(), for an unknown aspect, or an outline that would surround the sensor: the mean density over all aspects,
+// where those that surround the sensor count as 0.
+double log_density_of_any_aspect(const body::Extent& extent, const body::Aspect& aspect, const SeenSpan& span) {
+  constexpr int kAspects = 9;  // between the end and the side
   double density = 0.0;
   for (int k = 0; k < kAspects; ++k) {
     const double angle = (k + 0.5) / kAspects * 0.5 * std::numbers::pi;
-    const auto at =
-        log_density_of_span(extent, {span.aspect.range, span.aspect.sigma_range, angle, 0.0}, span.angle, span.sigma);
+    const auto at = log_density_of_span(extent, {aspect.range, aspect.sigma_range, angle, 0.0}, span.angle, span.sigma);
     if (at) density += std::exp(*at) / kAspects;
   }
   return std::log(std::max(kLeast, density));
 }
 
-double log_density(const body::Extent& extent, const SeenSpan& span) {
-  const auto known = log_density_of_span(extent, span.aspect, span.angle, span.sigma);
-  return known ? *known : log_density_of_any_aspect(extent, span);
+// The body has this extent, which decides where its centre is, and so the range.
+double log_density(body::Body body, const body::Extent& extent, const estimators::Cartesian& estimate,
+                   const SeenSpan& span) {
+  body.extent = extent;
+  const std::optional<body::Aspect> aspect = aspect_of(body, estimate, span.from);
+  if (!aspect) return std::log(kLeast);
+  const auto known = log_density_of_span(extent, *aspect, span.angle, span.sigma);
+  return known ? *known : log_density_of_any_aspect(extent, *aspect, span);
 }
 
 double log_of_reports(const Classification& reported, sensors::ClassId id, double confusion) {
@@ -48,19 +56,19 @@ void choose_class(Track& track, const config::TrackerConfig& config, const estim
                   const SeenSpan* span) {
   if (config.classes.size() < 2) return;
   const body::SizeEvidence evidence = body::evidence_of(track.extent, prior_of(track, config));
-  const std::optional<linear::Gaussian<2>> velocity =
-      config.odometry ? std::optional(estimators::velocity_of(estimator.cartesian(track.estimate))) : std::nullopt;
+  const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
+  const linear::Gaussian<2> velocity = estimators::velocity_of(estimate);
   std::size_t best = track.class_index;
-  double most = 0.0;
+  double most = -std::numeric_limits<double>::infinity();
   body::Extent extent = track.extent;
   for (std::size_t k = 0; k < config.classes.size(); ++k) {
     const config::ClassPrior& of = config.classes[k];
     const body::Explained by = body::explained(evidence, of.sizes);
     double weight = std::log(of.share) + by.log_likelihood +
                     log_of_reports(track.unfiltered.classes, of.id, config.class_confusion);
-    if (span) weight += log_density(by.extent, *span);
-    if (velocity) weight += log_of_speed(*velocity, of.speed_sigma);
-    if (k > 0 && weight <= most) continue;
+    if (span) weight += log_density(track, by.extent, estimate, *span);
+    if (config.odometry) weight += log_of_speed(velocity, of.speed_sigma);
+    if (!(weight > most)) continue;
     most = weight;
     best = k;
     extent = by.extent;

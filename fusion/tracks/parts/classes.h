@@ -20,9 +20,9 @@ inline const config::Sizes& prior_of(const Track& track, const config::TrackerCo
   return config.classes.empty() ? config.sizes : config.classes[track.class_index].sizes;
 }
 
-// The angle that an outline spans, with its standard deviation [rad], and the aspect under which it is seen.
+// The angle that an outline spans, seen from a place [m], with its standard deviation [rad].
 struct SeenSpan {
-  body::Aspect aspect;
+  linear::Vector<2> from;
   double angle, sigma;
 };
 

@@ -48,19 +48,10 @@ void correct_extent(Track& track, const config::TrackerConfig& config, const est
   const double seen_from = (z.z.head<2>() - z.from.position).norm();
   const double shown = z.span * seen_from;
   correct_scalar(track.shown, shown - track.shown.value, shown, z.sigma_span * seen_from);
-  const body::CentrePosition now = centre_position(track, estimator.cartesian(track.estimate));
-  const linear::Vector<2>& from = z.from.position;
-  const double x = now.estimate.x(0) - from.x(), y = now.estimate.x(1) - from.y(), range = std::hypot(x, y);
-  if (range <= 0.0) return;
-  const body::Facing& facing = now.facing;
-  const Eigen::Vector2d sight(x / range, y / range);
-  const double range_variance = sight.dot(now.estimate.p * sight);
-  const SeenSpan span{
-      {range, std::sqrt(range_variance), motion::to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma},
-      z.span,
-      z.sigma_span};
+  const SeenSpan span{z.from.position, z.span, z.sigma_span};
   choose_class(track, config, estimator, &span);
-  correct_span(track.extent, span.aspect, span.angle, span.sigma);
+  if (const auto aspect = aspect_of(track, estimator.cartesian(track.estimate), span.from))
+    correct_span(track.extent, *aspect, span.angle, span.sigma);
 }
 
 }  // namespace ttf::fusion::tracks::parts

@@ -58,7 +58,9 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
     elder.anchor = opposite(elder.anchor);
   if (younger.shown.known && (!elder.shown.known || younger.shown.variance < elder.shown.variance))
     elder.shown = younger.shown;
-  if (younger.extent.covariance.determinant() < elder.extent.covariance.determinant()) {
+  // Each counts over that of its prior, as classes begin with different ones.
+  if (younger.extent.covariance.determinant() * elder.extent.prior_variances.prod() <
+      elder.extent.covariance.determinant() * younger.extent.prior_variances.prod()) {
     elder.extent = younger.extent;
     elder.class_index = younger.class_index;  // whose prior the extent has
   }

@@ -16,8 +16,8 @@
 //     (x, y, vx, vy). This is covariance intersection with all weight on one side (Julier, Uhlmann: "A non-divergent
 //     estimation algorithm in the presence of unknown correlations", ACC 1997). It is consistent for every
 //     correlation, which is unknown here, and keeps one layout with its modes, unlike a mixture of two layouts;
-//   - the more certain heading and the more certain extent are kept; classes add up, since each observation counted
-//     once; hits are combined; the newest observation is the newer of the two.
+//   - the more certain heading is kept, and the extent that is more certain over its prior; reported classes add up, since each
+//     observation counted once; hits are combined; the newest observation is the newer of the two.
 // The twin of a younger track is the nearest elder by that distance, and among equals the eldest. The youngest
 // track comes first. The constructor allocates all storage.
 #pragma once

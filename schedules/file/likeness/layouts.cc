@@ -43,10 +43,15 @@ const std::vector<Field> kListHeader{
     {"sequence", "", 16}, {"fragment", "", 8}, {"count", "", 8}, {"timestamp", "us", 32}};
 
 // One of a camera's objects.
-const std::vector<Field> kSilhouette{{"x", "m", 16, -163.84, 0.005},        {"y", "m", 16, -163.84, 0.005},
-                                     {"sigma_x", "m", 14, 0, 0.002},        {"sigma_y", "m", 14, 0, 0.002},
-                                     {"correlation", "", 8, -1, 0.0078125}, {"span", "rad", 12, 0, 0.0005},
-                                     {"sigma_span", "rad", 8, 0, 0.0002},   {"spare", "", 8}};
+// Returns the fields of a camera's list, whose last eight bits are the camera's own.
+std::vector<Field> silhouette(const std::vector<Field>& own) {
+  std::vector<Field> fields{{"x", "m", 16, -163.84, 0.005},        {"y", "m", 16, -163.84, 0.005},
+                            {"sigma_x", "m", 14, 0, 0.002},        {"sigma_y", "m", 14, 0, 0.002},
+                            {"correlation", "", 8, -1, 0.0078125}, {"span", "rad", 12, 0, 0.0005},
+                            {"sigma_span", "rad", 8, 0, 0.0002}};
+  fields.insert(fields.end(), own.begin(), own.end());
+  return fields;
+}
 
 KnownLayouts laser() {
   return {layout(64, 1300, 14, kScanHeader,
@@ -70,7 +75,7 @@ KnownLayouts camera() {
   return {
       layout(8, 40, 1, {{"sequence", "", 12}, {"fragment", "", 6}, {"count", "", 6}},
              {{"bearing", "rad", 14, -0.8192, 0.0001}, {"disparity", "px", 14, 0, 0.01}, {"width", "px", 12, 0, 0.25}}),
-      layout(56, 25, 4, kListHeader, kSilhouette)};
+      layout(56, 25, 4, kListHeader, silhouette({{"spare", "", 8}}))};
 }
 
 KnownLayouts radar() {
@@ -97,7 +102,7 @@ KnownLayouts mono_camera() {
                   {"top", "px", 12, -512, 0.25},
                   {"class", "", 4},
                   {"spare", "", 2}}),
-          layout(56, 8, 4, kListHeader, kSilhouette)};
+          layout(56, 8, 4, kListHeader, silhouette({{"class", "", 4}, {"spare", "", 4}}))};
 }
 
 }  // namespace

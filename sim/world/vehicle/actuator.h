@@ -11,8 +11,8 @@ namespace ttf::sim::world::vehicle {
 enum class WithoutCommand { kHold, kDecay, kBrake };
 
 struct ActuatorConfig {
-  // From the actuator's reading of a command until something happens. It is longer than the actuator's task, so that all others
-  // can have an actuation before it begins.
+  // From the actuator's reading of a command until something happens. It is longer than the actuator's task, so that an
+  // actuation has reached all others before it begins.
   Duration dead_time = Duration::milliseconds(50);
   Duration lag = Duration::milliseconds(200);  // the acceleration follows with it
   std::optional<Duration> steering_lag{};      // the front wheels follow with it; absent: `lag`

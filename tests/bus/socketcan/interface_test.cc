@@ -50,7 +50,7 @@ TEST(InterfaceProblem, OfTheLinkIsKnownWithoutCanSockets) {
 }
 
 // lo is on every machine, and no CAN.
-TEST(InterfaceState, IsReportedOfAnyInterface) {
+TEST(InterfaceState, IsFoundForAnyInterface) {
   const InterfaceState state = interface_state("lo");
   EXPECT_TRUE(state.there);
   EXPECT_FALSE(state.can);

@@ -310,7 +310,7 @@ TEST(DrivingAccount, ADeadServiceWarnsNoLonger) {
   }
 }
 
-// The node is back before the silence counts. It has nothing of the warning, so it never takes it back.
+// The node is back before the silence counts. It has no memory of the warning, so it never takes it back.
 TEST(DrivingAccount, ANodeThatLosesItsSupplyForgetsItsWarning) {
   Drive drive;
   for (const std::int64_t hazard : {1000, 5000}) {

@@ -141,7 +141,7 @@ TEST(PeriodicError, OverTimeIsTheMeanOfPredictions) {
   }
 }
 
-// A filter that has more has no larger error: earlier knowledge, a smaller variance, a further sensor.
+// A filter with more data has no larger error: earlier lists, a smaller variance, a further sensor.
 TEST(PeriodicError, DoesNotGrowWithKnowledge) {
   RandomStream draws({12});
   for (int draw = 0; draw < 200; ++draw) {

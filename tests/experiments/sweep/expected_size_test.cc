@@ -63,7 +63,7 @@ TEST(ExpectedSize, TheDrawnOnesHaveTheseMoments) {
   EXPECT_LT((second - expected.covariance).norm(), 0.02 * expected.covariance.norm());
 }
 
-// One width of variance v leaves p v / (p + v) of the variance p. It corrects nothing of an uncorrelated length.
+// One width of variance v leaves p v / (p + v) of the variance p. It leaves an uncorrelated length as it was.
 TEST(ExpectedSize, OfOneWidthItIsTheProductByTheSum) {
   const SizeMoments prior = moments_of(fusion::config::Sizes{});
   SizeRecursion recursion(prior, prior);

@@ -123,7 +123,7 @@ void expect_careful(const Errors& e) {
   EXPECT_LT(e.nees_length, 1.25);
 }
 
-// A rear alone measures nothing of the length, however often it is seen.
+// A rear alone gives no length, however often it is seen.
 TEST(Anchoring, ARearSeenTwoHundredTimesLeavesTheLengthUnknown) {
   const config::TrackerConfig config = calm();
   const Errors e = follow(
