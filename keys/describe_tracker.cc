@@ -89,8 +89,9 @@ constexpr Description kTracker[] = {
     {"merge_probability", "Two confirmed tracks within this quantile of each other become one; 0: never."},
     {"merge_scans", "Two tracks become one after so many lists in a row that leave them so close."},
     {"late",
-     "ADVA takes a late list in by this method, TT only if it is `clone`; other methods than `rewind` need straight "
-     "motion, the extended filter, the default association, birth and `systematic`, and no `classes`."},
+     "ADVA takes a late list in by this method, TT only if it is `clone`; but for `rewind` it needs straight motion, "
+     "the "
+     "extended filter, default association, birth and `systematic`, and no `classes`."},
 };
 
 }  // namespace

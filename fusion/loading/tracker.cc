@@ -97,7 +97,6 @@ ClassPrior class_of(const std::string& name, YamlMap& entry) {
 // entry has none. A share of zero leaves the class out. The order is that of the table, whatever the file's.
 std::vector<ClassPrior> load_classes(YamlMap& yaml) {
   std::vector<ClassPrior> classes;
-  bool all_left_out = yaml.value_text("classes") == "{}";
   for (auto& [name, entry] : yaml.named_maps("classes")) {
     ClassPrior prior = class_of(name, entry);
     prior.sizes = load_sizes(entry, prior.sizes, own_or_given);
@@ -105,10 +104,8 @@ std::vector<ClassPrior> load_classes(YamlMap& yaml) {
     prior.share = own_or_given(entry, "share", prior.share, {0.0, 1.0}, "");
     entry.finish();
     if (prior.share > 0.0) classes.push_back(prior);
-    // A share that cannot be read is zero, too, and has a finding of its own.
-    all_left_out = all_left_out || entry.value_text("share") == "0";
   }
-  if (classes.empty() && all_left_out) yaml.fail("classes", "must have one with a share above zero");
+  if (classes.empty()) yaml.fail("classes", "must have one with a share above zero");
   std::sort(classes.begin(), classes.end(), [](const ClassPrior& a, const ClassPrior& b) { return a.id < b.id; });
   return classes;
 }

@@ -196,7 +196,7 @@ TEST(Classes, WithoutAChoiceTheExtentStaysAsItIs) {
     ASSERT_TRUE(same_extents(without.set.tracks[0], one.set.tracks[0]));
     for (const Bench* bench : {&without, &one}) {
       Track track = bench->set.tracks[0];
-      const SeenSpan span{{20.0, 0.1, 0.0, 0.05}, 0.03, 0.002};
+      const SeenSpan span{linear::Vector<2>(-20.0, 0.0), 0.03, 0.002};
       choose_class(track, bench->config, *estimators::make_estimator(bench->config), &span);
       ASSERT_TRUE(same_extents(track, bench->set.tracks[0]));
       ASSERT_EQ(track.class_index, 0);
