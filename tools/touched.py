@@ -84,13 +84,18 @@ class Touched:
         folder = script.relative_to(TOP).parent.as_posix()
         return any(file.rpartition("/")[0] == folder and not file.endswith(CODE) for file in self.changed)
 
+    def targets_of(self, word):
+        """The target of this name, or all libraries in the folder: a program loads them."""
+        return [word] if word in self.known else sorted(
+            target for target in self.known if target.endswith(".so") and target.rpartition("/")[0] == word)
+
     def tests(self, options):
         listed = json.loads(output("ctest", "--test-dir", self.build, "--show-only=json-v1", *options))["tests"]
         for test in listed:
             # A program that is not built yet has no command.
             words = [pathlib.Path(word) for word in test.get("command", [])] or [pathlib.Path(test["name"])]
             targets = [str(word.relative_to(self.build)) for word in words if word.is_relative_to(self.build)]
-            targets = [target for target in targets + [word.name for word in words[:1]] if target in self.known]
+            targets = [target for word in targets + [word.name for word in words[:1]] for target in self.targets_of(word)]
             scripts = [word for word in words if word.suffix in (".sh", ".py") and word.is_relative_to(TOP)]
             if targets and (self.all or any(map(self.script_is, scripts)) or any(map(self.program_is, targets))):
                 yield test["name"], targets

@@ -19,7 +19,14 @@ FILES = {
                                  "  add_test(NAME ${one} COMMAND ${one})\nendforeach()\n"
                                  "target_link_libraries(with PRIVATE part)\nadd_test(NAME script COMMAND "
                                  "${CMAKE_CURRENT_SOURCE_DIR}/script.sh $<TARGET_FILE:without>)\n"
-                                 "add_test(NAME alone COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/script.sh)\n",
+                                 "add_test(NAME alone COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/script.sh)\n"
+                                 "add_library(loaded MODULE loaded.cc)\n"
+                                 "set_target_properties(loaded PROPERTIES PREFIX \"\" LIBRARY_OUTPUT_DIRECTORY "
+                                 "${CMAKE_BINARY_DIR}/loads)\n"
+                                 "add_test(NAME loads COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/loads.sh "
+                                 "${CMAKE_BINARY_DIR}/loads)\n",
+    "tests/part/loaded.cc": "int loaded() { return 0; }\n",
+    "tests/part/loads.sh": "#!/bin/sh\n",
     "tests/part/with.cc": '#include "part/part.h"\nint main() { return part(); }\n',
     "tests/part/without.cc": "int main() {}\n",
     "tests/part/script.sh": "#!/bin/sh\n",
@@ -58,23 +65,27 @@ class Touched(unittest.TestCase):
         return {line.split()[0] for line in said.splitlines()}
 
     def test_a_change_touches_the_programs_that_see_it_and_their_scripts(self):
-        all_of_the_build = {"with", "without", "script"}
+        all_of_the_build = {"with", "without", "script", "loads"}
         for names, expected in (([], set()), (["part/part.cc"], {"with"}), (["part/deep.h"], {"with"}),
                                 (["part/CMakeLists.txt"], {"with"}), (["tests/part/without.cc"], {"without", "script"}),
-                                (["tests/part/script.sh"], {"script"}), (["tests/part/shared.sh"], {"script"}),
+                                (["tests/part/script.sh"], {"script", "loads"}), (["tests/part/loaded.cc"], {"loads"}),
                                 (["scenarios/drive.yaml"], all_of_the_build), (["CMakeLists.txt"], all_of_the_build),
-                                (["docs/README.md"], set()), (["part/deep.h", "tests/part/shared.sh"], {"with", "script"})):
+                                (["docs/README.md"], set()), (["part/deep.h", "tests/part/shared.sh"], {"with", "script", "loads"})):
             with self.subTest(names):
                 self.assertEqual(self.touched_by(*names), expected)
         self.assertEqual(self.touched_by(commit=""), all_of_the_build)
 
     def test_a_comment_of_cmake_touches_nothing(self):
         for change, expected in (("# why\nproject(small CXX)  # which\n", set()),
-                                 ('project(small CXX)\nset(text "# no comment")\n', {"with", "without", "script"})):
+                                 ('project(small CXX)\nset(text "# no comment")\n', {"with", "without", "script", "loads"})):
             with self.subTest(change):
                 lists = self.top / "CMakeLists.txt"
                 lists.write_text(FILES["CMakeLists.txt"].replace("project(small CXX)\n", change), encoding="utf-8")
                 self.assertEqual(self.touched_by(), expected)
+
+    def test_a_folder_of_libraries_stands_for_its_targets(self):
+        said = self.run_there("tools/touched.py", "build", "", "-R", "loads")
+        self.assertEqual(said.split(), ["loads", "loads/loaded.so"])
 
     def test_tests_and_targets_can_be_chosen(self):
         self.assertEqual(self.touched_by("part/part.h", choice=("-R", "script")), set())
