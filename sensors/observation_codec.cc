@@ -17,6 +17,8 @@ double at_least_resolution(double sigma, double resolution) { return std::max(si
 ttf::fusion::sensors::SeenPoint seen_point(int valid) {
   using ttf::fusion::sensors::SeenPoint;
   if (valid == kValidCorner) return SeenPoint::kCentre;
+  if (valid == kRightmost) return SeenPoint::kRightmost;
+  if (valid == kLeftmost) return SeenPoint::kLeftmost;
   if (!(valid & kValidHeading)) return SeenPoint::kSilhouette;
   if (valid & kValidCorner) return SeenPoint::kCorner;
   switch (valid & (kValidLength | kValidWidth)) {
@@ -104,8 +106,8 @@ void ObservationCodec::decode(const bus::cni::ListView& list,
         const int valid = static_cast<int>(value(11));
         observation.seen = seen_point(valid);
         observation.has_heading = valid & kValidHeading;
-        observation.has_length = valid & kValidLength;
-        observation.has_width = valid & kValidWidth;
+        observation.has_length = (valid & kValidLength) && !is_outermost(observation.seen);
+        observation.has_width = (valid & kValidWidth) && !is_outermost(observation.seen);
         observation.heading = value(7);
         observation.sigma_heading = sigma(8);
         observation.length = value(9);

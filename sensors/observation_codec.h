@@ -13,6 +13,8 @@ namespace ttf::sensors {
 
 // The bits of the signal `valid`.
 inline constexpr int kValidHeading = 1, kValidLength = 2, kValidWidth = 4, kValidCorner = 8;
+// Without a heading there is no length and no width: these bits say which end of a cut outline was seen.
+inline constexpr int kRightmost = kValidLength, kLeftmost = kValidWidth;
 
 // A codec is bound to a PDU once. A layout with x and y has positions: x, y, their covariance, and either
 // heading and extent or the angle that the outline spans. Otherwise it has radar detections: range, bearing,
@@ -25,6 +27,7 @@ inline constexpr int kValidHeading = 1, kValidLength = 2, kValidWidth = 4, kVali
 //   heading, length               kSide
 //   heading, length, width        kCentre: lists of earlier versions, whose position was the centre
 //   corner                        kCentre: a recorded position of the whole object
+//   length, or width              kRightmost, or kLeftmost
 //   else                          kSilhouette
 // Radar detections with returns are of the kSilhouette, others of the kCentre.
 class ObservationCodec {

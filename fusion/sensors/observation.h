@@ -43,7 +43,11 @@ enum class SeenPoint : std::uint8_t {
   kSide,        // the middle of the near side
   kCorner,      // where near end and near side meet
   kSilhouette,  // the outline as seen: its mean distance, in the middle of its span
+  // The corner that ends the outline on its right or left, as seen. The other end is hidden.
+  kRightmost,
+  kLeftmost,
 };
+constexpr bool is_outermost(SeenPoint point) { return point == SeenPoint::kRightmost || point == SeenPoint::kLeftmost; }
 
 // Only the first dimension_of(kind) rows and columns of z and r are meaningful; there r is symmetric positive
 // definite.

@@ -30,9 +30,14 @@ void LaserPreprocessing::process(nodes::host::StepContext& context, const nodes:
   out.begin(measurement.sequence, static_cast<int>(objects_.size()), measurement.at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const LaserObject& object = objects_[static_cast<std::size_t>(i)];
-    const bool corner = object.seen == ttf::fusion::sensors::SeenPoint::kCorner;
-    const double valid = (object.has_heading ? kValidHeading : 0) + (object.has_length ? kValidLength : 0) +
-                         (object.has_width ? kValidWidth : 0) + (corner ? kValidCorner : 0);
+    using ttf::fusion::sensors::SeenPoint;
+    const bool corner = object.seen == SeenPoint::kCorner;
+    const int valid = object.seen == SeenPoint::kRightmost  ? kRightmost
+                      : object.seen == SeenPoint::kLeftmost ? kLeftmost
+                                                            : (object.has_heading ? kValidHeading : 0) +
+                                                                  (object.has_length ? kValidLength : 0) +
+                                                                  (object.has_width ? kValidWidth : 0) +
+                                                                  (corner ? kValidCorner : 0);
     const double values[] = {object.x,
                              object.y,
                              object.heading,
@@ -44,7 +49,7 @@ void LaserPreprocessing::process(nodes::host::StepContext& context, const nodes:
                              object.sigma_heading,
                              object.sigma_length,
                              object.sigma_width,
-                             valid};
+                             static_cast<double>(valid)};
     for (std::size_t s = 0; s < signals_.size(); ++s)
       if (s == 9 || s == 10)  // the sizes' uncertainties, of the order of the resolution
         out.set_at_least(i, signals_[s], values[s]);

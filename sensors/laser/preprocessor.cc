@@ -6,6 +6,8 @@
 namespace ttf::sensors::laser {
 namespace {
 
+using ttf::fusion::sensors::SeenPoint;
+
 // An outline is rough only if so many returns say so, and if noise does not make it (in standard deviations).
 constexpr std::size_t kFewestOfRough = 6;
 constexpr double kNoiseOfRough = 3.0;
@@ -20,7 +22,7 @@ VehicleShape shape_of(const ShapeConfig& config, const LaserObject& object, std:
                       const OutlineEnds& ends, double noise, double step) {
   if (points.size() >= kFewestOfRough && object.residual_m > std::max(config.roughest_m, kNoiseOfRough * noise))
     return VehicleShape::kRough;
-  if (object.seen != ttf::fusion::sensors::SeenPoint::kSilhouette) return VehicleShape::kVehicle;
+  if (object.seen != SeenPoint::kSilhouette && !is_outermost(object.seen)) return VehicleShape::kVehicle;
   const PlanePoint &first = points.front(), &last = points.back();
   // The outline ends up to one step beyond its last beams; half of that on the average.
   const double across = std::hypot(last.x - first.x, last.y - first.y) + step * 0.5 * (first.range + last.range);
@@ -120,8 +122,8 @@ void LaserPreprocessor::take(const Segment& segment, int splits, std::vector<Las
     outlines_.push_back(points);
     return;
   }
-  const bool silhouette = object.seen == ttf::fusion::sensors::SeenPoint::kSilhouette;
-  if (!config_.cut_silhouettes && silhouette && (ends[0].hidden || ends[1].hidden)) {
+  const bool unknown = object.seen == SeenPoint::kSilhouette && (ends[0].hidden || ends[1].hidden);
+  if (unknown || (is_outermost(object.seen) && !config_.cut_silhouettes)) {
     ++fates_.cut;
     return;
   }

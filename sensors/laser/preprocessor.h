@@ -30,8 +30,7 @@ struct LaserPreprocessingConfig {
   double half_field_rad = 1.05;    // the scan reaches so far; an outline that it cuts has no end there
   int fewest_points = 3;           // smaller segments are no objects, nor are segments of a single beam
   double longest_extent_m = 12.0;  // longer segments are walls and hedges, not vehicles
-  // A silhouette that the field's edge or something nearer cuts is a part of its object. Its middle errs by up to half of
-  // the hidden part, in every scan while the vehicle drives past.
+  // An outline that the field's edge or something nearer cuts is reported by its free end, if it shows no face of its own.
   bool cut_silhouettes = true;
 };
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
@@ -44,7 +43,7 @@ struct SegmentFates {
   std::size_t large = 0;        // longer than longest_extent_m
   std::size_t thin = 0;         // thinner than a vehicle
   std::size_t rough = 0;        // no outline fits
-  std::size_t cut = 0;          // silhouettes with a hidden end, where these are left out
+  std::size_t cut = 0;          // cut outlines whose free end is unknown, or is left out
   std::size_t segments() const;
   SegmentFates& operator+=(const SegmentFates& other);
 };

@@ -94,7 +94,6 @@ LaserObject silhouette(const RectangleConfig& config, std::span<const PlanePoint
   add_end(-1.0, of_first);
   add_end(1.0, of_last);
   set_covariance(object, covariance);
-  object.points = static_cast<int>(points.size());
   return object;
 }
 
@@ -102,6 +101,13 @@ struct Size {
   double value = 0.0, sigma = 0.0;
   double margin = 0.0;  // [m], without noise the true size differs by at most this
   bool known = false;
+};
+
+// A face of a corner: its size, its end away from the corner, and the end's covariance.
+struct CornerFace {
+  Size size;
+  FaceEnd end;
+  Matrix2d of_end;
 };
 
 void set_length(LaserObject& object, const Size& size) {
@@ -129,7 +135,21 @@ bool surely_a_width(const RectangleConfig& config, const Size& size) {
          size.value + size.margin < config.widest_rear_m;
 }
 
-// One face: a side or an end, if both its ends are known and it is as long as one of them.
+// One end of the outline is known, and the other one is hidden: the point where it ends, with its covariance.
+std::optional<LaserObject> outermost(const OutlineEnds& ends, const FaceEnd& right, const Matrix2d& of_right,
+                                     const FaceEnd& left, const Matrix2d& of_left) {
+  const bool by_right = right.known && ends[1].hidden;
+  if (!by_right && !(left.known && ends[0].hidden)) return std::nullopt;
+  LaserObject object;
+  object.seen = by_right ? SeenPoint::kRightmost : SeenPoint::kLeftmost;
+  const Vector2d at = by_right ? right.middle : left.middle;
+  object.x = at.x();
+  object.y = at.y();
+  set_covariance(object, by_right ? of_right : of_left);
+  return object;
+}
+
+// One face: a side or an end, if both its ends are known and it is as long as one of them. Else one of its ends, if that is known.
 std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<const PlanePoint> points,
                                        const OutlineEnds& ends, const FaceFit& fit) {
   const Vector2d n = direction(fit.normal), t = quarter_on(n);
@@ -140,10 +160,9 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
       face_end(n, fit.distance, sigma_normal, config.range_noise_m, points.front().azimuth, -step, ends[0]);
   const FaceEnd left =
       face_end(n, fit.distance, sigma_normal, config.range_noise_m, points.back().azimuth, step, ends[1]);
-  if (!right.known || !left.known) return std::nullopt;
-  Eigen::Matrix2d point;  // by distance and normal
-  point.setZero();
+  Matrix2d point = Matrix2d::Zero();  // by distance and normal
   Vector2d extent = Vector2d::Zero();
+  std::array<Matrix2d, 2> of_end;  // covariances
   for (const FaceEnd* end : {&right, &left}) {
     const Vector2d u = direction(end->azimuth);
     const double steep = n.dot(u), along = end == &left ? 1.0 : -1.0;
@@ -152,7 +171,11 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
     point.col(1) += 0.5 * u * per_normal;
     extent(0) += along * t.dot(u) / steep;
     extent(1) += along * -fit.distance / (steep * steep);
+    Matrix2d by;
+    by << u / steep, u * per_normal;
+    of_end[end == &left] = by * errors * by.transpose() + t * t.transpose() * (end->gap * end->gap / 12.0);
   }
+  if (!right.known || !left.known) return outermost(ends, right, of_end[0], left, of_end[1]);
   const double spread = (right.gap * right.gap + left.gap * left.gap) / 12.0;
   const Size size{t.dot(left.middle - right.middle), std::sqrt(extent.dot(errors * extent) + spread),
                   0.5 * (left.gap + right.gap), true};
@@ -172,17 +195,16 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
   } else {
     return std::nullopt;
   }
-  object.points = static_cast<int>(points.size());
   return object;
 }
 
-// Two faces: a corner, if it is known which of them is the side.
+// Two faces: a corner, if it is known which of them is the side. Else the end of one of them, if the other one's is hidden.
 std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<const PlanePoint> points,
                                      const OutlineEnds& ends, const CornerFit& fit) {
   const Vector2d right_normal = direction(fit.normal), left_normal(right_normal.y(), -right_normal.x());
   const Eigen::Matrix3d& errors = fit.covariance;
   const double sigma_normal = std::sqrt(errors(2, 2));
-  const auto size_of = [&](bool left) {
+  const auto face_of = [&](bool left) {
     const Vector2d& n = left ? left_normal : right_normal;
     const Vector2d& t = left ? right_normal : left_normal;  // along this face, away from the corner
     const double step = config.azimuth_step_rad;
@@ -194,9 +216,15 @@ std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<co
     const double sine = cross(t, u);
     const Vector3d by(-u.y() / sine, u.x() / sine, -cross(fit.corner, u) * t.dot(u) / (sine * sine));
     const double spread = end.gap * end.gap / 12.0;
-    return Size{t.dot(end.middle - fit.corner), std::sqrt(by.dot(errors * by) + spread), 0.5 * end.gap, end.known};
+    const Size size{t.dot(end.middle - fit.corner), std::sqrt(by.dot(errors * by) + spread), 0.5 * end.gap, end.known};
+    // The end is the corner + size t; t turns with the normal.
+    Eigen::Matrix<double, 2, 3> by_fit = t * by.transpose();
+    by_fit.leftCols<2>() += Matrix2d::Identity();
+    by_fit.col(2) += size.value * quarter_on(t);
+    return CornerFace{size, end, by_fit * errors * by_fit.transpose() + t * t.transpose() * spread};
   };
-  const Size right = size_of(false), left = size_of(true);
+  const CornerFace right_face = face_of(false), left_face = face_of(true);
+  const Size &right = right_face.size, &left = left_face.size;
   // A side is longer than any width, even if its end is not known. If no face is, one of a whole width is the end.
   const double longer = std::max(right.value - right.margin, left.value - left.margin);
   bool left_is_side;
@@ -205,7 +233,7 @@ std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<co
   else if (surely_a_width(config, right) != surely_a_width(config, left))
     left_is_side = surely_a_width(config, right);
   else
-    return std::nullopt;
+    return outermost(ends, right_face.end, right_face.of_end, left_face.end, left_face.of_end);
   const Size& side = left_is_side ? left : right;
   const Size& end = left_is_side ? right : left;
   LaserObject object;
@@ -216,7 +244,6 @@ std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<co
   set_heading(object, left_is_side ? right_normal : left_normal, errors(2, 2));
   if (side.known && side.value > config.widest_rear_m) set_length(object, side);
   if (is_a_width(config, end)) set_width(object, end);
-  object.points = static_cast<int>(points.size());
   return object;
 }
 
@@ -241,6 +268,7 @@ LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePo
     freedom -= FaceModel::kSize;
   }
   if (!object) object = silhouette(config, points);
+  object->points = static_cast<int>(points.size());
   object->residual_m = std::sqrt(squares / std::max(1.0, freedom));
   return *object;
 }

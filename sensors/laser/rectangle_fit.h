@@ -1,5 +1,5 @@
 // Says what was seen of a vehicle, from the returns of one object: its near end, its near side, the near corner of
-// both, or only a silhouette. Sizes are stated where they were measured; the rest is left to the tracker.
+// both, one end of its outline, or only a silhouette. Sizes are stated where they were measured; the rest is left to the tracker.
 //
 // The likelihoods of both fits decide between one face and two (outline_fit.h). Twice the logarithm of their ratio is the
 // drop t of the squared range errors, in units of the range's variance. Take returns of one face, and one place of the
@@ -17,6 +17,8 @@
 //   - The outline ends up to one beam's step after its last beam, anywhere in between. An end is known only if the
 //     next beam would have met the same face near enough to be held together with it (segmentation.h), and if nothing
 //     nearer hides it.
+//   - Where nothing of this is known, and one end of the outline is hidden, the other end is stated: a corner of the vehicle, though
+//     not which one. The middle of such an outline would err by half of what is hidden, to the same side in scan after scan.
 #pragma once
 
 #include <array>

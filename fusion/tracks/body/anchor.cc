@@ -135,6 +135,8 @@ Located located(const Point& point) {
   return result;
 }
 
+signed char sign_of(double value) { return value < 0.0 ? -1 : 1; }
+
 signed char sign_away(const linear::Vector<2>& axis, const linear::Vector<2>& to_centre) {
   return axis.dot(to_centre) > 0.0 ? -1 : 1;
 }
@@ -150,6 +152,11 @@ Anchor anchor_of(SeenPoint point, const linear::Vector<2>& centre, const linear:
     return anchor;
   }
   const linear::Vector<2> across(-axis.y(), axis.x()), to_centre = centre - from;
+  if (is_outermost(point)) {
+    const linear::Vector<2> right(to_centre.y(), -to_centre.x());
+    const linear::Vector<2> outwards = point == SeenPoint::kRightmost ? right : -right;
+    return {.point = SeenPoint::kCorner, .along = sign_of(axis.dot(outwards)), .across = sign_of(across.dot(outwards))};
+  }
   if (point != SeenPoint::kSide) anchor.along = sign_away(axis, to_centre);
   if (point != SeenPoint::kEnd) anchor.across = sign_away(across, to_centre);
   return anchor;

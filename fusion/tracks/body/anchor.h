@@ -54,7 +54,7 @@ struct Located {
 };
 
 // Returns the anchor of an observation of an object at `centre`, from a sensor at `from`: which end or side is the near
-// one.
+// one. An outermost point is itself at `centre`; it is a corner.
 Anchor anchor_of(sensors::SeenPoint point, const linear::Vector<2>& centre, double heading,
                  const linear::Vector<2>& from);
 // The same from the heading's unit vector, which only ends, sides and corners need.

@@ -77,6 +77,9 @@ std::optional<Distance> distance_to(const Body& body, const estimators::Estimato
   Distance distance;
   Direction direction{z.heading, z.sigma_heading};
   if (has_sides && body.heading.known) direction.heading = body.heading.value;
+  // The heading of an outermost point is the track's, if only by its course.
+  const bool is_by_course = is_outermost(z.seen) && !body.heading.known;
+  if (is_by_course) direction.heading = facing_of(estimator.cartesian(body.estimate), body.heading).heading;
   distance.to = anchor_of(z.seen, place_of(z, mounting), direction.heading, mounting.position);
   if (z.seen == SeenPoint::kSilhouette) distance.to.sensor = z.sensor;
   if (distance.to == anchor) return std::nullopt;

@@ -29,6 +29,7 @@ void give_birth(TrackSet& set, const sensors::ObservationList& list, const Assoc
   for (std::size_t o = 0; o < list.observations.size(); ++o) {
     if (association.is_assigned(o) || association.near_confirmed(o) || set.tracks.size() == max_tracks) continue;
     const sensors::Observation& z = list.observations[o];
+    if (is_outermost(z.seen)) continue;
     if (config.birth == config::Birth::kMOfN && z.weight < sensors::kSureWeight) continue;
     set.tracks.push_back(born(z, {list.id, static_cast<std::uint16_t>(o), list.measured}, config, estimator));
   }

@@ -1,5 +1,5 @@
 // The birth of tracks: an observation that belongs to no track begins one, unless it lies in the gate of a confirmed track.
-// There it is a second echo of a known object.
+// There it is a second echo of a known object. The end of a cut outline begins no track: it does not show where the object is.
 //
 // With m_of_n a doubtful observation begins no track. With existence, a new track has the existence initial_existence, times the
 // observation's weight (fusion/tracks/parts/existence.h).
