@@ -43,7 +43,8 @@ enum class SeenPoint : std::uint8_t {
   kSide,        // the middle of the near side
   kCorner,      // where near end and near side meet
   kSilhouette,  // the outline as seen: its mean distance, in the middle of its span
-  // The corner that ends the outline on its right or left, as seen. The other end is hidden.
+  // The corner where a face ends on its right or left, as seen; the outline's other end is hidden. `heading` is the direction
+  // into the face, across it: that of an axis or across one.
   kRightmost,
   kLeftmost,
 };

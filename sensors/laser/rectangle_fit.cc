@@ -103,13 +103,6 @@ struct Size {
   bool known = false;
 };
 
-// A face of a corner: its size, its end away from the corner, and the end's covariance.
-struct CornerFace {
-  Size size;
-  FaceEnd end;
-  Matrix2d of_end;
-};
-
 void set_length(LaserObject& object, const Size& size) {
   object.has_length = true;
   object.length = size.value;
@@ -135,17 +128,22 @@ bool surely_a_width(const RectangleConfig& config, const Size& size) {
          size.value + size.margin < config.widest_rear_m;
 }
 
-// One end of the outline is known, and the other one is hidden: the point where it ends, with its covariance.
-std::optional<LaserObject> outermost(const OutlineEnds& ends, const FaceEnd& right, const Matrix2d& of_right,
-                                     const FaceEnd& left, const Matrix2d& of_left) {
-  const bool by_right = right.known && ends[1].hidden;
-  if (!by_right && !(left.known && ends[0].hidden)) return std::nullopt;
+// One end of the outline is known, and the other one is hidden: the corner where a face ends, and the direction into the face.
+struct SeenEnd {
+  FaceEnd end;
+  Matrix2d covariance;
+  Vector2d into;
+};
+std::optional<LaserObject> outermost(const OutlineEnds& ends, const SeenEnd& right, const SeenEnd& left) {
+  const bool by_right = right.end.known && ends[1].hidden;
+  if (!by_right && !(left.end.known && ends[0].hidden)) return std::nullopt;
+  const SeenEnd& seen = by_right ? right : left;
   LaserObject object;
   object.seen = by_right ? SeenPoint::kRightmost : SeenPoint::kLeftmost;
-  const Vector2d at = by_right ? right.middle : left.middle;
-  object.x = at.x();
-  object.y = at.y();
-  set_covariance(object, by_right ? of_right : of_left);
+  object.x = seen.end.middle.x();
+  object.y = seen.end.middle.y();
+  set_covariance(object, seen.covariance);
+  object.heading = std::atan2(seen.into.y(), seen.into.x());
   return object;
 }
 
@@ -175,7 +173,7 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
     by << u / steep, u * per_normal;
     of_end[end == &left] = by * errors * by.transpose() + t * t.transpose() * (end->gap * end->gap / 12.0);
   }
-  if (!right.known || !left.known) return outermost(ends, right, of_end[0], left, of_end[1]);
+  if (!right.known || !left.known) return outermost(ends, {right, of_end[0], n}, {left, of_end[1], n});
   const double spread = (right.gap * right.gap + left.gap * left.gap) / 12.0;
   const Size size{t.dot(left.middle - right.middle), std::sqrt(extent.dot(errors * extent) + spread),
                   0.5 * (left.gap + right.gap), true};
@@ -197,6 +195,12 @@ std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<
   }
   return object;
 }
+
+// A face of a corner, and its end away from the corner.
+struct CornerFace {
+  Size size;
+  SeenEnd end;
+};
 
 // Two faces: a corner, if it is known which of them is the side. Else the end of one of them, if the other one's is hidden.
 std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<const PlanePoint> points,
@@ -221,7 +225,7 @@ std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<co
     Eigen::Matrix<double, 2, 3> by_fit = t * by.transpose();
     by_fit.leftCols<2>() += Matrix2d::Identity();
     by_fit.col(2) += size.value * quarter_on(t);
-    return CornerFace{size, end, by_fit * errors * by_fit.transpose() + t * t.transpose() * spread};
+    return CornerFace{size, {end, by_fit * errors * by_fit.transpose() + t * t.transpose() * spread, n}};
   };
   const CornerFace right_face = face_of(false), left_face = face_of(true);
   const Size &right = right_face.size, &left = left_face.size;
@@ -233,7 +237,7 @@ std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<co
   else if (surely_a_width(config, right) != surely_a_width(config, left))
     left_is_side = surely_a_width(config, right);
   else
-    return outermost(ends, right_face.end, right_face.of_end, left_face.end, left_face.of_end);
+    return outermost(ends, right_face.end, left_face.end);
   const Size& side = left_is_side ? left : right;
   const Size& end = left_is_side ? right : left;
   LaserObject object;

@@ -18,7 +18,8 @@
 //     next beam would have met the same face near enough to be held together with it (segmentation.h), and if nothing
 //     nearer hides it.
 //   - Where nothing of this is known, and one end of the outline is hidden, the other end is stated: a corner of the vehicle, though
-//     not which one. The middle of such an outline would err by half of what is hidden, to the same side in scan after scan.
+//     not which one, with the direction into the face that ends there as its heading. The middle of such an outline would err by
+//     half of what is hidden, to the same side in scan after scan.
 #pragma once
 
 #include <array>
@@ -53,7 +54,7 @@ using OutlineEnds = std::array<OutlineEnd, 2>;  // at the smallest and at the la
 enum class VehicleShape : std::uint8_t { kVehicle, kPart, kThin, kRough };
 
 // Position of the seen point and its covariance. Heading [rad] of the vehicle's own axis, up to half a turn: known
-// unless it is a silhouette. Length and width [m]. A value whose has_ flag is clear is 0.
+// unless it is a silhouette or the end of a cut outline. Length and width [m]. A value whose has_ flag is clear is 0.
 struct LaserObject : ttf::fusion::sensors::PlanePosition {
   ttf::fusion::sensors::SeenPoint seen = ttf::fusion::sensors::SeenPoint::kSilhouette;
   double heading = 0, length = 0, width = 0;

@@ -122,6 +122,8 @@ TEST(ObservationCodec, ALasersValidBitsSayWhatWasSeen) {
   ASSERT_EQ(observations.size(), 16u);
   for (const auto& [bits, seen] : {std::pair{0, SeenPoint::kSilhouette},
                                    {1, SeenPoint::kSilhouette},
+                                   {2, SeenPoint::kRightmost},
+                                   {4, SeenPoint::kLeftmost},
                                    {3, SeenPoint::kSide},
                                    {5, SeenPoint::kEnd},
                                    {7, SeenPoint::kCentre},
@@ -136,8 +138,9 @@ TEST(ObservationCodec, ALasersValidBitsSayWhatWasSeen) {
   for (int bits = 0; bits < 16; ++bits) {
     const ttf::fusion::sensors::Observation& z = observations[static_cast<std::size_t>(bits)];
     EXPECT_EQ(z.has_heading, (bits & 1) != 0);
-    EXPECT_EQ(z.has_length, (bits & 2) != 0);
-    EXPECT_EQ(z.has_width, (bits & 4) != 0);
+    const bool cut = bits == 2 || bits == 4;
+    EXPECT_EQ(z.has_length, (bits & 2) != 0 && !cut);
+    EXPECT_EQ(z.has_width, (bits & 4) != 0 && !cut);
     EXPECT_FALSE(z.has_span);
   }
 }

@@ -152,11 +152,6 @@ Anchor anchor_of(SeenPoint point, const linear::Vector<2>& centre, const linear:
     return anchor;
   }
   const linear::Vector<2> across(-axis.y(), axis.x()), to_centre = centre - from;
-  if (is_outermost(point)) {
-    const linear::Vector<2> right(to_centre.y(), -to_centre.x());
-    const linear::Vector<2> outwards = point == SeenPoint::kRightmost ? right : -right;
-    return {.point = SeenPoint::kCorner, .along = sign_of(axis.dot(outwards)), .across = sign_of(across.dot(outwards))};
-  }
   if (point != SeenPoint::kSide) anchor.along = sign_away(axis, to_centre);
   if (point != SeenPoint::kEnd) anchor.across = sign_away(across, to_centre);
   return anchor;
@@ -166,6 +161,22 @@ Anchor anchor_of(SeenPoint point, const linear::Vector<2>& centre, double headin
   if (point == SeenPoint::kCentre || point == SeenPoint::kSilhouette)
     return anchor_of(point, centre, linear::Vector<2>::UnitX(), from);
   return anchor_of(point, centre, linear::Vector<2>(std::cos(heading), std::sin(heading)), from);
+}
+
+std::optional<Anchor> outermost_of(SeenPoint point, double into_face, const linear::Vector<2>& axis,
+                                   const linear::Vector<2>& at, const linear::Vector<2>& from) {
+  const linear::Vector<2> across(-axis.y(), axis.x()), into(std::cos(into_face), std::sin(into_face));
+  const auto outwards = [&](const linear::Vector<2>& sight) -> linear::Vector<2> {
+    return point == SeenPoint::kRightmost ? linear::Vector<2>(sight.y(), -sight.x())
+                                          : linear::Vector<2>(-sight.y(), sight.x());
+  };
+  // The face is an end if it is passed along the axis rather than across it.
+  const bool is_end = std::abs(axis.dot(into)) > std::abs(across.dot(into));
+  const linear::Vector<2> on_face = outwards(into), seen = outwards(at - from);
+  const signed char along = sign_of(is_end ? -axis.dot(into) : axis.dot(on_face)),
+                    side = sign_of(is_end ? across.dot(on_face) : -across.dot(into));
+  if (along != sign_of(axis.dot(seen)) || side != sign_of(across.dot(seen))) return std::nullopt;
+  return Anchor{.point = SeenPoint::kCorner, .along = along, .across = side};
 }
 
 std::optional<Located> centre_of(const Anchor& anchor, const linear::Vector<2>& position, const Box& box) {

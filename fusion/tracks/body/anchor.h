@@ -54,12 +54,17 @@ struct Located {
 };
 
 // Returns the anchor of an observation of an object at `centre`, from a sensor at `from`: which end or side is the near
-// one. An outermost point is itself at `centre`; it is a corner.
+// one.
 Anchor anchor_of(sensors::SeenPoint point, const linear::Vector<2>& centre, double heading,
                  const linear::Vector<2>& from);
 // The same from the heading's unit vector, which only ends, sides and corners need.
 Anchor anchor_of(sensors::SeenPoint point, const linear::Vector<2>& centre, const linear::Vector<2>& axis,
                  const linear::Vector<2>& from);
+
+// Returns the corner at `at` where a face ends on its right or left, as seen from a place (SeenPoint); `into_face` is the direction
+// across the face [rad]. Returns no value if another corner of this axis would end the outline: a face beside it is seen too flatly.
+std::optional<Anchor> outermost_of(sensors::SeenPoint point, double into_face, const linear::Vector<2>& axis,
+                                   const linear::Vector<2>& at, const linear::Vector<2>& from);
 
 // Returns the centre of an object whose anchor is at `position`. Returns no value for a silhouette that surrounds its
 // sensor.

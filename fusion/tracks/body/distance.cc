@@ -35,6 +35,14 @@ void put_unknown(Distance& distance, const Body& body, const linear::Vector<2>& 
   distance.constant = covariance_of(centre, sight);
 }
 
+// The heading is the track's, if only by its course.
+std::optional<Anchor> outermost_of(const sensors::Observation& z, const Body& body,
+                                   const estimators::Estimator& estimator) {
+  const double heading =
+      body.heading.known ? body.heading.value : facing_of(estimator.cartesian(body.estimate), body.heading).heading;
+  return body::outermost_of(z.seen, z.heading, {std::cos(heading), std::sin(heading)}, z.z.head<2>(), z.from.position);
+}
+
 // Moves the observation from the distance's point to the anchor, with this covariance of the distance.
 sensors::Observation moved(const sensors::Observation& z, const Distance& distance, const linear::Matrix<2>& spread,
                            const sensors::Mounting& mounting) {
@@ -77,12 +85,14 @@ std::optional<Distance> distance_to(const Body& body, const estimators::Estimato
   Distance distance;
   Direction direction{z.heading, z.sigma_heading};
   if (has_sides && body.heading.known) direction.heading = body.heading.value;
-  // The heading of an outermost point is the track's, if only by its course.
-  const bool is_by_course = is_outermost(z.seen) && !body.heading.known;
-  if (is_by_course) direction.heading = facing_of(estimator.cartesian(body.estimate), body.heading).heading;
   distance.to = anchor_of(z.seen, place_of(z, mounting), direction.heading, mounting.position);
+  if (is_outermost(z.seen)) {
+    const std::optional<Anchor> corner = outermost_of(z, body, estimator);
+    distance.is_vague = !corner;
+    distance.to = corner.value_or(anchor);
+  }
   if (z.seen == SeenPoint::kSilhouette) distance.to.sensor = z.sensor;
-  if (distance.to == anchor) return std::nullopt;
+  if (distance.to == anchor && !distance.is_vague) return std::nullopt;
 
   const estimators::Cartesian estimate = estimator.cartesian(body.estimate);
   const linear::Vector<2> at = estimate.x.head<2>();
@@ -92,7 +102,7 @@ std::optional<Distance> distance_to(const Body& body, const estimators::Estimato
   distance.axis << std::cos(direction.heading), std::sin(direction.heading);
   distance.velocity = estimate.x.segment<2>(2);
   const bool with_silhouette = anchor.point == SeenPoint::kSilhouette || z.seen == SeenPoint::kSilhouette;
-  const double weight = direction.weight(with_silhouette ? kBehindSilhouette : kOfSides);
+  const double weight = distance.is_vague ? 0.0 : direction.weight(with_silhouette ? kBehindSilhouette : kOfSides);
   const std::optional<Located> point =
       weight > 0.0 ? point_of(distance.to, anchor, at, {body.extent.size, direction.heading}) : std::nullopt;
   if (!point || weight < 1.0) put_unknown(distance, body, at);

@@ -14,6 +14,7 @@ bool has_sides(SeenPoint seen) { return seen != SeenPoint::kCentre && seen != Se
 
 // Without the track's heading, that of the observation counts. Where a range and a bearing point, the mounting tells.
 bool is_its_own(const sensors::Observation& z, const Body& body) {
+  if (is_outermost(z.seen)) return true;
   if (!body.heading.known) return z.has_heading || has_sides(z.seen);
   return has_sides(z.seen) && z.kind != sensors::ObservationKind::kPosition;
 }

@@ -53,8 +53,8 @@ Referred referred_late(Track& then, const estimators::Estimator& estimator, cons
   const std::optional<sensors::Observation> spread = spread_on(then, estimator, z);
   Referred taken{.from = then.anchor};
   if (distance)
-    count_elsewhere(then, estimator, spread ? *spread : z, *distance, may_move && gives_way(then.anchor, z.seen),
-                    taken);
+    count_elsewhere(then, estimator, spread ? *spread : z, *distance,
+                    may_move && !distance->is_vague && gives_way(then.anchor, z.seen), taken);
   count_spread(spread ? &*spread : nullptr, taken);
   return taken;
 }
@@ -100,10 +100,13 @@ const sensors::Observation& Referral::refer(Track& track, std::size_t column, co
   const sensors::Observation* spread = nullptr;
   if (const linear::Matrix<3>* of_returns = spread_of(track, column, z))
     spread = &spread_.emplace(body::with_spread(z, *of_returns));
-  track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
+  if (!distance || !distance->is_vague)
+    track.lists_elsewhere = distance ? static_cast<std::uint8_t>(track.lists_elsewhere + 1) : 0;
   if (distance)
     count_elsewhere(track, *estimator_, spread ? *spread : z, *distance,
-                    gives_way(track.anchor, z.seen) || track.lists_elsewhere >= lists_elsewhere_before(z.seen), taken);
+                    !distance->is_vague &&
+                        (gives_way(track.anchor, z.seen) || track.lists_elsewhere >= lists_elsewhere_before(z.seen)),
+                    taken);
   else if (z.seen == SeenPoint::kSilhouette)
     track.anchor.from = z.from.position;
   count_spread(spread, taken);

@@ -112,7 +112,9 @@ TEST(LaserPreprocessor, AnEndBehindANearerObjectIsNoEndOfAFace) {
       preprocessor.process(emulated_scan({}, {rear, car_at(12.2, y, 0.0, 4.4, 1.8, 1)}, sequence), objects);
       ASSERT_EQ(objects.size(), 2U);
       const LaserObject& far = objects[0].x > objects[1].x ? objects[0] : objects[1];
-      EXPECT_EQ(far.seen, ttf::fusion::sensors::SeenPoint::kSilhouette) << "0.4 m of 1.8 m are hidden at " << y;
+      EXPECT_EQ(far.seen,
+                y < 0.0 ? ttf::fusion::sensors::SeenPoint::kLeftmost : ttf::fusion::sensors::SeenPoint::kRightmost)
+          << "0.4 m of 1.8 m are hidden at " << y;
       EXPECT_FALSE(far.has_heading || far.has_length || far.has_width);
       preprocessor.process(emulated_scan({}, {side, car_at(12.2, y, 0.0, 4.4, 1.8, 1)}, sequence), objects);
       for (const LaserObject& o : objects)
@@ -122,7 +124,7 @@ TEST(LaserPreprocessor, AnEndBehindANearerObjectIsNoEndOfAFace) {
 }
 
 // The field ends in the middle of a rear 30 m away.
-TEST(LaserPreprocessor, ASilhouetteThatIsCutMayBeLeftOut) {
+TEST(LaserPreprocessor, AnOutlineThatIsCutMayBeLeftOut) {
   LaserPreprocessingConfig config;
   const std::vector<sim::world::ObjectState> cars = {car_at(30.0 * std::cos(1.05), 30.0 * std::sin(1.05), 1.05),
                                                      car_at(30.0, 0.0, 0.0, 4.4, 1.8, 1)};

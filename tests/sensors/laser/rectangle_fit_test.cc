@@ -299,5 +299,40 @@ TEST(RectangleFit, AShortRearBesideALongSideLeavesItACornerOrASide) {
   }
 }
 
+// A nearer car hides the middle of one to the far end, from either side. What is left to see ends at a true corner.
+TEST(RectangleFit, TheFreeEndOfACutOutlineIsACorner) {
+  double sum = 0.0;
+  int ends = 0;
+  for (const double range : {10.0, 25.0, 40.0})
+    for (const double heading : {0.0, 0.03, -0.2, 1.2, std::numbers::pi / 2})
+      for (const double side : {-1.0, 1.0})
+        for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
+          const auto far = car_at(range, 0.0, heading), near = car_at(0.5 * range, side * 0.9, 0.0, 0.5, 1.8, 1);
+          LaserPreprocessor preprocessor({}, kMostPoints);
+          std::vector<LaserObject> objects;
+          preprocessor.process(emulated_scan({}, {far, near}, sequence), objects);
+          for (const LaserObject& o : objects) {
+            if (o.x < 0.7 * range || !is_outermost(o.seen)) continue;
+            EXPECT_EQ(o.seen, side > 0.0 ? SeenPoint::kRightmost : SeenPoint::kLeftmost);
+            expect_positive_definite(o);
+            double nearest = 1e9, squared = 0.0;
+            for (const double a : {-0.5, 0.5})
+              for (const double b : {-0.5, 0.5}) {
+                const double c = std::cos(heading), s = std::sin(heading);
+                const double ex = o.x - (far.x + a * far.length * c - b * far.width * s);
+                const double ey = o.y - (far.y + a * far.length * s + b * far.width * c);
+                if (std::hypot(ex, ey) >= nearest) continue;
+                nearest = std::hypot(ex, ey);
+                squared = squared_distance(o, ex, ey);
+              }
+            EXPECT_LT(nearest, 0.05 + 0.01 * range) << range << " " << heading;
+            sum += squared;
+            ++ends;
+          }
+        }
+  ASSERT_GT(ends, 300);
+  EXPECT_NEAR(sum / ends, 2.0, 0.6);
+}
+
 }  // namespace
 }  // namespace ttf::sensors::laser

@@ -126,5 +126,27 @@ TEST(Anchor, DerivativesAreTheNumericOnes) {
       }
 }
 
+// Each face of boxes about the origin in all directions: its ends, as a sensor in front of it sees them.
+TEST(Outermost, IsTheEndOfTheFaceInView) {
+  for (int k = 0; k < 24; ++k) {
+    const double heading = 0.05 + k * kPi / 12;
+    const V along = unit(heading), across = unit(heading + kPi / 2);
+    for (const V& outwards : {along, V(-along), across, V(-across)}) {
+      const V into = -outwards, right(into.y(), -into.x());
+      // Known up to half a quarter turn: the face is still the same.
+      for (const double error : {-0.7, 0.0, 0.7}) {
+        const double into_face = std::atan2(into.y(), into.x()) + error;
+        for (const SeenPoint point : {SeenPoint::kRightmost, SeenPoint::kLeftmost}) {
+          const Anchor corner = outermost_of(point, into_face, along);
+          EXPECT_EQ(corner.point, SeenPoint::kCorner);
+          const V at = corner.along * along + corner.across * across;
+          const V expected = outwards + (point == SeenPoint::kRightmost ? right : V(-right));
+          EXPECT_NEAR((at - expected).norm(), 0.0, 1e-12) << heading << " " << error;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ttf::fusion::tracks::body

@@ -38,5 +38,13 @@ TEST(Birth, DoubtfulObservationsBeginNoTrackButUpdateOne) {
   EXPECT_EQ(confirmed(after_ten([](int k) { return k == 0 ? 1.0 : 0.25; })), 0) << "sure once: that confirms nothing";
 }
 
+TEST(Birth, TheEndOfACutOutlineBeginsNoTrack) {
+  Bench bench;
+  sensors::Observation z = position(20.0, 0.0, 0.05);
+  z.seen = sensors::SeenPoint::kLeftmost;
+  for (int k = 0; k < 10; ++k) bench.step(100 * k, {z});
+  EXPECT_TRUE(bench.set.tracks.empty());
+}
+
 }  // namespace
 }  // namespace ttf::fusion::tracks::parts
