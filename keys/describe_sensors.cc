@@ -177,8 +177,8 @@ constexpr Description kLaserPreprocessing[] = {
     {"thinnest", "A group of returns that is all in view and thinner is no vehicle; 0: none is too thin."},
     {"roughest", "A group of returns is no vehicle if its best outline leaves more than this, root mean square."},
     {"cut_silhouettes",
-     "An object is told, too, of which the field's edge or something nearer hides an end, and no face or corner is "
-     "seen."},
+     "An outline of which the field's edge or something nearer hides an end, and that shows no face or corner, is "
+     "reported by its free end."},
 };
 
 constexpr Description kCameraPreprocessing[] = {

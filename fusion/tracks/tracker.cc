@@ -16,7 +16,7 @@ Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observatio
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
       visibility_(config, max_tracks_), referral_(estimator_, max_observations, max_tracks_),
       gate_(config, estimator_, max_tracks_), association_(config, max_observations, max_tracks_),
-      joint_update_(config, max_observations), twins_(config, max_tracks_) {}
+      joint_update_(config, max_observations), twins_(config, max_tracks_), overlaps_(max_tracks_) {}
 
 void Tracker::step(TrackSet& set, const sensors::ObservationList& list) {
   if (!set.started) {
@@ -76,7 +76,7 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
   assigned(set, list);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) take_in(set.tracks[t], t, list);
   parts::give_birth(set, list, association_, config_, *estimator_, max_tracks_);
-  parts::confirm_and_end(set, config_, *estimator_);
+  parts::confirm_and_end(set, config_, *estimator_, overlaps_);
   if (config_.merge_probability > 0.0) twins_.unite(set.tracks, list, *estimator_);
 }
 

@@ -7,7 +7,8 @@
 //      (fusion/tracks/parts/extents.h), and what is carried along (fusion/tracks/unfiltered.h);
 //   4. other observations begin tracks (fusion/tracks/parts/birth.h);
 //   5. tracks are confirmed and end (fusion/tracks/parts/confirmation.h);
-//   6. two tracks of one object become one, if the configuration says so (fusion/tracks/parts/twins.h).
+//   6. two tracks in one place, and two tracks of one object, become one (fusion/tracks/parts/overlaps.h,
+//      fusion/tracks/parts/twins.h).
 //
 // M of N leaves out a list of a sensor that could not see the object, unless it has an observation of it. So a track that no
 // sensor can see ends by silence.
@@ -27,6 +28,7 @@
 #include "fusion/tracks/parts/association.h"
 #include "fusion/tracks/parts/gate.h"
 #include "fusion/tracks/parts/joint_update.h"
+#include "fusion/tracks/parts/overlaps.h"
 #include "fusion/tracks/parts/referral.h"
 #include "fusion/tracks/parts/twins.h"
 #include "fusion/tracks/parts/visibility.h"
@@ -75,6 +77,7 @@ class Tracker {
   parts::Association association_;
   parts::JointUpdate joint_update_;
   parts::Twins twins_;
+  parts::Overlaps overlaps_;
 };
 
 }  // namespace ttf::fusion::tracks

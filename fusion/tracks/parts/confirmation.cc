@@ -29,17 +29,19 @@ bool has_ended(const Track& track, const config::TrackerConfig& config, const es
 
 }  // namespace
 
-void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const estimators::Estimator& estimator) {
-  const bool none_overlap = config.end_overlaps.value_or(false);
+void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const estimators::Estimator& estimator,
+                     Overlaps& overlaps) {
+  const bool none_overlap = config.ends_overlaps();
   auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
-  for (Track& track : set.tracks)
-    if (!track.confirmed && confirmed < config.max_objects && is_believed(track, config) &&
-        (!none_overlap || !overlaps_confirmed(set.tracks, track, set.time, config, estimator))) {
-      track.confirmed = true;
-      ++confirmed;
-    }
+  for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+    Track& track = set.tracks[t];
+    if (track.confirmed || confirmed >= config.max_objects || !is_believed(track, config)) continue;
+    if (none_overlap && overlaps.overlaps_confirmed(set.tracks, t, set.time, config, estimator)) continue;
+    track.confirmed = true;
+    ++confirmed;
+  }
   std::erase_if(set.tracks, [&](const Track& track) { return has_ended(track, config, estimator); });
-  if (none_overlap) end_overlaps(set.tracks, set.time, config, estimator);
+  if (none_overlap) overlaps.end(set.tracks, set.time, config, estimator);
 }
 
 }  // namespace ttf::fusion::tracks::parts

@@ -12,11 +12,13 @@
 
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
+#include "fusion/tracks/parts/overlaps.h"
 #include "fusion/tracks/track_set.h"
 
 namespace ttf::fusion::tracks::parts {
 
 // Confirms and ends tracks after a list.
-void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const estimators::Estimator& estimator);
+void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const estimators::Estimator& estimator,
+                     Overlaps& overlaps);
 
 }  // namespace ttf::fusion::tracks::parts

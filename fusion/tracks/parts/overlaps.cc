@@ -1,5 +1,7 @@
 #include "fusion/tracks/parts/overlaps.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "fusion/tracks/footprint.h"
@@ -29,41 +31,65 @@ bool elder_is_less_certain(const Covering& elder, const Covering& younger) {
   return variance_of_centre(elder) > variance_of_centre(younger);
 }
 
+template <class Near> bool may_touch(const Near& a, const Near& b) {
+  const double reach = a.reach + b.reach;
+  return std::abs(a.x - b.x) <= reach && std::abs(a.y - b.y) <= reach;
+}
+
 }  // namespace
 
-bool overlaps_confirmed(const std::vector<Track>& tracks, const Track& track, GlobalTime time,
-                        const config::TrackerConfig& config, const estimators::Estimator& estimator) {
-  const Covering own = covering(track, time, config, estimator);
-  for (const Track& other : tracks)
-    if (other.confirmed && &other != &track &&
-        overlap_depth(own.place, covering(other, time, config, estimator).place) > 0.0)
-      return true;
+Overlaps::Overlaps(std::size_t max_tracks) {
+  by_x_.reserve(max_tracks);
+  ended_.reserve(max_tracks);
+}
+
+// An anchor lies on the outline, or half a chord before the centre.
+Overlaps::Near Overlaps::near_of(const Track& track, std::size_t index, const estimators::Estimator& estimator) {
+  const linear::Vector<2> at = estimator.position(track.estimate).x;
+  const double diagonal = track.extent.size.norm();
+  return {at.x(), at.y(), track.anchor.point == sensors::SeenPoint::kSilhouette ? 1.5 * diagonal : diagonal, index};
+}
+
+bool Overlaps::overlaps_confirmed(const std::vector<Track>& tracks, std::size_t index, GlobalTime time,
+                                  const config::TrackerConfig& config, const estimators::Estimator& estimator) const {
+  const Covering own = covering(tracks[index], time, config, estimator);
+  const Near here = near_of(tracks[index], index, estimator);
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (!tracks[t].confirmed || t == index || !may_touch(here, near_of(tracks[t], t, estimator))) continue;
+    if (overlap_depth(own.place, covering(tracks[t], time, config, estimator).place) > 0.0) return true;
+  }
   return false;
 }
 
-void end_overlaps(std::vector<Track>& tracks, GlobalTime time, const config::TrackerConfig& config,
-                  const estimators::Estimator& estimator) {
-  const auto erase = [&](std::size_t t) { tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(t)); };
-  for (std::size_t e = 0; e < tracks.size();) {
-    bool ended = false;
-    for (std::size_t y = e + 1; y < tracks.size() && tracks[e].confirmed && !ended;) {
-      if (!tracks[y].confirmed) {
-        ++y;
-        continue;
-      }
+void Overlaps::end(std::vector<Track>& tracks, GlobalTime time, const config::TrackerConfig& config,
+                   const estimators::Estimator& estimator) {
+  by_x_.clear();
+  double largest = 0.0;
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (!tracks[t].confirmed) continue;
+    by_x_.push_back(near_of(tracks[t], t, estimator));
+    largest = std::max(largest, by_x_.back().reach);
+  }
+  if (by_x_.size() < 2) return;
+  std::sort(by_x_.begin(), by_x_.end(),
+            [](const Near& a, const Near& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
+  ended_.assign(tracks.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < by_x_.size(); ++i) {
+    const double until = by_x_[i].x + by_x_[i].reach + largest;
+    for (std::size_t j = i + 1; j < by_x_.size() && by_x_[j].x <= until; ++j) {
+      const auto [e, y] = std::minmax(by_x_[i].track, by_x_[j].track);
+      if (ended_[e] || ended_[y] || !may_touch(by_x_[i], by_x_[j])) continue;
       const Covering elder = covering(tracks[e], time, config, estimator),
                      younger = covering(tracks[y], time, config, estimator);
-      if (!(overlap_depth(elder.place, younger.place) > 0.0)) {
-        ++y;
-      } else if (elder_is_less_certain(elder, younger)) {
-        erase(e);
-        ended = true;
-      } else {
-        erase(y);
-      }
+      if (!(overlap_depth(elder.place, younger.place) > 0.0)) continue;
+      ended_[elder_is_less_certain(elder, younger) ? e : y] = 1;
+      any = true;
     }
-    if (!ended) ++e;
   }
+  if (!any) return;
+  std::size_t t = 0;
+  std::erase_if(tracks, [&](const Track&) { return ended_[t++] != 0; });
 }
 
 }  // namespace ttf::fusion::tracks::parts

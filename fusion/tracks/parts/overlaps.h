@@ -5,9 +5,11 @@
 // A tentative track is not confirmed while it overlaps a confirmed one, but remains and takes its observations.
 //
 // A place is what a track surely covers (fusion/tracks/footprint.h), so that cars parked bumper to bumper keep their
-// tracks while their lengths are unknown. All pairs are compared: O(n^2) for n confirmed tracks. No allocation.
+// tracks while their lengths are unknown. Only tracks whose anchors are near each other are compared, in order of x. The constructor
+// allocates all storage.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/time.h"
@@ -17,10 +19,27 @@
 
 namespace ttf::fusion::tracks::parts {
 
-// Tracks are in order of birth, with states of instant `time`.
-bool overlaps_confirmed(const std::vector<Track>& tracks, const Track& track, GlobalTime time,
-                        const config::TrackerConfig& config, const estimators::Estimator& estimator);
-void end_overlaps(std::vector<Track>& tracks, GlobalTime time, const config::TrackerConfig& config,
-                  const estimators::Estimator& estimator);
+class Overlaps {
+ public:
+  explicit Overlaps(std::size_t max_tracks);
+
+  // Returns whether the track, the index-th, overlaps a confirmed one. Tracks are in order of birth, with states of instant `time`.
+  bool overlaps_confirmed(const std::vector<Track>& tracks, std::size_t index, GlobalTime time,
+                          const config::TrackerConfig& config, const estimators::Estimator& estimator) const;
+  // Ends the less certain one of each two confirmed tracks that overlap.
+  void end(std::vector<Track>& tracks, GlobalTime time, const config::TrackerConfig& config,
+           const estimators::Estimator& estimator);
+
+ private:
+  // Where an object may be: about its anchor.
+  struct Near {
+    double x = 0.0, y = 0.0, reach = 0.0;  // [m]
+    std::size_t track = 0;
+  };
+  static Near near_of(const Track& track, std::size_t index, const estimators::Estimator& estimator);
+
+  std::vector<Near> by_x_;   // of confirmed tracks
+  std::vector<char> ended_;  // by track
+};
 
 }  // namespace ttf::fusion::tracks::parts
