@@ -246,7 +246,8 @@ constexpr auto describe(Is<TruthState>) {
                  field(3, "x", &R::x), field(4, "y", &R::y), field(5, "heading", &R::heading),
                  field(6, "speed", &R::speed), field(7, "acceleration", &R::acceleration),
                  field(8, "yaw_rate", &R::yaw_rate), field(9, "length", &R::length), field(10, "width", &R::width),
-                 field(11, "local", &R::local), field(12, "global", &R::global), field(13, "node", &R::node));
+                 field(11, "local", &R::local), field(12, "global", &R::global), field(13, "node", &R::node),
+                 field(14, "out_of_view", &R::out_of_view));
 }
 constexpr auto describe(Is<StateChanged>) {
   using R = StateChanged;

@@ -445,6 +445,9 @@ struct TruthState {
   LocalTime local{};
   GlobalTime global{};
   NodeId node{};
+  // No sensor could measure it: it is in no field, or hidden (sensors/in_view.h). Also false in logs of before 2026-11-30, and
+  // where fields are unknown.
+  bool out_of_view = false;
 };
 
 // The true state of the sensors' vehicle over ground, at the instants of TruthState; absent where it stands at the origin of

@@ -33,6 +33,13 @@ std::optional<double> Sensors::rate_span(const schedules::model::Sensor& sensor)
   });
 }
 
+std::vector<SensorView> views_of(const Sensors& sensors, const schedules::model::Cluster& cluster) {
+  std::vector<SensorView> views;
+  for (const schedules::model::Sensor& sensor : cluster.sensors)
+    if (const auto field = sensors.field_of(sensor)) views.push_back({sensors.device_of(sensor).placement, *field});
+  return views;
+}
+
 void apply_weather(const sim::world::Weather& weather, Sensors& sensors) {
   Sensors::each(sensors, [&]<class Kind>(SensorsOfKind<Kind>& kind) {
     kind.usual.model = Kind::in_weather(kind.usual.model, weather);

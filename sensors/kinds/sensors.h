@@ -25,6 +25,7 @@
 #include "core/time.h"
 #include "recording/log/sensor_style.h"
 #include "schedules/model/cluster.h"
+#include "sensors/in_view.h"
 #include "sensors/kind.h"
 #include "sensors/laser/kind.h"
 #include "sensors/mono_camera/kind.h"
@@ -120,6 +121,9 @@ class Sensors {
  private:
   Kinds::OfEach kinds_;
 };
+
+// Returns the places and fields of the cluster's sensors that observe objects. One that is switched off reaches nothing.
+std::vector<SensorView> views_of(const Sensors& sensors, const schedules::model::Cluster& cluster);
 
 // Changes all sensors as this weather does.
 void apply_weather(const sim::world::Weather& weather, Sensors& sensors);

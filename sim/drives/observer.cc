@@ -1,5 +1,8 @@
 #include "sim/drives/observer.h"
 
+#include <span>
+#include <utility>
+
 #include "sim/engine/cluster_simulation.h"
 
 namespace ttf::sim::drives {
@@ -23,6 +26,10 @@ void Observer::follow(const sim::world::Reference& reference, const sim::world::
   world_ = &world;
   start_ = start;
   integrated_ = integrated;
+}
+
+void Observer::watch(std::vector<sensors::SensorView> sensors) {
+  in_view_.emplace(std::move(sensors), scene_.objects());
 }
 
 void Observer::on(const recording::records::FusionStep& step) {
@@ -66,10 +73,13 @@ void Observer::truth(const recording::records::Stamp& stamp) {
     out_.on(recording::records::EgoTruth{at, ego.x, ego.y, ego.heading, ego.vx, ego.vy, ego.yaw_rate, ego.acceleration,
                                          stamp.local, stamp.global, stamp.node});
   scene_.states_at(at, states_);
-  for (const sim::world::ObjectState& state : states_)
+  const std::span<const char> in_view = in_view_ ? in_view_->of(states_) : std::span<const char>();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const sim::world::ObjectState& state = states_[i];
     out_.on(recording::records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.steady,
                                            state.yaw_rate, state.length, state.width, stamp.local, stamp.global,
-                                           stamp.node});
+                                           stamp.node, in_view_ && !in_view[i]});
+  }
 }
 
 }  // namespace ttf::sim::drives

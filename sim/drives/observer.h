@@ -13,6 +13,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "recording/records/records.h"
+#include "sensors/in_view.h"
 #include "sensors/scene.h"
 #include "sim/world/reference.h"
 #include "sim/world/world.h"
@@ -26,6 +27,9 @@ class Observer final : public recording::records::Sink {
 
   // `start` is that of the world, which contains the reference. `integrated`: cycle 0 starts at kFirstCycle.
   void follow(const sim::world::Reference& reference, const sim::world::World& world, TrueTime start, bool integrated);
+
+  // Judges which objects these sensors have in view. Otherwise all are.
+  void watch(std::vector<sensors::SensorView> sensors);
 
   bool wants_frames() const override { return false; }
   using recording::records::Sink::on;
@@ -46,6 +50,7 @@ class Observer final : public recording::records::Sink {
   bool integrated_ = true;
   std::uint32_t next_fix_ = 0;
   std::vector<sim::world::ObjectState> states_;
+  std::optional<sensors::InView> in_view_;
   std::vector<std::optional<TrueTime>> last_truth_;  // by NodeId
 };
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/strict_yaml.h"
@@ -57,6 +59,10 @@ Surroundings surroundings_of(const Scenario& scenario, const schedules::model::C
 
 void Surroundings::show(Observer& observer, const Scenario& scenario, const schedules::model::Cluster& cluster) const {
   if (reference) observer.follow(*reference, world->world(), drive_start(cluster), !scenario.startup.cold);
+  // The field of a recorded sensor is unknown, and so is that of a cluster without sensors.
+  if (sensors::recorded::is_recorded(cluster)) return;
+  if (std::vector<sensors::SensorView> views = sensors::kinds::views_of(scenario.sensors, cluster); !views.empty())
+    observer.watch(std::move(views));
 }
 
 std::string motion_warning(const Scenario& scenario, const schedules::model::Cluster& cluster) {

@@ -21,7 +21,7 @@ struct Surroundings {
   std::shared_ptr<const sensors::WorldScene> world;  // the same scene; null if it is recorded or traced
   std::optional<sim::world::Reference> reference;    // in a world: of the first object with a reference
 
-  // Makes the observer record the reference, too. This must outlive the observer.
+  // Makes the observer record the reference, too, and judge what the cluster's sensors have in view. This must outlive the observer.
   void show(Observer& observer, const Scenario& scenario, const schedules::model::Cluster& cluster) const;
 };
 
