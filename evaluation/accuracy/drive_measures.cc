@@ -102,6 +102,8 @@ void DriveMeasures::judged(const JudgedUse& use) {
   summary_.matched += use.objects.size();
   summary_.missed += use.missed;
   summary_.spurious += use.spurious;
+  summary_.out_of_view += use.out_of_view;
+  summary_.shown_out_of_view += use.shown_out_of_view;
   tracking_.judge(use.at, use.truths, use.shown);
   for (const UsedObject& object : use.objects) {
     for (std::size_t k = 0; k < 4; ++k) squares_[k] += object.error[k] * object.error[k];

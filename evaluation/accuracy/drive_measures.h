@@ -67,6 +67,8 @@ struct DriveSummary {
   std::uint64_t matched = 0;                      // objects at uses, compared with the truth
   std::uint64_t missed = 0;                       // true objects without an image's object within the gate
   std::uint64_t spurious = 0;                     // an image's objects without a true object within the gate
+  // Left out of all the above: true objects out of view, and an image's objects on them (evaluation/accuracy/judged_objects.h).
+  std::uint64_t out_of_view = 0, shown_out_of_view = 0;
   BoxErrors box;
   TrackingMeasures tracking;  // misses and false tracks included
   std::uint64_t reference_compared = 0;

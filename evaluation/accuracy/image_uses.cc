@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "evaluation/accuracy/judged_objects.h"
 #include "fusion/metrics/consistency.h"
-#include "fusion/metrics/object_pairs.h"
 
 namespace ttf::evaluation::accuracy {
 namespace {
@@ -108,18 +108,27 @@ void ImageUses::finish_use() {
 void ImageUses::judge(const Use& use) {
   if (truth_.empty() || truth_.front().at != use.at) return;
   std::vector<fusion::metrics::Point> truth, objects;
-  for (const recording::records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+  std::vector<bool> in_view;
+  for (const recording::records::TruthState& state : truth_) {
+    truth.push_back({state.x, state.y});
+    in_view.push_back(!state.out_of_view);
+  }
   for (const PlaneEstimate& object : use.objects) objects.push_back({object.x, object.y});
-  const std::vector<fusion::metrics::ObjectPair> pairs = fusion::metrics::object_pairs(truth, objects, gate_);
-  JudgedUse result{use.at, truth.size() - pairs.size(), objects.size() - pairs.size(), {}, {}, {}};
-  for (std::size_t t = 0; t < truth.size(); ++t)
+  const JudgedObjects counted = judged_objects(truth, in_view, objects, gate_);
+  JudgedUse result;
+  result.at = use.at;
+  result.missed = counted.truths.size() - counted.pairs.size();
+  result.spurious = counted.shown.size() - counted.pairs.size();
+  result.out_of_view = truth.size() - counted.truths.size();
+  result.shown_out_of_view = objects.size() - counted.shown.size();
+  for (const std::size_t t : counted.truths)
     result.truths.push_back({static_cast<fusion::metrics::Identity>(truth_[t].object), truth[t]});
-  for (std::size_t o = 0; o < objects.size(); ++o)
+  for (const std::size_t o : counted.shown)
     result.shown.push_back({static_cast<fusion::metrics::Identity>(use.images[o].track), objects[o]});
   // The predictions of an image hold at its first use.
   const Image* image = use.fresh ? image_of(use.image) : nullptr;
   const bool predicted = image != nullptr && image->predicted.size() == use.objects.size();
-  for (const fusion::metrics::ObjectPair& pair : pairs) {
+  for (const fusion::metrics::ObjectPair& pair : counted.pairs) {
     const recording::records::TruthState& state = truth_[pair.truth];
     const PlaneEstimate is = in_the_plane(state.x, state.y, state.speed, state.heading);
     const PlaneEstimate& shown = use.objects[pair.estimate];

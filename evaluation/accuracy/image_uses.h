@@ -1,5 +1,6 @@
 // Finds the uses of images in a drive's records, with the ages of their measurements and the errors of their
-// objects against the truth at that time. DriveMeasures sums them up; DriveRows lists them one by one.
+// objects against the truth at that time. DriveMeasures sums them up; DriveRows lists them one by one. Only objects that are
+// in view count (evaluation/accuracy/judged_objects.h).
 //
 // The truth of an instant may precede or follow the use. A use is judged when the next one comes, when the
 // truth of its instant is complete, or at the end.
@@ -54,8 +55,10 @@ struct JudgedUse {
   TrueTime at{};
   std::size_t missed = 0;    // true objects without an image's object within the gate
   std::size_t spurious = 0;  // an image's objects without a true object within the gate
+  std::size_t out_of_view = 0,
+              shown_out_of_view = 0;  // true objects that are left out, and the image's objects on them
   std::vector<UsedObject> objects;
-  // All true objects and all of the image, named by ObjectId and TrackId.
+  // All that count of the true objects and of the image, named by ObjectId and TrackId.
   std::vector<fusion::metrics::Named> truths, shown;
 };
 
