@@ -164,6 +164,7 @@ DriveJudge::DriveJudge(const sim::drives::Scenario& scenario, const schedules::m
       startup_(cluster.cycle()), faults_(cluster, plan_, !scenario.startup.cold) {
   if (scenario.world.ego && scenario.world.ego->actuator) {
     driving_.emplace(experiments::sweep::driving_config(scenario, cluster), sim::drives::evaluation_start(scenario));
+    measures_.end_with([this] { return driving_->collided_at(); });
   }
 }
 

@@ -75,6 +75,8 @@ class DriveJudge {
   // `until`: the end of the recording that the drive plays, if it plays one.
   DriveJudge(const sim::drives::Scenario& scenario, const schedules::model::Cluster& cluster,
              fusion::strategies::StrategyKind strategy, std::optional<TrueTime> until = std::nullopt);
+  DriveJudge(const DriveJudge&) = delete;
+  DriveJudge& operator=(const DriveJudge&) = delete;
   std::vector<recording::records::Sink*> sinks();
   // Fills in summary, stages, startup and faults. Called once, at the end of the drive.
   void finish(StrategyResult& result);

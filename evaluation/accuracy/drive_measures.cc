@@ -52,7 +52,7 @@ void DriveMeasures::note_held(const recording::records::ListFused& list) {
 
 void DriveMeasures::on(const recording::records::ListFused& list) {
   note_held(list);
-  const bool judged = list.stamp.true_time >= from_ && (!until_ || list.stamp.true_time <= *until_);
+  const bool judged = is_judged(list.stamp.true_time);
   constexpr std::uint32_t kMost = 1'000'000;  // more than a list can have: a damaged log
   if (judged && list.innovation_degrees > 0 && list.innovation_degrees <= kMost)
     innovations_.add(list.innovation_squares, static_cast<int>(list.innovation_degrees));
@@ -73,9 +73,15 @@ void DriveMeasures::fused(SensorId sensor, Duration age) {
 
 void DriveMeasures::on(const recording::records::ReferenceFix& fix) { reference_.fix(fix); }
 
+bool DriveMeasures::is_judged(TrueTime at) const {
+  if (at < from_ || (until_ && at > *until_)) return false;
+  const std::optional<TrueTime> end = end_ ? end_() : std::nullopt;
+  return !end || at <= *end;
+}
+
 bool DriveMeasures::used(const recording::records::FeatureUsed& use, std::span<const PlaneEstimate> objects,
                          std::span<const SensorAge> ages) {
-  if (use.stamp.true_time < from_ || (until_ && use.stamp.true_time > *until_)) return false;
+  if (!is_judged(use.stamp.true_time)) return false;
   ++summary_.uses;
   summary_.stale_uses += use.stale;
   summary_.warnings += std::any_of(use.objects.begin(), use.objects.end(),

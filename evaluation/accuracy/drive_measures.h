@@ -8,10 +8,12 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/ids.h"
 #include "core/time.h"
@@ -115,6 +117,10 @@ class DriveMeasures final : public ImageUses {
   explicit DriveMeasures(TrueTime from, double gate_m = kGate_m, std::optional<TrueTime> until = std::nullopt,
                          const fusion::metrics::CutOff& cut_off = {});
 
+  // The judged part also ends at the instant that this returns, if any: that of a collision, which may come at any time. All
+  // truth before a use is recorded before it. So is what `end` needs.
+  void end_with(std::function<std::optional<TrueTime>()> end) { end_ = std::move(end); }
+
   // Judges the last use and returns the summary. Call it once, at the end.
   DriveSummary finish();
 
@@ -136,8 +142,11 @@ class DriveMeasures final : public ImageUses {
   void note_held(const recording::records::ListFused& list);
   void note_ages(std::span<const SensorAge> ages);
 
+  bool is_judged(TrueTime at) const;
+
   TrueTime from_;
   std::optional<TrueTime> until_;
+  std::function<std::optional<TrueTime>()> end_;
   DriveSummary summary_;
   std::array<double, 4> squares_{};
   BoxErrors box_squares_;  // sums of squares

@@ -155,6 +155,12 @@ void DrivingAccount::judge() {
   beside_ = {};
 }
 
+// The present moment is judged when the next one begins.
+std::optional<TrueTime> DrivingAccount::collided_at() const {
+  if (findings_.collision) return findings_.collision->at;
+  return ego_ && ahead_ && ahead_->gap <= 0.0 ? std::optional(ego_->at) : std::nullopt;
+}
+
 void DrivingAccount::note_braking(double acceleration) {
   if (findings_.stopping_distance_m) return;
   if (braking_way_)

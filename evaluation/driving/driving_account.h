@@ -171,6 +171,8 @@ class DrivingAccount final : public recording::records::Sink {
   DrivingAccount(const DrivingConfig& config, TrueTime from);
   // Call it once, at the end.
   DrivingFindings finish();
+  // Returns the first instant so far at which the truth has a collision.
+  std::optional<TrueTime> collided_at() const;
 
   bool wants_frames() const override { return false; }
   using recording::records::Sink::on;

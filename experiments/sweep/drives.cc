@@ -259,9 +259,11 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
         ExpectedError::is_defined(drive.scenario) && measures_positions_alone(drive))
       sinks.push_back(&expected.emplace(drive.scenario, drive.cluster));
     std::optional<evaluation::driving::DrivingAccount> driving;
-    if (is_driven(drive.scenario))
+    if (is_driven(drive.scenario)) {
       sinks.push_back(&driving.emplace(driving_config(drive.scenario, drive.cluster),
                                        sim::drives::evaluation_start(drive.scenario)));
+      measures.end_with([&driving] { return driving->collided_at(); });
+    }
     if (listener != nullptr) sinks.push_back(listener);
     recording::records::Tee tee(sinks);
     sim::drives::DriveConfig config{

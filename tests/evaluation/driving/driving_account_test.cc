@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "evaluation/accuracy/drive_measures.h"
+
 namespace ttf::evaluation::driving {
 namespace {
 
@@ -226,6 +228,35 @@ TEST(DrivingAccount, IsJudgedUpToTheFirstCollision) {
   EXPECT_EQ(found.smallest_gap_m, 0.0);
   EXPECT_EQ(found.largest_deceleration, 9.0);
   EXPECT_NEAR(found.largest_jerk, 90.0, 1e-9);
+}
+
+// The vehicle drives into the object ahead at 80 ms.
+TEST(DrivingAccount, TheImagesAreJudgedUpToTheCollisionToo) {
+  DrivingAccount driving({}, TrueTime{});
+  accuracy::DriveMeasures measures(TrueTime{});
+  measures.end_with([&] { return driving.collided_at(); });
+  for (std::int64_t i = 0; i < 5; ++i) {
+    FeatureUsed used;
+    used.stamp.true_time = at_ms(40 * i);
+    measures.on(used);
+    EgoTruth ego;
+    ego.at = at_ms(40 * i);
+    ego.vx = 20.0;
+    driving.on(ego);
+    TruthState object;
+    object.at = ego.at;
+    object.length = 4.0;
+    object.width = 1.8;
+    object.x = 3.4 + 2.0 + 1.5 - 0.8 * static_cast<double>(i);  // gaps of 1.5, 0.7 and -0.1 m
+    driving.on(object);
+    measures.on(object);
+  }
+  EXPECT_EQ(driving.collided_at(), at_ms(80));
+  EXPECT_EQ(driving.finish().moments, 3u);
+  const accuracy::DriveSummary summary = measures.finish();
+  EXPECT_EQ(summary.uses, 3u);
+  EXPECT_EQ(summary.missed, 3u);
+  EXPECT_EQ(summary.tracking.instants, 3u);
 }
 
 TEST(DrivingAccount, AStandstillHasNoJerk) {
