@@ -57,6 +57,7 @@ LifeSummary TrackLives::summary() const {
     }
     all.fragmentations += life.fragmentations;
     all.switches += life.switches;
+    all.lost += life.fragmentations + life.switches > 0;
     fractions += life.fraction_tracked();
     if (const auto delay = life.confirmed_after()) {
       ++all.confirmed;

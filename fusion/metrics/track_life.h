@@ -42,6 +42,7 @@ struct ObjectLife {
 struct LifeSummary {
   std::size_t objects = 0, confirmed = 0;
   std::size_t mostly_tracked = 0, partly_tracked = 0, mostly_lost = 0;
+  std::size_t lost = 0;  // objects with a fragmentation or a switch: their track ended or changed
   std::uint64_t fragmentations = 0, switches = 0;
   // Both are not a number without a value: no object confirmed, or no object at all.
   double mean_confirmed_after_s = 0.0, mean_fraction_tracked = 0.0;

@@ -31,7 +31,7 @@ std::size_t index_of(const SweepFile& sweep, const std::string& paradigm) {
   return static_cast<std::size_t>(found - sweep.paradigms.begin());
 }
 
-std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
+std::size_t measure_index(const SweepFile& sweep, std::string_view name) {
   const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
   return static_cast<std::size_t>(found - sweep.measures.begin());
 }
@@ -207,19 +207,56 @@ PointAnswer answer_at(const SweepFile& sweep, std::uint32_t point, const PointDr
   return answer;
 }
 
-void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer& answer) {
+// `drives_at` returns the drives of a point.
+template <class DrivesAt>
+void add_points(const SweepFile& sweep, const DrivesAt& drives_at, std::vector<PointAnswer>& points) {
   for (std::uint32_t point = 0; point < sweep.points(); ++point) {
-    const PointDrives drives(sweep, store.of_point(point));
-    answer.drives += drives.count();
-    answer.failed += drives.failed();
+    const PointDrives drives = drives_at(point);
     const auto reference = sweep.compared_axis ? sweep.reference_of(point, 0) : std::nullopt;
     if (reference) {
-      const PointDrives others(sweep, store.of_point(reference->point));
-      answer.points.push_back(answer_at(sweep, point, drives, &others));
+      const PointDrives others = drives_at(reference->point);
+      points.push_back(answer_at(sweep, point, drives, &others));
     } else {
-      answer.points.push_back(answer_at(sweep, point, drives, nullptr));
+      points.push_back(answer_at(sweep, point, drives, nullptr));
     }
   }
+}
+
+// Returns the replications at a point in which a drive lost a track, ascending.
+std::vector<std::uint32_t> lost_at(const SweepFile& sweep, const PointDrives& drives, std::size_t measure) {
+  std::vector<std::uint32_t> lost;
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    for (const Row* row : drives.of(p))
+      if (drives.value(*row, measure) > 0.0) lost.push_back(row->key.replication);
+  std::ranges::sort(lost);
+  lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
+  return lost;
+}
+
+std::optional<LostTracks> lost_tracks(const SweepFile& sweep, const results::Store& store) {
+  const std::size_t measure = measure_index(sweep, kTrackLost);
+  if (measure == sweep.measures.size()) return std::nullopt;
+  LostTracks all;
+  all.drives.resize(sweep.paradigms.size());
+  all.lost.resize(sweep.paradigms.size());
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    const PointDrives drives(sweep, store.of_point(point));
+    all.left_out += lost_at(sweep, drives, measure).size();
+    for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+      for (const Row* row : drives.of(p)) {
+        ++all.drives[p];
+        all.lost[p] += drives.value(*row, measure) > 0.0;
+      }
+  }
+  if (all.left_out == 0) return all;
+  const auto without = [&](std::uint32_t point) {
+    std::vector<Row> rows = store.of_point(point);
+    const std::vector<std::uint32_t> lost = lost_at(sweep, PointDrives(sweep, rows), measure);
+    std::erase_if(rows, [&](const Row& row) { return std::ranges::binary_search(lost, row.key.replication); });
+    return PointDrives(sweep, std::move(rows));
+  };
+  add_points(sweep, without, all.points);
+  return all;
 }
 
 void judge_together(const SweepFile& sweep, SweepAnswer& answer) {
@@ -272,8 +309,15 @@ bool SweepAnswer::holds() const {
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
   SweepAnswer answer;
-  add_points(sweep, store, answer);
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    const PointDrives drives(sweep, store.of_point(point));
+    answer.drives += drives.count();
+    answer.failed += drives.failed();
+  }
+  add_points(
+      sweep, [&](std::uint32_t point) { return PointDrives(sweep, store.of_point(point)); }, answer.points);
   judge_together(sweep, answer);
+  answer.lost = lost_tracks(sweep, store);
   for (std::size_t p = 0; p < sweep.paradigms.size() && !sweep.compared_axis; ++p)
     for (std::size_t a = 0; a < sweep.grid().size() && p != sweep.baseline; ++a) find_crossings(sweep, p, a, answer);
   answer.interactions = interactions_of(sweep, store);

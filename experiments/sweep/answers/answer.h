@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/results/outcome.h"
@@ -59,6 +60,8 @@ struct InteractionAnswer {
 
 using results::Outcome;
 
+inline constexpr std::string_view kTrackLost = "track_lost";
+
 // A point at which an expectation is not certain, with a sentence about the reason.
 struct Unmet {
   std::string point, why;
@@ -71,6 +74,14 @@ struct ExpectationAnswer {
   bool holds() const { return outcome == Outcome::kHolds; }
 };
 
+// Drives in which an object lost its track, by paradigm over all points. One such drive may be the largest part of a mean. So the
+// points are there without each replication in which a paradigm lost one there.
+struct LostTracks {
+  std::vector<std::uint64_t> drives, lost;
+  std::uint64_t left_out = 0;  // replications, over all points
+  std::vector<PointAnswer> points;
+};
+
 struct SweepAnswer {
   std::uint64_t drives = 0, failed = 0;
   std::vector<PointAnswer> points;
@@ -78,6 +89,7 @@ struct SweepAnswer {
   std::vector<Crossing> crossings;
   std::vector<InteractionAnswer> interactions;  // as in the file
   std::vector<ExpectationAnswer> expectations;
+  std::optional<LostTracks> lost;  // if the file has the measure kTrackLost
   bool holds() const;
 };
 

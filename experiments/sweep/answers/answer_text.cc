@@ -191,7 +191,7 @@ std::string interaction_table(const SweepFile& sweep, const Interaction& of, con
 }  // namespace
 
 std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer) {
-  return answer_lines(sweep, answer) + family_lines(sweep, answer);
+  return answer_lines(sweep, answer) + family_lines(sweep, answer) + lost_lines(sweep, answer);
 }
 
 std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
@@ -202,7 +202,7 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
     text += interaction_table(sweep, sweep.interactions[i], answer.interactions[i]) + '\n';
   text += wrapped(fmt::format("{}: {}; mean of the replications, {:g} % intervals", with_unit(measure), measure.meaning,
                               100.0 * sweep.confidence));
-  text += measure_table(sweep, answer) + '\n' + family_lines(sweep, answer);
+  text += measure_table(sweep, answer) + '\n' + family_lines(sweep, answer) + lost_lines(sweep, answer);
   if (answer.failed > 0) text += fmt::format("{} failed: see `status` in runs.csv\n", counted(answer.failed, "run"));
   for (const ExpectationAnswer& expectation : answer.expectations) {
     text += fmt::format("expected: {}: {}\n", expectation.text, to_text(expectation.outcome));

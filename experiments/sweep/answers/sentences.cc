@@ -323,6 +323,23 @@ std::string answer_lines(const SweepFile& sweep, const SweepAnswer& answer) {
   return text;
 }
 
+std::string lost_lines(const SweepFile& sweep, const SweepAnswer& answer) {
+  if (!answer.lost) return "";
+  std::vector<std::string> shares;
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    shares.push_back(fmt::format("{} of {} of {}", answer.lost->lost[p], counted(answer.lost->drives[p], "drive"),
+                                 sweep.paradigms[p].name));
+  std::string text = fmt::format("An object lost its track in {}.\n", joined(shares));
+  if (answer.lost->left_out == 0) return text;
+  SweepAnswer without;
+  without.points = answer.lost->points;
+  const std::string lines = answer_lines(sweep, without);
+  if (lines.empty()) return text;
+  return text +
+         fmt::format("Without {}, left out for all paradigms:\n", counted(answer.lost->left_out, "such replication")) +
+         lines;
+}
+
 std::string family_lines(const SweepFile& sweep, const SweepAnswer& answer) {
   std::string text;
   if (answer.comparisons > 0)

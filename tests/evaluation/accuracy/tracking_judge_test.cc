@@ -54,6 +54,7 @@ TEST(TrackingJudge, ThreeInstantsByHand) {
   EXPECT_NEAR(all.mot.motp_m(), (1 + 2 + 1 + 1 + 2) / 5.0, 1e-12);
   EXPECT_EQ(all.lives.objects, 2u);
   EXPECT_EQ(all.lives.fragmentations, 1u);
+  EXPECT_EQ(all.lives.lost, 2u);  // one to another track, one to a gap
   EXPECT_NEAR(all.lives.mean_fraction_tracked, (1.0 + 2.0 / 3.0) / 2.0, 1e-12);
 }
 

@@ -53,6 +53,61 @@ TEST_F(SweepAnswers, AbsentValuesAreCountedAndEventsAreShares) {
   EXPECT_EQ(interval_text(answer.points[0].means[1][1], false), "0.25 (0.05 to 0.70)");
 }
 
+// One drive of tt lost a track, with seven times the error. The answer without that replication has only its others, of both.
+TEST_F(SweepAnswers, LostTracksAreCountedAndLeftOutForAllParadigms) {
+  std::string text = sweep_text(5);
+  text.replace(text.find("age_fused"), 9, "track_lost");
+  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  const auto row = [](std::uint32_t point, std::uint32_t r, std::uint32_t paradigm, double rmse, bool lost) {
+    return results::Row{{point, r, paradigm}, results::kDone, {rmse, lost ? 1.0 : 0.0}};
+  };
+  for (std::uint32_t r = 0; r < 5; ++r) {
+    const bool lost = r == 2;
+    made.add({row(0, r, 0, 1.0, false), row(0, r, 1, lost ? 7.0 : 0.9 - 0.01 * r, lost), row(1, r, 0, 2.0, false),
+              row(1, r, 1, 1.8 - 0.01 * r, false)});
+  }
+  const SweepAnswer answer = answer_of(sweep, made);
+  EXPECT_NEAR(answer.points[0].differences[1][0].mean, (6.0 - 0.4 - 0.08) / 5.0, 1e-12);
+  ASSERT_TRUE(answer.lost);
+  EXPECT_EQ(answer.lost->drives, (std::vector<std::uint64_t>{10, 10}));
+  EXPECT_EQ(answer.lost->lost, (std::vector<std::uint64_t>{0, 1}));
+  EXPECT_EQ(answer.lost->left_out, 1u);
+  ASSERT_EQ(answer.lost->points.size(), 2u);
+  const PointAnswer &first = answer.lost->points[0], &second = answer.lost->points[1];
+  EXPECT_EQ(first.means[0][0].count, 4u);
+  EXPECT_EQ(first.means[1][0].count, 4u);
+  EXPECT_NEAR(first.differences[1][0].mean, -0.1 - 0.08 / 4.0, 1e-12);
+  EXPECT_EQ(second.means[1][0].count, 5u);
+  EXPECT_NEAR(second.differences[1][0].mean, answer.points[1].differences[1][0].mean, 1e-12);
+  const std::string sentences = answer_sentences(sweep, answer);
+  EXPECT_THAT(sentences, testing::HasSubstr("undecided at 1."));
+  EXPECT_THAT(sentences,
+              testing::HasSubstr("An object lost its track in 0 of 10 drives of adva, 1 of 10 drives of tt.\n"
+                                 "Without 1 such replication, left out for all paradigms:\n"
+                                 "position_rmse_truth of tt is less than that of adva at 2 points"));
+}
+
+TEST_F(SweepAnswers, WithoutALostTrackThereIsNoSecondAnswer) {
+  const SweepFile without = small_sweep(2);
+  EXPECT_FALSE(answer_of(without, store(SweepDrives(without), "without")).lost) << "the file does not ask";
+  std::string text = sweep_text(2);
+  text.replace(text.find("age_fused"), 9, "track_lost");
+  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+  results::Store made = store(SweepDrives(sweep), "made");
+  for (std::uint32_t r = 0; r < 2; ++r)
+    for (const std::uint32_t point : {0u, 1u})
+      made.add({results::Row{{point, r, 0}, results::kDone, {1.0, 0.0}},
+                results::Row{{point, r, 1}, results::kDone, {0.9 + 0.01 * r, 0.0}}});
+  const SweepAnswer answer = answer_of(sweep, made);
+  ASSERT_TRUE(answer.lost);
+  EXPECT_TRUE(answer.lost->points.empty());
+  EXPECT_THAT(answer_text(sweep, answer),
+              testing::HasSubstr("An object lost its track in 0 of 4 drives of adva, 0 of 4 drives of tt.\n"));
+  EXPECT_THAT(answer_text(sweep, answer), testing::Not(testing::HasSubstr("Without")));
+}
+
 TEST_F(SweepAnswers, DifferencesArePaired) {
   const SweepFile sweep =
       small_sweep(4,
