@@ -3,8 +3,8 @@
 
     seeds_sentence.py ANSWER.json
 
-The first measure decides. Its paired differences from the baseline follow, point by point, with their intervals. A
-difference is called certain only if it stays so among all of them, by Holm's method.
+The first measure decides. All pairs of strategies are compared at each point. A difference is called certain only if it
+stays so among all of them, by Holm's method. The differences from the baseline follow, point by point, with their intervals.
 """
 import json
 import math
@@ -26,25 +26,25 @@ def sentences(answer):
     measure, about = next(iter(answer["measures"].items()))
     meaning = about["meaning"].split(",")[0]
     unit = f" [{about['unit']}]" if about["unit"] else ""
-    baseline, certain, lines = answer["baseline"], [], []
+    baseline, certain, lines, names = answer["baseline"], [], [], {}
     seeds = 0
     for point in answer["points"]:
-        name = ", ".join(point["axes"].values())
+        name = names[point["point"]] = ", ".join(point["axes"].values())
         cells = {paradigm: measures[measure] for paradigm, measures in point["paradigms"].items()}
         seeds = max(seeds, cells[baseline]["count"])
         parts = [f"{baseline} {interval(cells[baseline])}"]
         for paradigm, cell in cells.items():
             if paradigm == baseline:
                 continue
-            difference = cell["difference"]
-            parts.append(f"{paradigm} - {baseline} {interval(difference, '+')}")
-            if difference.get("stays_certain"):
-                certain.append(f"{paradigm} has {'less' if difference['mean'] < 0 else 'more'} than {baseline} in {name}")
+            parts.append(f"{paradigm} - {baseline} {interval(cell['difference'], '+')}")
         lines.append(f"  {name}: {', '.join(parts)}")
+    for pair in answer["pairs"]["certain"]:
+        less = pair["difference"]["mean"] < 0
+        certain.append(f"{pair['paradigm']} has {'less' if less else 'more'} than {pair['against']} in {names[pair['point']]}, "
+                       f"{interval(pair['difference'], '+')}")
     level = f"{100 * answer['confidence']:g} %"
-    told = (f"tell for certain: {'; '.join(certain)}" if certain
-            else f"cannot tell who is better or worse than {baseline}")
-    head = f"{seeds} seeds of each drive {told} ({answer['comparisons']} comparisons, {level})."
+    told = f"tell for certain: {'; '.join(certain)}" if certain else "cannot tell which strategy is better or worse"
+    head = f"{seeds} seeds of each drive {told} ({answer['pairs']['comparisons']} comparisons, {level})."
     if answer["failed"]:
         head += f" {answer['failed']} of {answer['runs']} runs failed."
     return "\n".join([head, f"{meaning}{unit}:", *lines]) + "\n"

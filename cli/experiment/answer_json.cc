@@ -74,6 +74,19 @@ nlohmann::ordered_json interaction_json(const SweepFile& sweep, const experiment
   return json;
 }
 
+// The first measure's comparisons of all pairs of paradigms, and those that stay certain together.
+nlohmann::ordered_json pairs_json(const SweepFile& sweep, const results::Pairs& pairs) {
+  nlohmann::ordered_json json{{"comparisons", pairs.family.comparisons}, {"certain", nlohmann::ordered_json::array()}};
+  for (const results::PairedDifference& pair : pairs.all) {
+    if (!pair.stays) continue;
+    json["certain"].push_back({{"point", pair.point},
+                               {"paradigm", sweep.paradigms[pair.one].name},
+                               {"against", sweep.paradigms[pair.other].name},
+                               {"difference", to_json(pair.difference)}});
+  }
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepAnswer& answer,
@@ -112,6 +125,7 @@ nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepA
       }
     json["points"].push_back(std::move(one));
   }
+  json["pairs"] = pairs_json(sweep, answer.pairs);
   for (const answers::Crossing& crossing : answer.crossings)
     json["crossings"].push_back({{"paradigm", sweep.paradigms[crossing.paradigm].name},
                                  {"axis", crossing.axis},

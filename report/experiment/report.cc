@@ -6,9 +6,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "core/counted.h"
 #include "experiments/results/multiplicity.h"
+#include "experiments/results/pairs.h"
 #include "experiments/results/percent.h"
 #include "experiments/results/ratio.h"
 #include "report/drawing/figures.h"
@@ -18,6 +20,8 @@
 
 namespace ttf::report::experiment {
 namespace {
+
+using experiments::results::Pairs;
 
 constexpr std::size_t kMostFailures = 50;
 
@@ -50,35 +54,29 @@ experiments::results::Interval paired(const std::vector<experiments::results::Ro
   return interval_of(moments, confidence);
 }
 
-// The first measure's comparisons of all pairs of paradigms at all points, as one family.
-struct Pairs {
-  std::vector<experiments::results::Interval> differences;  // the first paradigm of a pair minus the second
-  experiments::results::Family family;
-};
-// Empty without drives.
+// The first measure's comparisons of all pairs of paradigms at all points, as one family. Empty without drives.
 Pairs all_pairs(const ExperimentFolder& folder) {
   if (!folder.store) return {};
   const std::size_t column = column_of(folder, 0);
-  Pairs pairs;
-  for (const ExperimentPoint& point : folder.points) {
-    const std::vector<experiments::results::Row> rows = folder.store->of_point(point.point);
+  std::vector<experiments::results::PairedDifference> pairs;
+  for (std::size_t point = 0; point < folder.points.size(); ++point) {
+    const std::vector<experiments::results::Row> rows = folder.store->of_point(folder.points[point].point);
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
       for (std::size_t other = p + 1; other < folder.paradigms.size(); ++other)
-        pairs.differences.push_back(paired(rows, column, p, other, folder.confidence));
+        pairs.push_back({point, p, other, paired(rows, column, p, other, folder.confidence), false});
   }
-  pairs.family = experiments::results::family_of(pairs.differences, folder.confidence);
-  return pairs;
+  return experiments::results::judged_together(std::move(pairs), folder.confidence);
 }
 
 // Counts the points at which each paradigm has less than all others, for certain.
 std::vector<std::size_t> least_for_certain(const ExperimentFolder& folder, const Pairs& pairs) {
   const std::size_t paradigms = folder.paradigms.size();
   std::vector<std::size_t> least(paradigms);
-  for (std::size_t pair = 0; pair < pairs.differences.size();) {
+  for (std::size_t pair = 0; pair < pairs.all.size();) {
     std::vector<std::size_t> wins(paradigms);
     for (std::size_t p = 0; p < paradigms; ++p)
       for (std::size_t other = p + 1; other < paradigms; ++other, ++pair)
-        if (pairs.family.stays[pair]) ++wins[pairs.differences[pair].mean < 0.0 ? p : other];
+        if (pairs.all[pair].stays) ++wins[pairs.all[pair].difference.mean < 0.0 ? p : other];
     for (std::size_t p = 0; p < paradigms; ++p) least[p] += wins[p] + 1 == paradigms;
   }
   return least;
@@ -96,6 +94,18 @@ std::vector<std::string> axes_of(const ExperimentFolder& folder) {
 }
 std::vector<std::string> settings_of(const ExperimentPoint& point) {
   return point.settings.empty() ? std::vector<std::string>{std::to_string(point.point)} : point.settings;
+}
+
+// Names all pairs of paradigms that stay certain together, or "".
+std::string certain_pairs(const ExperimentFolder& folder, const Pairs& pairs) {
+  std::vector<std::string> points;
+  for (const ExperimentPoint& point : folder.points) {
+    const std::vector<std::string> axes = axes_of(folder), settings = settings_of(point);
+    std::vector<std::string> parts;
+    for (std::size_t a = 0; a < axes.size(); ++a) parts.push_back(axes[a] + " " + settings[a]);
+    points.push_back(joined(parts));
+  }
+  return experiments::results::certain_pairs(pairs, folder.paradigms, points);
 }
 
 page::PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
@@ -233,9 +243,12 @@ std::string smallest(const ExperimentFolder& folder, const Pairs& pairs) {
 std::vector<std::string> sentences(const ExperimentFolder& folder, const Pairs& pairs, const std::string& lead) {
   std::vector<std::string> all;
   if (folder.asks_more() && folder.paradigms.size() > 1) all.push_back(smallest(folder, pairs));
-  if (pairs.family.comparisons > 0)
-    all.push_back(fmt::format("All pairs of paradigms at all points were compared. Certain are {}.",
-                              family_words(pairs.family, folder.confidence)));
+  if (pairs.family.comparisons > 0) {
+    const std::string names = certain_pairs(folder, pairs);
+    all.push_back(fmt::format("All pairs of paradigms at all points were compared. Certain are {}.{}{}{}",
+                              family_words(pairs.family, folder.confidence), names.empty() ? "" : " These are: ", names,
+                              names.empty() ? "" : "."));
+  }
   for (std::size_t at = 0; at < folder.answer.size();) {
     const std::size_t end = std::min(folder.answer.find('\n', at), folder.answer.size());
     if (end > at && folder.answer.substr(at, end - at) != lead) all.push_back(folder.answer.substr(at, end - at));

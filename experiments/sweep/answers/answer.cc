@@ -185,6 +185,19 @@ void compare(const SweepFile& sweep, std::size_t measure, const PointDrives& dri
   if (is_ratio_scale(*find_measure(sweep.measures[measure]))) ratio = results::ratio_of(pairs, sweep.confidence);
 }
 
+// Adds the first measure's differences of all pairs of paradigms at a point.
+void add_pairs(const SweepFile& sweep, std::uint32_t point, const PointDrives& drives,
+               std::vector<results::PairedDifference>& pairs) {
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    for (std::size_t other = p + 1; other < sweep.paradigms.size(); ++other) {
+      Moments differences;
+      for_each_pair(drives.of(p), drives.of(other), [&](const Row& one, const Row& another) {
+        differences.add(drives.value(one, 0) - drives.value(another, 0));
+      });
+      pairs.push_back({point, p, other, difference_interval(sweep, 0, differences), false});
+    }
+}
+
 // `others` are the drives of the point's reference, or null if that is at the same point.
 PointAnswer answer_at(const SweepFile& sweep, std::uint32_t point, const PointDrives& drives,
                       const PointDrives* others) {
@@ -309,11 +322,14 @@ bool SweepAnswer::holds() const {
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
   SweepAnswer answer;
+  std::vector<results::PairedDifference> pairs;
   for (std::uint32_t point = 0; point < sweep.points(); ++point) {
     const PointDrives drives(sweep, store.of_point(point));
     answer.drives += drives.count();
     answer.failed += drives.failed();
+    add_pairs(sweep, point, drives, pairs);
   }
+  answer.pairs = results::judged_together(std::move(pairs), sweep.confidence);
   add_points(
       sweep, [&](std::uint32_t point) { return PointDrives(sweep, store.of_point(point)); }, answer.points);
   judge_together(sweep, answer);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/results/outcome.h"
+#include "experiments/results/pairs.h"
 #include "experiments/results/ratio.h"
 #include "experiments/results/statistics.h"
 #include "experiments/results/store.h"
@@ -86,6 +87,7 @@ struct SweepAnswer {
   std::uint64_t drives = 0, failed = 0;
   std::vector<PointAnswer> points;
   std::size_t comparisons = 0, certain = 0;  // the first measure's, at all points; those that stay certain
+  results::Pairs pairs;  // the first measure's, of all paradigms at all points: a family of their own
   std::vector<Crossing> crossings;
   std::vector<InteractionAnswer> interactions;  // as in the file
   std::vector<ExpectationAnswer> expectations;

@@ -284,6 +284,14 @@ std::string interaction_at_many(const SweepFile& sweep, const Interaction& of, c
   return text + '.' + behind + '\n';
 }
 
+// Names all pairs of paradigms that stay certain together, or "".
+std::string certain_pairs(const SweepFile& sweep, const SweepAnswer& answer) {
+  std::vector<std::string> paradigms, points;
+  for (const Paradigm& paradigm : sweep.paradigms) paradigms.push_back(paradigm.name);
+  for (const PointAnswer& point : answer.points) points.push_back(sweep.label_of(point.point));
+  return results::certain_pairs(answer.pairs, paradigms, points);
+}
+
 std::string level(const SweepFile& sweep) {
   return fmt::format("{:g} %", std::round(1e6 * (1.0 - sweep.confidence)) * 1e-4);
 }
@@ -346,6 +354,12 @@ std::string family_lines(const SweepFile& sweep, const SweepAnswer& answer) {
     text += fmt::format(
         "{} of {}, marked *, stay certain together by Holm's method at {}; each interval stands for itself.\n",
         answer.certain, counted(answer.comparisons, "comparison"), level(sweep));
+  if (answer.pairs.family.comparisons > 0) {
+    const std::string names = certain_pairs(sweep, answer);
+    text += fmt::format("Of all pairs of paradigms, {} of {} stay certain together likewise{}{}.\n",
+                        answer.pairs.family.certain, counted(answer.pairs.family.comparisons, "comparison"),
+                        names.empty() ? "" : ": ", names);
+  }
   std::size_t interactions = 0, certain = 0;
   std::uint64_t fewest = kEnough;
   for (std::size_t i = 0; i < answer.interactions.size(); ++i)

@@ -13,7 +13,7 @@ namespace ttf::experiments::sweep::answers {
 std::string answer_lines(const SweepFile& sweep, const SweepAnswer& answer);
 // Counts the drives in which an object lost its track, and has the answer without such replications. "" if the file does not ask.
 std::string lost_lines(const SweepFile& sweep, const SweepAnswer& answer);
-// Says how many comparisons, and how many interactions, stay certain together.
+// Says how many comparisons, and how many interactions, stay certain together. Names each pair of paradigms that does.
 std::string family_lines(const SweepFile& sweep, const SweepAnswer& answer);
 
 // "camera from 84 ms to 42 ms".

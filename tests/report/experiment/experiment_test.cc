@@ -79,7 +79,8 @@ TEST_F(ExperimentReport, TheAnswerIsTheRunsOwn) {
   for (const char* words :
        {"Is &lt;it&gt; so?", "a sentence.", "Expected: tt less than adva. It does not hold for certain at noise 40 m",
         "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0",
-        "All pairs of paradigms at all points were compared. Certain are 1 of 2 comparisons, by Holm"})
+        "All pairs of paradigms at all points were compared. Certain are 1 of 2 comparisons, by Holm",
+        "These are: tt less than adva at road dry, noise 0.1 m."})
     EXPECT_NE(html.find(words), std::string::npos) << words;
 }
 

@@ -141,9 +141,11 @@ TEST_F(SweepAnswers, DifferencesArePaired) {
                         "undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
   EXPECT_THAT(text, testing::HasSubstr("+0.315 +- 0.021 more*"));
-  EXPECT_THAT(text,
-              testing::HasSubstr("2 of 2 comparisons, marked *, stay certain together by Holm's method at 5 %; each "
-                                 "interval stands for itself."));
+  EXPECT_THAT(text, testing::HasSubstr(
+                        "2 of 2 comparisons, marked *, stay certain together by Holm's method at 5 %; each "
+                        "interval stands for itself.\n"
+                        "Of all pairs of paradigms, 2 of 2 comparisons stay certain together likewise: adva less "
+                        "than tt at noise 1; tt less than adva at noise 40."));
 }
 
 // Differences of mean m and variance 1 in three drives, t = sqrt(3) m: p = 1 - t / sqrt(2 + t^2) = 0.04.
