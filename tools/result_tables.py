@@ -7,8 +7,8 @@ A directive stands as a comment above its table:
     values       mean and interval of one measure, a column a paradigm; without `of`, of all
     means        the same without intervals, a column a paradigm or a measure; counts and ages
     differences  the baseline's mean, then the paired differences of the others from it
-    percent      the paired difference of one paradigm, in per cent of the baseline's mean
-    changes      of an experiment that compares an axis: each paradigm's change from the axis's baseline, in per cent
+    percent      the paired difference of one paradigm, in per cent of the baseline's mean, with Fieller's interval
+    changes      of an experiment that compares an axis: each paradigm's change from the axis's baseline, likewise
     interactions the measure's interactions: the change of each of the two paradigms, and of one against the other
 
     rows: AXES       these name the rows (default: all axes that `columns` and `where` do not name)
@@ -18,6 +18,9 @@ A directive stands as a comment above its table:
     crossing: yes    percent: a last column, where the sign changes along `columns`
     given: X=V V .., a column X before the others, of figures that are not the answer's, a value a row; to compare with
 
+A change in per cent is the answer's own (experiments/results/ratio.h): its interval contains the spreads of both means.
+Where the baseline's mean is not certainly above 0, the change has no interval, and the table says so.
+
 Differences that stay certain among all of their measure, by Holm's method, are bold. A line above the table counts them.
 """
 import math
@@ -26,6 +29,7 @@ import re
 NAMES = re.compile(r"<!-- names: ([^>]*?) -->")
 DIRECTIVE = re.compile(r"<!-- table: ([^>]*?) -->\n*(?:\*[^*\n]+\*\n+)?((?:\|[^\n]*\n)*)")
 SMALLEST = 1e-9  # below, a figure is rounding
+MOST_PLACES = 6
 KINDS = ("values", "means", "differences", "percent", "changes", "interactions")
 
 
@@ -88,8 +92,11 @@ def change(estimate):
         return interval(estimate["mean"], estimate["half_width"], "+")
     mean, low, high = (estimate["percent"][key] for key in ("mean", "low", "high"))
     if low is None:
-        return brief(mean, "+")
+        return f"{brief(mean, '+')} (no interval)"
     places = max(0, -math.floor(math.log10(0.5 * (high - low)))) if high > low else 1
+    nearest = max(low, 0) or min(high, 0)
+    while places < MOST_PLACES and nearest and not round(nearest, places):  # an interval that excludes 0 shows it
+        places += 1
     text = f"{mean:+.{places}f} ({low:+.{places}f} to {high:+.{places}f})"
     return re.sub(r"[-+](0(?:\.0+)?)(?=[ )])", r"\1", text)  # 0 has no sign
 
@@ -163,10 +170,9 @@ class Table:
 
     def percent(self, point, paradigm, measure):
         d = self.estimate(point, paradigm, measure)["difference"]
-        base = self.estimate(point, self.baseline, measure)["mean"]
-        mean, half = 100 * d["mean"] / base, 100 * d["half_width"] / base
-        text = f"{mean:+.0f} ± {half:.0f}" if half >= 1 else f"{mean:+.1f} ± {half:.1f}"
-        return Cell(point, paradigm, measure, bold(text, (point["point"], paradigm) in self.certain[measure]), d["half_width"])
+        if "percent" not in d:
+            raise Wrong(f"table: {self.directive.text}: the kept answer has no change of {measure} in per cent")
+        return Cell(point, paradigm, measure, bold(change(d), (point["point"], paradigm) in self.certain[measure]), d["half_width"])
 
     def changes(self):
         d, measure = self.directive, self.directive.measures[0]

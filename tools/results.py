@@ -32,7 +32,7 @@ KEPT = TOP / "tests/golden/results"
 REPLICATIONS = 3    # kept of each point
 STEADY = 0.05       # share of a figure without an interval that it may change by
 COMMAND = re.compile(r"\n    build/release/ttfusion experiment (\S+)([^\n]*)")
-FIGURE = re.compile(r"^\**[-+]?[0-9.]+ ± ([0-9.]+)\**$")
+FIGURE = re.compile(r"^\**([-+]?[0-9.]+) (?:± ([0-9.]+)|\(([-+]?[0-9.]+) to ([-+]?[0-9.]+)\))\**$")
 
 
 class Page:
@@ -150,6 +150,17 @@ def figure(kind, rows, cell, baseline, base):
     return 100 * difference / base if kind == "percent" else difference
 
 
+def allowed(said, then, today):
+    """How far today's figure may be from the kept one: as far as the printed interval reaches to its side."""
+    match = FIGURE.match(said)
+    if not match:
+        return STEADY * abs(then) + 1e-9
+    middle, half, low, high = (float(part) if part else None for part in match.groups())
+    reach = half if half is not None else high - middle if today > then else middle - low
+    # An interval may be narrower than the last digit that is printed.
+    return max(reach, 0.5 * 10.0 ** -len(match[1].partition(".")[2]))
+
+
 def printed_cells(table):
     """The rows' cells of a table's text, without its head."""
     return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in table.splitlines()[2:]]
@@ -170,11 +181,7 @@ def contradictions(page, today, answer, replications):
                 base = (mean(then[cell.point["point"], table.baseline][cell.measure]) if directive.kind == "percent"
                         else None)
                 a, b = (figure(directive.kind, rows, cell, table.baseline, base) for rows in (then, today))
-                match = FIGURE.match(said)
-                # An interval may be narrower than the last digit that is printed.
-                allowed = (max(float(match[1]), 0.5 * 10.0 ** -len(match[1].partition(".")[2])) if match
-                           else STEADY * abs(a) + 1e-9)
-                if not (abs(b - a) <= allowed or (math.isnan(a) and math.isnan(b))):
+                if not (abs(b - a) <= allowed(said, a, b) or (math.isnan(a) and math.isnan(b))):
                     where = ", ".join(f"{k} {v}" for k, v in cell.point["axes"].items())
                     found.append(f"{cell.measure} of {cell.paradigm}, {where}: replications 0 to {replications - 1} "
                                  f"give {b:.4g}, and gave {a:.4g} for the table, which prints {said}")

@@ -6,6 +6,7 @@
 import contextlib
 import io
 import json
+import math
 import pathlib
 import sys
 import tempfile
@@ -17,10 +18,12 @@ import result_tables  # noqa: E402
 import results  # noqa: E402
 
 
-def estimate(mean, half_width, difference=None, p=None):
+def estimate(mean, half_width, difference=None, p=None, percent=None):
     found = {"count": 20, "mean": mean, "half_width": half_width}
     if difference is not None:
         found["difference"] = {"count": 20, "mean": difference, "half_width": 0.5 * half_width, "p": p}
+        if percent is not None:
+            found["difference"]["percent"] = dict(zip(("mean", "low", "high"), percent))
     return found
 
 
@@ -31,7 +34,8 @@ def answer():
         for density, better in (("1", -0.5), ("100", 0.5)):
             points.append({"point": len(points), "axes": {"road": road, "density": density}, "paradigms": {
                 "tt": {"error": estimate(2.0, 0.2), "age": estimate(42.0, 0.0)},
-                "free": {"error": estimate(2.0 + better, 0.2, better, 1e-4 if density == "1" else 0.03),
+                "free": {"error": estimate(2.0 + better, 0.2, better, 1e-4 if density == "1" else 0.03,
+                                           (-25.0, -29.4, -20.2) if density == "1" else (25.0, 20.1, 30.6)),
                          "age": estimate(35.04, 0.0, -6.96, 1e-9)}}})
     return {"baseline": "tt", "confidence": 0.95, "seed": 1, "points": points,
             "measures": {"error": {"unit": "m^2"}, "age": {"unit": "ms"}}}
@@ -51,7 +55,20 @@ class Tables(unittest.TestCase):
     def test_percent_says_where_the_sign_changes(self):
         text = table("percent error of free; columns: density; crossing: yes; names: dry=a dry road")
         self.assertIn("| road | 1 | 100 | crossing |", text)
-        self.assertIn("| a dry road | **-25 ± 5** | +25 ± 5 | 10 |", text)
+        self.assertIn("| a dry road | **-25 (-29 to -20)** | +25 (+20 to +31) | 10 |", text)
+
+    def test_a_baseline_that_may_be_zero_leaves_no_interval(self):
+        made = answer()
+        made["points"][1]["paradigms"]["free"]["error"]["difference"]["percent"] = {"mean": 25.0, "low": None, "high": None}
+        text = result_tables.Table(result_tables.Directive("percent error of free; where: road=dry"), made).text()
+        self.assertIn("| 100 | +25.0 (no interval) |", text)
+        del made["points"][1]["paradigms"]["free"]["error"]["difference"]["percent"]
+        with self.assertRaisesRegex(result_tables.Wrong, "no change of error in per cent"):
+            result_tables.Table(result_tables.Directive("percent error of free; where: road=dry"), made)
+
+    def test_an_interval_that_excludes_zero_shows_it(self):
+        self.assertEqual(result_tables.change({"percent": {"mean": -1.94, "low": -3.78, "high": -0.04}}), "-1.94 (-3.78 to -0.04)")
+        self.assertEqual(result_tables.change({"percent": {"mean": -1.94, "low": -3.78, "high": 0.04}}), "-2 (-4 to 0)")
 
     def test_given_figures_stand_before_the_answers(self):
         self.assertEqual(table("values error of tt; where: road=dry; given: book=1.5 1.9, old=2 3"),
@@ -133,6 +150,13 @@ class Check(unittest.TestCase):
         finally:
             results.kept_rows = was
 
+    def test_an_uneven_interval_allows_as_much_as_it_reaches_to_each_side(self):
+        self.assertEqual(results.allowed("**-27 (-29 to -24)**", -27.0, -26.0), 3.0)
+        self.assertEqual(results.allowed("**-27 (-29 to -24)**", -27.0, -28.0), 2.0)
+        self.assertEqual(results.allowed("0 (-1 to +1)", 0.0, 0.1), 1.0)
+        self.assertEqual(results.allowed("-0.50 ± 0.10", -0.5, 0.0), 0.1)
+        self.assertEqual(results.allowed("35.0", 40.0, 0.0), 2.0 + 1e-9)
+
     def test_what_a_table_would_not_show_passes(self):
         self.assertEqual(self.contradictions(0.0), [])
         self.assertEqual(self.contradictions(0.09), [])
@@ -158,6 +182,53 @@ class Printed(unittest.TestCase):
 
     def test_a_figure_written_by_hand_does_not(self):
         self.assertTrue(self.verdict(lambda text: text.replace("-0.50", "-0.60")))
+
+
+def fieller(one, base, difference):
+    """The change of the mean from the base's in per cent, with the ends that the half widths alone give.
+
+    With as many values of all three, they are t standard errors, and give the covariance: 2 cov(d, y) = var x - var y - var d.
+    The ends s solve (d - s y)^2 = t^2 var(d - s y), in one of many forms of Fieller's theorem.
+    """
+    x2, y2, d2 = (of["half_width"] ** 2 for of in (one, base, difference))
+    y, d = base["mean"], difference["mean"]
+    a, b, c = y * y - y2, d * y - 0.5 * (x2 - y2 - d2), d * d - d2
+    if a <= 0:
+        return 100 * d / y, None, None
+    root = math.sqrt(max(0.0, b * b - a * c))
+    return 100 * d / y, 100 * max(-1.0, (b - root) / a), 100 * (b + root) / a
+
+
+class Kept(unittest.TestCase):
+    """A kept change in per cent agrees with the intervals that are kept beside it, by a second form of the same theorem."""
+
+    def test_changes_are_fiellers(self):
+        compared = 0
+        for path in sorted(results.KEPT.glob("*.json")):
+            kept = json.loads(path.read_text(encoding="utf-8"))
+            for point in kept["points"]:
+                base = point["paradigms"].get(kept["baseline"])
+                for name, cells in point["paradigms"].items():
+                    for measure, one in cells.items():
+                        change = one.get("difference", {}).get("percent")
+                        if not change or not base or not one["count"] == base[measure]["count"] == one["difference"]["count"]:
+                            continue
+                        expected = fieller(one, base[measure], one["difference"])
+                        for value, key in zip(expected, ("mean", "low", "high")):
+                            where = f"{path.stem}, point {point['point']}, {name}, {measure}: {key}"
+                            if value is None or change[key] is None:
+                                self.assertEqual(value, change[key], where)
+                            else:
+                                self.assertAlmostEqual(value, change[key], delta=2e-3 + 1e-4 * abs(value), msg=where)
+                        compared += 1
+        self.assertGreater(compared, 3000)
+
+    def test_a_certain_baseline_leaves_the_differences_interval(self):
+        # y = 2 without spread: x has the difference's.
+        mean, low, high = fieller({"half_width": 0.3}, {"mean": 2.0, "half_width": 0.0}, {"mean": 0.5, "half_width": 0.3})
+        self.assertAlmostEqual(mean, 25.0)
+        self.assertAlmostEqual(low, 10.0)
+        self.assertAlmostEqual(high, 40.0)
 
 
 if __name__ == "__main__":

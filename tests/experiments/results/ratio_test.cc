@@ -60,6 +60,44 @@ std::vector<Quadruple> drawn(std::uint32_t sample, int drives, double first, dou
   return values;
 }
 
+// How many of 3,000 samples have an interval that contains 2, the ratio of the means.
+struct Covered {
+  int by_ratio = 0, by_difference = 0;  // Fieller's interval; the difference's, over y's mean as if that were certain
+};
+constexpr int kSamples = 3000;
+
+// Twelve normal pairs a sample, with means 2 and 1; `together` moves both by their own size, `apart` y alone.
+Covered covered(std::uint32_t draw, double together, double apart) {
+  Covered found;
+  for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+    RandomStream stream({draw, sample, Purpose::kTest, 0, 0});
+    Pairs pairs;
+    Moments differences, y;
+    for (int i = 0; i < 12; ++i) {
+      const double common = together * stream.normal();
+      pairs.emplace_back(2.0 + 2.0 * common + 0.1 * stream.normal(), 1.0 + common + apart * stream.normal());
+      differences.add(pairs.back().first - pairs.back().second);
+      y.add(pairs.back().second);
+    }
+    const Ratio ratio = ratio_of(pairs, 0.95);
+    found.by_ratio += ratio.low <= 2.0 && 2.0 <= ratio.high;
+    const Interval difference = interval_of(differences, 0.95);
+    found.by_difference += std::abs(difference.mean - y.mean()) <= difference.half_width;
+  }
+  return found;
+}
+
+// An interval that leaves the baseline's spread out is too wide where both rise and fall together, and too narrow where the
+// baseline spreads by itself.
+TEST(Ratio, CoversWhatItSays) {
+  const double spread = std::sqrt(kSamples * 0.95 * 0.05);
+  const Covered both = covered(12, 0.3, 0.05), alone = covered(13, 0.0, 0.3);
+  EXPECT_NEAR(both.by_ratio, 0.95 * kSamples, 4.0 * spread);
+  EXPECT_NEAR(alone.by_ratio, 0.95 * kSamples, 4.0 * spread);
+  EXPECT_GT(both.by_difference, 0.999 * kSamples);
+  EXPECT_LT(alone.by_difference, 0.8 * kSamples);
+}
+
 // Both judge by the same test, so that words and per cent never contradict each other.
 TEST(Ratio, ExcludesOneWhereTheDifferenceExcludesZero) {
   int certain = 0;
