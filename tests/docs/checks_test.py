@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""The checks of the pages find each kind of mistake: page_test.py with a program that echoes, links_test.py on small pages."""
+"""The checks of the pages find each kind of mistake: page_test.py with a program that echoes, links_test.py and sentences_test.py
+on small pages."""
 import pathlib
 import tempfile
 import unittest
 
 import links_test
 import page_test
+import sentences_test
 
 PROGRAM = "#!/bin/sh\n[ \"$1\" = draw ] && cp \"$2\" \"$3\" && exit\n[ \"$1\" = fail ] && exit 3\nprintf '%s\\n' \"$@\"\n"
 SAY = "build/release/ttfusion"
@@ -105,6 +107,83 @@ class Pages(unittest.TestCase):
         for lines, passes in ((links_test.MOST_LINES, True), (links_test.MOST_LINES + 1, False)):
             page.write_text("A line.\n" * lines)
             self.assertEqual(not links_test.too_long(self.root), passes, lines)
+
+
+ANSWER = """# Who collides?
+
+{}
+<!-- says: {} -->
+
+    a command
+
+| fault | paradigm | collisions | error [m] | change [%] |
+|---|---|---|---|---|
+| crash | tt | 3 | 0.50 ± 0.10 | **-27 (-29 to -24)** |
+| crash | adva | 1 | 0.204 ± 0.020 | 0 (-2 to +1) |
+| none | tt | 0 | 0.10 ± 0.30 | - |
+
+    harmed: 9
+"""
+
+
+class Sentences(unittest.TestCase):
+    """A sentence holds if its figures are those of its table, and only if all of them are accounted for."""
+
+    def problems(self, sentence: str, directive: str) -> list[str]:
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "docs/results").mkdir(parents=True)
+            (root / "docs/results/page.md").write_text(ANSWER.format(sentence, directive))
+            page = sentences_test.Page(root / "docs/results/page.md")
+            return sentences_test.problems_of(page, {}) + sentences_test.unheld(page)
+
+    def holds(self, sentence: str, directive: str):
+        self.assertEqual(self.problems(sentence, directive), [])
+
+    def fails(self, sentence: str, directive: str, says: str):
+        self.assertIn(says, "\n".join(self.problems(sentence, directive)))
+
+    def test_a_range_is_the_tables(self):
+        expression = "span(t(1,'crash','collisions'))"
+        self.holds("In 1 to 3 of 10 drives.", f"1 to 3 = {expression}; given: of 10")
+        self.fails("In 2 to 4 of 10 drives.", f"2 to 4 = {expression}; given: of 10", "'2 to 4' is 1, 3")
+
+    def test_each_figure_is_accounted_for(self):
+        self.fails("In 1 to 3 of 10 drives.", "1 to 3 = span(t(1,'crash','collisions'))", "10 is not accounted for")
+        self.fails("In 3 drives.", "3 = t(1,'crash|tt','collisions'); given: of 10", "'of 10' is not in the paragraph")
+        self.fails("In 3 drives.", "3 = t(1,'crash|tt','collisions')\n-->\n\nIn 4 drives.\n\n<!--", "the answer has figures")
+
+    def test_intervals_in_both_forms(self):
+        self.holds("It has 0.50 ± 0.10 m.", "0.50 ± 0.10 = t(1,'crash|tt','error*')")
+        self.holds("It has 27 % (24 to 29) less.", "27 % (24 to 29) = -t(1,'crash|tt','change*')")
+        self.fails("It has 27 % (25 to 29) less.", "27 % (25 to 29) = -t(1,'crash|tt','change*')", "is 27, 24, 29")
+        self.fails("It has 27 ± 3 % less.", "27 ± 3 % = -t(1,'crash|tt','change*')", "is 27, nan")
+
+    def test_ratios_to_their_last_digit(self):
+        self.holds("It is 2.5 times as large.", "2.5 = ratio(t(1,'crash|tt','error*'),t(1,'crash|adva','error*'))")
+        self.fails("It is 2.6 times as large.", "2.6 = ratio(t(1,'crash|tt','error*'),t(1,'crash|adva','error*'))", "is 2.451")
+        self.holds("It is a fifth.", "a fifth = t(1,'none|tt','error*') / t(1,'crash|tt','error*')")
+        self.fails("It is a quarter.", "a quarter = t(1,'none|tt','error*') / t(1,'crash|tt','error*')", "is 0.2")
+
+    def test_counts_and_printed_figures(self):
+        self.holds("Of three, two are certain; 9 are harmed.", "three = len(t(1,'*','error*')); two = len(signed(t(1,'*','error*'))); "
+                   "9 = printed('harmed: ([0-9]+)')")
+        self.fails("8 are harmed.", "8 = printed('harmed: ([0-9]+)')", "'8' is 9")
+
+    def test_expressions_that_lead_nowhere_are_named(self):
+        self.fails("In 3 drives.", "3 = t(2,'crash','collisions')", "there is no table 2")
+        self.fails("In 3 drives.", "3 = t(1,'crash|buff','collisions')", "no figure in row 'crash|buff'")
+        self.fails("In 3 drives.", "3 = open('x')", "not defined")
+
+    def test_answers_of_the_index_are_those_of_their_pages(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "docs/results").mkdir(parents=True)
+            (root / "docs/results/page.md").write_text(ANSWER.format("In 1 to 3 of 10 drives.", "given: 1 to 3, of 10"))
+            rows = "| question | answer |\n|---|---|\n| [Who?](results/page.md) | In {} of 10 drives |\n"
+            for answer, problems in (("1 to 3", []), ("2 to 3", ["page.md: 2 is not in the page's answer"])):
+                (root / "docs/results.md").write_text(rows.format(answer))
+                self.assertEqual(sentences_test.problems_of_answers(sentences_test.Page(root / "docs/results.md")), problems)
 
 
 if __name__ == "__main__":
