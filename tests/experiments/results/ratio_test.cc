@@ -64,12 +64,12 @@ std::vector<Quadruple> drawn(std::uint32_t sample, int drives, double first, dou
 struct Covered {
   int by_ratio = 0, by_difference = 0;  // Fieller's interval; the difference's, over y's mean as if that were certain
 };
-constexpr int kSamples = 3000;
+constexpr int kRatioSamples = 3000;
 
 // Twelve normal pairs a sample, with means 2 and 1; `together` moves both by their own size, `apart` y alone.
 Covered covered(std::uint32_t draw, double together, double apart) {
   Covered found;
-  for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+  for (std::uint32_t sample = 0; sample < kRatioSamples; ++sample) {
     RandomStream stream({draw, sample, Purpose::kTest, 0, 0});
     Pairs pairs;
     Moments differences, y;
@@ -90,12 +90,12 @@ Covered covered(std::uint32_t draw, double together, double apart) {
 // An interval that leaves the baseline's spread out is too wide where both rise and fall together, and too narrow where the
 // baseline spreads by itself.
 TEST(Ratio, CoversWhatItSays) {
-  const double spread = std::sqrt(kSamples * 0.95 * 0.05);
+  const double spread = std::sqrt(kRatioSamples * 0.95 * 0.05);
   const Covered both = covered(12, 0.3, 0.05), alone = covered(13, 0.0, 0.3);
-  EXPECT_NEAR(both.by_ratio, 0.95 * kSamples, 4.0 * spread);
-  EXPECT_NEAR(alone.by_ratio, 0.95 * kSamples, 4.0 * spread);
-  EXPECT_GT(both.by_difference, 0.999 * kSamples);
-  EXPECT_LT(alone.by_difference, 0.8 * kSamples);
+  EXPECT_NEAR(both.by_ratio, 0.95 * kRatioSamples, 4.0 * spread);
+  EXPECT_NEAR(alone.by_ratio, 0.95 * kRatioSamples, 4.0 * spread);
+  EXPECT_GT(both.by_difference, 0.999 * kRatioSamples);
+  EXPECT_LT(alone.by_difference, 0.8 * kRatioSamples);
 }
 
 // Both judge by the same test, so that words and per cent never contradict each other.
