@@ -9,7 +9,8 @@ A directive stands as a comment above its table:
     differences  the baseline's mean, then the paired differences of the others from it
     percent      the paired difference of one paradigm, in per cent of the baseline's mean, with Fieller's interval
     changes      of an experiment that compares an axis: each paradigm's change from the axis's baseline, likewise
-    interactions the measure's interactions: the change of each of the two paradigms, and of one against the other
+    interactions the measure's interactions: the change of each of the two paradigms, and of one against the other; of several,
+                 a first column names the change
 
     rows: AXES       these name the rows (default: all axes that `columns` and `where` do not name)
     columns: AXIS    its values name the columns, of one paradigm
@@ -170,6 +171,8 @@ class Table:
 
     def percent(self, point, paradigm, measure):
         d = self.estimate(point, paradigm, measure)["difference"]
+        if self.estimate(point, self.baseline, measure)["mean"] is None:
+            return Cell(point, paradigm, measure, "-")
         if "percent" not in d:
             raise Wrong(f"table: {self.directive.text}: the kept answer has no change of {measure} in per cent")
         return Cell(point, paradigm, measure, bold(change(d), (point["point"], paradigm) in self.certain[measure]), d["half_width"])
@@ -187,15 +190,16 @@ class Table:
 
     def interactions(self):
         d, header, lines = self.directive, [], []
-        for one in self.answer.get("interactions", []):
-            if one["measure"] != d.measures[0]:
-                continue
+        asked = [one for one in self.answer.get("interactions", []) if one["measure"] == d.measures[0]]
+        for one in asked:
             first, second = d.name(one["lowers"]), d.name(one["more_than"])
-            header = [*map(d.name, one["points"][0]["axes"]), first, second, f"{first} against {second}"]
+            changed = [f"{d.name(one['from'])} to {d.name(one['to'])}"] if len(asked) > 1 else []
+            header = [*(["change"] if changed else []), *map(d.name, one["points"][0]["axes"]), first, second,
+                      f"{first} against {second}"]
             for point in one["points"]:
                 texts = [change(point["first"]), change(point["second"]),
                          bold(change(point["interaction"]), point["interaction"]["stays_certain"])]
-                lines.append(([d.name(label) for label in point["axes"].values()],
+                lines.append(([*changed, *(d.name(label) for label in point["axes"].values())],
                               [Cell(None, None, None, text) for text in texts]))
         if not lines:
             raise Wrong(f"table: {d.text}: the experiment has no such interaction")
@@ -257,7 +261,7 @@ class Table:
             return ""
         measure = self.directive.measures[0]
         if self.directive.kind == "interactions":
-            points = [point for one in self.answer["interactions"] for point in one["points"]]
+            points = [point for one in self.answer["interactions"] if one["measure"] == measure for point in one["points"]]
             by_ratio = all("percent" in point["interaction"] for point in points)
             return (f"*`{measure}`{' [%]' if by_ratio else ''}, {max(p['interaction']['count'] for p in points):,} replications, "
                     f"seed {self.answer['seed']}: {sum(p['interaction']['stays_certain'] for p in points)} of {len(points)} "

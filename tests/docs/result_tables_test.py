@@ -86,6 +86,11 @@ class Tables(unittest.TestCase):
         made["points"][0]["paradigms"]["tt"]["error"] = estimate(None, None)
         text = result_tables.Table(result_tables.Directive("values error of tt; where: road=dry"), made).text()
         self.assertIn("| 1 | - |\n| 100 | 2.00 ± 0.20 |", text)
+        nobody = {"count": 0, "mean": None, "half_width": None}
+        for cells in made["points"][0]["paradigms"].values():
+            cells["error"] = nobody | {"difference": nobody | {"p": None}}
+        text = result_tables.Table(result_tables.Directive("percent error of free; where: road=dry"), made).text()
+        self.assertIn("| 1 | - |\n| 100 | ", text)
 
     def test_means_are_of_the_drives_that_have_a_value(self):
         self.assertEqual(results.mean([1.0, float("nan"), 3.0]), 2.0)
@@ -114,6 +119,14 @@ class Tables(unittest.TestCase):
             "*`error` [%], 20 replications, seed 1: 1 of 1 interactions, in bold, stay certain together.*\n\n"
             "| road | TT | free | TT against free |\n|---|---|---|---|\n"
             "| dry | +0.20 ± 0.10 | +50 (+45 to +55) | **-9.5 (-10.4 to -8.6)** |\n"))
+        one = along["interactions"][0]
+        along["interactions"] = [one | {"from": "1", "to": "100"}, one | {"from": "100", "to": "1"},
+                                 one | {"measure": "age"}]
+        text = made("interactions error; names: 1=calm, 100=hard")
+        self.assertIn(": 2 of 2 interactions, ", text)
+        self.assertIn("| change | road | tt | free | tt against free |\n", text)
+        self.assertIn("| calm to hard | dry | +0.20 ± 0.10 | ", text)
+        self.assertIn("| hard to calm | dry | +0.20 ± 0.10 | ", text)
 
     def test_wrong_directives_are_refused(self):
         for text, said in (("means age of nobody; where: road=dry, density=1", "nobody is no paradigm"),
