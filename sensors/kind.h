@@ -32,7 +32,8 @@ enum class Shows : std::uint8_t {
 
 // `Model` is the sensor as the world emulates it, `Preprocessing` what its host assumes of it.
 template <class Kind>
-concept IsKind = requires(YamlMap& yaml, const typename Kind::Model& model, const sim::world::Weather& weather) {
+concept IsKind = requires(YamlMap& yaml, const typename Kind::Model& model,
+                          const typename Kind::Preprocessing& preprocessing, const sim::world::Weather& weather) {
   { Kind::kKind } -> std::convertible_to<schedules::model::SensorKind>;
   { Kind::load_model(yaml) } -> std::same_as<typename Kind::Model>;
   { Kind::load_preprocessing(yaml) } -> std::same_as<typename Kind::Preprocessing>;
@@ -42,6 +43,8 @@ concept IsKind = requires(YamlMap& yaml, const typename Kind::Model& model, cons
   { Kind::field_of(model) } -> std::same_as<std::optional<fusion::sensors::Field>>;
   // The span up to whose multiples range rates are known [m/s]; none for a kind without range rates.
   { Kind::rate_span(model) } -> std::same_as<std::optional<double>>;
+  // The returns that its preprocessing joins to one object; none for a kind without returns.
+  { Kind::resolution(preprocessing) } -> std::same_as<std::optional<fusion::sensors::Resolution>>;
   { Kind::kShows } -> std::convertible_to<Shows>;
   { Kind::kSteps[0] } -> std::convertible_to<SensorSteps>;
   requires std::constructible_from<typename Kind::EmulatorStep, const EmulatorConfig&, const typename Kind::Model&>;

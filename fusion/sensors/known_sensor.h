@@ -25,6 +25,7 @@
 #include "fusion/linear/gaussian.h"
 #include "fusion/sensors/mounting.h"
 #include "fusion/sensors/observation.h"
+#include "fusion/sensors/resolution.h"
 
 namespace ttf::fusion::sensors {
 
@@ -70,6 +71,8 @@ struct KnownSensor {
   SystematicErrors errors;
   std::optional<Field> field;                  // absent: the sensor is taken to see everything
   double range_rate_span = Field::kUnbounded;  // [m/s]: a radar's range rates are known up to multiples of this
+  std::optional<Resolution>
+      resolution;  // a radar's, whose preprocessing joins returns; absent: it resolves all objects
 
   // Returns whether the sensor sits at the vehicle's origin, along its axes and without known biases: the
   // tracker takes its measurements unchanged.

@@ -7,7 +7,7 @@ namespace ttf::fusion::tracks {
 bool given_up(const Track& track, GlobalTime time, GlobalTime at, const config::TrackerConfig& config,
               const estimators::Estimator& estimator) {
   at = std::max(at, time);
-  const Duration silent = at - track.newest.measured;
+  const Duration silent = at - std::max(track.newest.measured, track.shared);
   if (silent <= config.coast_after) return false;
   if (silent > config.delete_after) return true;
   estimators::Estimate estimate = track.estimate;

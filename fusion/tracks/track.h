@@ -21,7 +21,7 @@ struct Track : Life, body::Body {
 
 // Returns whether a track with a state of instant `time` has ended by silence at `at`. Lists that miss it end
 // it in the tracker (TrackerConfig::delete_misses). Without lists it ends
-//   - when its newest observation is older than delete_after,
+//   - when its newest observation, shared ones included, is older than delete_after,
 //   - or older than coast_after, and the position predicted to `at` is less certain than delete_position_sigma on an
 //     axis.
 // Such a track appears in no image and takes no observation; its object begins a new track.

@@ -16,7 +16,8 @@ Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observatio
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
       visibility_(config, max_tracks_), referral_(estimator_, max_observations, max_tracks_),
       gate_(config, estimator_, max_tracks_), association_(config, max_observations, max_tracks_),
-      joint_update_(config, max_observations), twins_(config, max_tracks_), overlaps_(max_tracks_) {}
+      unresolved_(config, max_tracks_), joint_update_(config, max_observations), twins_(config, max_tracks_),
+      overlaps_(max_tracks_) {}
 
 void Tracker::step(TrackSet& set, const sensors::ObservationList& list) {
   if (!set.started) {
@@ -68,6 +69,7 @@ std::span<const int> Tracker::assigned(const TrackSet& set, const sensors::Obser
   association_.solve(set.tracks, list);
   const std::span<const int> observation_of = association_.observation_of();
   if (!weighs_all) visibility_.judge(set.tracks, *estimator_, list.id.sensor, observation_of, list.vehicle);
+  unresolved_.judge(set.tracks, list, *estimator_, visibility_, association_);
   return observation_of.first(set.tracks.size());
 }
 
@@ -82,6 +84,10 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
 
 // The existence is judged by the prediction. The axis comes before the position, which it refers to the anchor.
 void Tracker::take_in(Track& track, std::size_t column, const sensors::ObservationList& list) {
+  if (shares(column)) {
+    track.shared = list.measured;
+    return;
+  }
   const int observation = association_.observation_of()[column];
   const auto row = static_cast<std::size_t>(observation);
   const sensors::Observation* z = observation >= 0 ? &list.observations[row] : nullptr;

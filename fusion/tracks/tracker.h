@@ -1,7 +1,8 @@
 // The multi-object tracker of all strategies: the order of the parts in a step. For each list,
 //   1. tracks are predicted to it; those that were silent for long end (given_up() in fusion/tracks/track.h);
 //   2. its observations are associated with them (fusion/tracks/parts/association.h), of the pairs in the gate
-//      (fusion/tracks/parts/gate.h) of the point that each track follows (fusion/tracks/parts/referral.h);
+//      (fusion/tracks/parts/gate.h) of the point that each track follows (fusion/tracks/parts/referral.h). What a radar cannot
+//      tell apart belongs to none (fusion/tracks/parts/unresolved.h);
 //   3. each track counts the list, if its sensor could have seen the object (fusion/tracks/parts/visibility.h), and is corrected
 //      by what belongs to it: its existence (fusion/tracks/parts/existence.h), motion, heading and extent
 //      (fusion/tracks/parts/extents.h), and what is carried along (fusion/tracks/unfiltered.h);
@@ -31,6 +32,7 @@
 #include "fusion/tracks/parts/overlaps.h"
 #include "fusion/tracks/parts/referral.h"
 #include "fusion/tracks/parts/twins.h"
+#include "fusion/tracks/parts/unresolved.h"
 #include "fusion/tracks/parts/visibility.h"
 #include "fusion/tracks/track_set.h"
 
@@ -49,8 +51,10 @@ class Tracker {
   std::span<const int> assigned(const TrackSet& set, const sensors::ObservationList& list);
   // Returns whether the list that was assigned last counts for or against a track, by its observation or without one.
   bool list_counts(std::size_t track) const {
-    return association_.observation_of()[track] >= 0 || visibility_.counts(track);
+    return association_.observation_of()[track] >= 0 || (visibility_.counts(track) && !shares(track));
   }
+  // Returns whether a track shares an observation of the list that was assigned last, and so has none of its own.
+  bool shares(std::size_t track) const { return unresolved_.of(track); }
   // Returns how the observation `index` of the list that step() took in last counted.
   const parts::Referred& taken(std::size_t index) const { return referral_.taken(index); }
   // Returns the innovations of the list that step() or assigned() was given last.
@@ -75,6 +79,7 @@ class Tracker {
   parts::Referral referral_;
   parts::Gate gate_;
   parts::Association association_;
+  parts::Unresolved unresolved_;
   parts::JointUpdate joint_update_;
   parts::Twins twins_;
   parts::Overlaps overlaps_;

@@ -33,6 +33,12 @@ std::optional<double> Sensors::rate_span(const schedules::model::Sensor& sensor)
   });
 }
 
+std::optional<fusion::sensors::Resolution> Sensors::resolution(const schedules::model::Sensor& sensor) const {
+  return of_kind(*this, sensor.kind, [&]<class Kind>(const SensorsOfKind<Kind>& kind) {
+    return Kind::resolution(kind.preprocessing_of(sensor.name));
+  });
+}
+
 std::vector<SensorView> views_of(const Sensors& sensors, const schedules::model::Cluster& cluster) {
   std::vector<SensorView> views;
   for (const schedules::model::Sensor& sensor : cluster.sensors)

@@ -117,6 +117,8 @@ class Sensors {
   std::optional<fusion::sensors::Field> field_of(const schedules::model::Sensor& sensor) const;
   // Returns the span up to whose multiples its range rates are known [m/s].
   std::optional<double> rate_span(const schedules::model::Sensor& sensor) const;
+  // Returns which returns its preprocessing joins.
+  std::optional<fusion::sensors::Resolution> resolution(const schedules::model::Sensor& sensor) const;
 
  private:
   Kinds::OfEach kinds_;

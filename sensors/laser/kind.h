@@ -24,6 +24,7 @@ struct Kind {
     return with_blind({.half_angle = model.half_field_rad, .max_range = model.max_range_m}, model.device);
   }
   static std::optional<double> rate_span(const Model&) { return std::nullopt; }
+  static std::optional<fusion::sensors::Resolution> resolution(const Preprocessing&) { return std::nullopt; }
   static constexpr Shows kShows = Shows::kFace;
   static constexpr std::array<SensorSteps, 1> kSteps{
       {{{.step = "laser_emulator", .writes = {"raw"}},

@@ -23,6 +23,7 @@ struct Kind {
     return with_blind({.half_angle = looked_at(model), .max_range = model.max_range_m}, model.device);
   }
   static std::optional<double> rate_span(const Model&) { return std::nullopt; }
+  static std::optional<fusion::sensors::Resolution> resolution(const Preprocessing&) { return std::nullopt; }
   static constexpr Shows kShows = Shows::kNothing;  // expected errors leave its silhouettes out
   static constexpr std::array<SensorSteps, 2> kSteps{
       {{{.step = "mono_camera_emulator", .writes = {"raw"}},

@@ -19,6 +19,7 @@ struct Kind {
   static Model in_weather(const Model& model, const sim::world::Weather&) { return model; }
   static std::optional<fusion::sensors::Field> field_of(const Model&) { return std::nullopt; }
   static std::optional<double> rate_span(const Model&) { return std::nullopt; }
+  static std::optional<fusion::sensors::Resolution> resolution(const Preprocessing&) { return std::nullopt; }
   static constexpr Shows kShows = Shows::kNothing;
   static constexpr std::array<SensorSteps, 1> kSteps{
       {{{.step = "odometry_emulator", .writes = {"raw"}},

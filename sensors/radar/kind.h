@@ -24,6 +24,9 @@ struct Kind {
                       model.device);
   }
   static std::optional<double> rate_span(const Model& model) { return model.rate_span_mps; }
+  static std::optional<fusion::sensors::Resolution> resolution(const Preprocessing& preprocessing) {
+    return resolution_of(preprocessing);
+  }
   static constexpr Shows kShows = Shows::kNothing;
   static constexpr std::array<SensorSteps, 1> kSteps{
       {{{.step = "radar_emulator", .writes = {"raw"}},

@@ -21,20 +21,19 @@ RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml) {
   return c;
 }
 
+fusion::sensors::Resolution resolution_of(const RadarPreprocessingConfig& config) {
+  return {config.range_gate_m,  config.across_gate_m,        config.azimuth_sigma_rad,
+          config.rate_gate_mps, config.transverse_speed_mps, config.rate_span_mps};
+}
+
 ReturnJoiner::ReturnJoiner(const RadarPreprocessingConfig& config, std::size_t most_returns)
-    : config_(config), taken_(most_returns) {
+    : config_(config), resolution_(resolution_of(config)), taken_(most_returns) {
   members_.reserve(most_returns);
 }
 
 bool ReturnJoiner::together(const Return& a, const Return& b) const {
-  // Three standard deviations of a difference.
-  constexpr double kThree = 4.25;
-  const double range = std::min(a.range, b.range);
-  const double turn = std::abs(a.azimuth - b.azimuth);
-  return std::abs(a.range - b.range) <= config_.range_gate_m &&
-         range * turn <= config_.across_gate_m + kThree * range * config_.azimuth_sigma_rad &&
-         std::abs(std::remainder(a.range_rate - b.range_rate, config_.rate_span_mps)) <=
-             config_.rate_gate_mps + config_.transverse_speed_mps * turn;
+  return resolution_.joins(std::min(a.range, b.range), a.range - b.range, a.azimuth - b.azimuth,
+                           a.range_rate - b.range_rate);
 }
 
 // Range rates are averaged about the first return's: a fold may lie between them.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "fusion/sensors/resolution.h"
 
 namespace ttf::sensors::radar {
 
@@ -26,6 +27,8 @@ struct RadarPreprocessingConfig {
   double transverse_speed_mps = 0.0;  // objects pass the sensor this fast, at most
 };
 RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml);
+// Returns which returns are joined.
+fusion::sensors::Resolution resolution_of(const RadarPreprocessingConfig& config);
 
 struct Return {
   double range = 0.0, azimuth = 0.0, range_rate = 0.0;
@@ -48,6 +51,7 @@ class ReturnJoiner {
   RadarObject object_of(const std::vector<Return>& returns) const;
 
   RadarPreprocessingConfig config_;
+  fusion::sensors::Resolution resolution_;
   std::vector<char> taken_;           // by return
   std::vector<std::size_t> members_;  // the present object's
 };

@@ -24,6 +24,7 @@ struct Kind {
                       model.device);
   }
   static std::optional<double> rate_span(const Model&) { return std::nullopt; }
+  static std::optional<fusion::sensors::Resolution> resolution(const Preprocessing&) { return std::nullopt; }
   static constexpr Shows kShows = Shows::kSilhouette;
   static constexpr std::array<SensorSteps, 1> kSteps{
       {{{.step = "camera_emulator", .writes = {"raw"}},

@@ -13,6 +13,7 @@ fusion::config::TrackerConfig tracker_of(const Scenario& scenario, const schedul
     fusion::sensors::KnownSensor& known = tracker.sensors[s];
     const schedules::model::Sensor& sensor = cluster.sensors[s];
     if (!known.field || !scenario.sensors.enabled(sensor)) known.field = scenario.sensors.field_of(sensor);
+    known.resolution = scenario.sensors.resolution(sensor);
     if (known.range_rate_span == fusion::sensors::Field::kUnbounded)
       known.range_rate_span = scenario.sensors.rate_span(sensor).value_or(fusion::sensors::Field::kUnbounded);
   }

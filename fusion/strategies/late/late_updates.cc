@@ -155,6 +155,7 @@ bool LateUpdates::mend(const sensors::ObservationList& list, int lists_since) {
     const int counted_since = note(object.counted, lists_since, tracker_.list_counts(i));
     if (tracker_.list_counts(i)) tracks::count_late(track, counted_since, assigned[i] >= 0);
     object.lists = track.lists;
+    if (tracker_.shares(i)) track.shared = std::max(track.shared, list.measured);
     if (assigned[i] < 0) continue;
     const tracks::ObservationId which{list.id, static_cast<std::uint16_t>(assigned[i]), list.measured};
     mend(track, object, which, list.observations[which.index], when, then_.tracks[i]);

@@ -36,6 +36,28 @@ double range_of(const SeenBox& outline, const linear::Vector<2>& axis, const lin
   return enter > leave || enter <= 0.0 ? kNever : enter;
 }
 
+struct HeadedBox {
+  SeenBox box;
+  bool headed = false;
+  double sigma = 0.0;  // the heading's [rad]
+};
+HeadedBox seen_box_of(const Body& body, const estimators::Estimator& estimator, const sensors::Mounting& mounting) {
+  const estimators::Cartesian estimate = estimator.cartesian(body.estimate);
+  const CentrePosition centre = centre_position(body, estimate);
+  HeadedBox seen;
+  seen.headed = centre.facing.sigma <= kUnknownHeading;
+  seen.sigma = centre.facing.sigma;
+  SeenBox& outline = seen.box;
+  outline.centre = centre.estimate.x - mounting.position;
+  outline.box.size = body.extent.size;
+  const double sight = std::atan2(outline.centre.y(), outline.centre.x());
+  outline.box.heading = seen.headed ? centre.facing.heading : sight + kEighth;
+  outline.turn_rate = seen.headed && body.heading.known ? body.heading.rate : 0.0;
+  outline.velocity = estimate.x.segment<2>(2) - mounting.velocity +
+                     outline.turn_rate * on_its_left(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
+  return seen;
+}
+
 }  // namespace
 
 linear::Matrix<3> spread_of(const SeenBox& outline) {
@@ -79,22 +101,16 @@ linear::Matrix<3> spread_of(const SeenBox& outline) {
   return spread;
 }
 
+SeenBox seen_box(const Body& body, const estimators::Estimator& estimator, const sensors::Mounting& mounting) {
+  return seen_box_of(body, estimator, mounting).box;
+}
+
 linear::Matrix<3> spread_of(const Body& body, const estimators::Estimator& estimator,
                             const sensors::Mounting& mounting) {
-  const estimators::Cartesian estimate = estimator.cartesian(body.estimate);
-  const CentrePosition centre = centre_position(body, estimate);
-  SeenBox outline;
-  outline.centre = centre.estimate.x - mounting.position;
-  outline.box.size = body.extent.size;
-  const double sight = std::atan2(outline.centre.y(), outline.centre.x());
-  const bool headed = centre.facing.sigma <= kUnknownHeading;
-  outline.box.heading = headed ? centre.facing.heading : sight + kEighth;
-  outline.turn_rate = headed && body.heading.known ? body.heading.rate : 0.0;
-  outline.velocity = estimate.x.segment<2>(2) - mounting.velocity +
-                     outline.turn_rate * on_its_left(linear::Vector<2>(centre.estimate.x - estimate.x.head<2>()));
+  auto [outline, headed, sigma] = seen_box_of(body, estimator, mounting);
   if (!headed) return spread_of(outline);
   // Three headings have the moments of all of them up to the fifth (Gauss and Hermite).
-  const double heading = outline.box.heading, step = std::numbers::sqrt3 * centre.facing.sigma;
+  const double heading = outline.box.heading, step = std::numbers::sqrt3 * sigma;
   linear::Matrix<3> spread = 2.0 / 3.0 * spread_of(outline);
   for (const double turned : {-step, step}) {
     outline.box.heading = heading + turned;

@@ -28,6 +28,10 @@ struct SeenBox {
   linear::Vector<2> velocity = linear::Vector<2>::Zero();  // the centre's, relative to the sensor [m/s]
   double turn_rate = 0.0;                                  // [rad/s]
 };
+// Returns the box of this body, seen from a sensor that is mounted so. Where the heading is unknown, the box stands at an eighth of a
+// turn to the line of sight.
+SeenBox seen_box(const Body& body, const estimators::Estimator& estimator, const sensors::Mounting& mounting);
+
 // Returns C. Around the sensor there is no outline, and C is zero.
 linear::Matrix<3> spread_of(const SeenBox& outline);
 

@@ -58,6 +58,13 @@ void Association::solve(const std::vector<Track>& tracks, const sensors::Observa
   sum_innovations(tracks, list);
 }
 
+void Association::withdraw(std::span<const char> marked, const std::vector<Track>& tracks,
+                           const sensors::ObservationList& list) {
+  for (std::size_t t = 0; t < tracks.size(); ++t)
+    if (marked[t]) observation_of_[t] = -1;
+  sum_innovations(tracks, list);
+}
+
 void Association::sum_innovations(const std::vector<Track>& tracks, const sensors::ObservationList& list) {
   innovations_ = {};
   for (std::size_t c = 0; c < candidates_.size(); ++c) {

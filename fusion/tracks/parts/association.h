@@ -39,6 +39,10 @@ class Association {
   // Associates by the pairs that were offered.
   void solve(const std::vector<Track>& tracks, const sensors::ObservationList& list);
 
+  // Take back a part of solve(): an observation begins no track; the marked tracks have no observation, and theirs begin none.
+  void begin_none(std::size_t row) { near_confirmed_[row] = 1; }
+  void withdraw(std::span<const char> marked, const std::vector<Track>& tracks, const sensors::ObservationList& list);
+
   // Results of the last solve().
   // The observation of each track, or -1; more tracks than the set has have none.
   std::span<const int> observation_of() const { return observation_of_; }

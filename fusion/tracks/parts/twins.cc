@@ -68,6 +68,7 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += younger.unfiltered.classes.sums[i];
   const bool newer = younger.newest.measured > elder.newest.measured;
   if (newer) elder.newest = younger.newest;
+  elder.shared = std::max(elder.shared, younger.shared);
   sensors::ThirdAxis& third = elder.unfiltered.third;
   const sensors::ThirdAxis& other = younger.unfiltered.third;
   if (other.has_z && (newer || !third.has_z)) {

@@ -126,6 +126,9 @@ TEST(RadarScenario, TheTrackerHasSpansFieldsAndBlindSides) {
   };
   EXPECT_EQ(known(scenario, "radar").range_rate_span, 160.0);
   EXPECT_EQ(known(scenario, "corner_radar").range_rate_span, 60.0);
+  EXPECT_EQ(known(scenario, "radar").resolution->rate_span_mps, 160.0);
+  EXPECT_EQ(known(scenario, "corner_radar").resolution->across_m, 2.5);
+  EXPECT_FALSE(known(scenario, "laser").resolution);
   EXPECT_EQ(known(scenario, "corner_radar").field->half_angle, 1.0);
   EXPECT_EQ(known(scenario, "radar").field->shadow, 0.0);
   EXPECT_EQ(known(scenario, "laser").field->max_range, 120.0);
