@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "fusion/tracks/parts/birth.h"
+#include "fusion/tracks/parts/classes.h"
 #include "fusion/tracks/parts/confirmation.h"
 #include "fusion/tracks/parts/existence.h"
 #include "fusion/tracks/parts/extents.h"
@@ -14,7 +15,8 @@ namespace ttf::fusion::tracks {
 Tracker::Tracker(const config::TrackerConfig& config, std::size_t max_observations)
     : config_(config), estimator_(estimators::make_estimator(config)), max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
-      visibility_(config, max_tracks_), referral_(estimator_, max_observations, max_tracks_),
+      visibility_(config, max_tracks_),
+      referral_(estimator_, max_observations, max_tracks_, parts::chooses_class(config)),
       gate_(config, estimator_, max_tracks_), association_(config, max_observations, max_tracks_),
       unresolved_(config, max_tracks_), joint_update_(config, max_observations), twins_(config, max_tracks_),
       overlaps_(max_tracks_) {}
@@ -90,7 +92,7 @@ void Tracker::take_in(Track& track, std::size_t column, const sensors::Observati
   }
   const int observation = association_.observation_of()[column];
   const auto row = static_cast<std::size_t>(observation);
-  const sensors::Observation* z = observation >= 0 ? &list.observations[row] : nullptr;
+  const sensors::Observation* z = observation >= 0 ? &referral_.read(track, list.observations[row]) : nullptr;
   if (list_counts(column)) count_newest(track, z != nullptr);
   track.doubtful = (track.doubtful << 1) | (z && z->weight < sensors::kSureWeight ? 1u : 0u);
   if (z) track.newest = {list.id, static_cast<std::uint16_t>(row), list.measured};

@@ -1,12 +1,14 @@
 #include "fusion/tracks/parts/classes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 
 #include "fusion/tracks/body/centre.h"
+#include "fusion/tracks/body/reading.h"
 #include "fusion/tracks/body/size_evidence.h"
 
 namespace ttf::fusion::tracks::parts {
@@ -50,32 +52,106 @@ double log_of_speed(const linear::Gaussian<2>& velocity, double sigma) {
   return -0.5 * velocity.x.squaredNorm() / variance - std::log(variance);
 }
 
-}  // namespace
+// The velocity is the centre's, and the axis that of the length.
+double log_density_of_course(const linear::Gaussian<2>& velocity, const body::Heading& axis) {
+  constexpr double kAny = 0.01, kAnySigma = 20.0;  // the probability of any velocity, and its standard deviation [m/s]
+  const linear::Vector<2> across(-std::sin(axis.value), std::cos(axis.value));
+  const double sideways = across.dot(velocity.x), stated = across.dot(velocity.p * across);
+  const double variance = stated + body::kSlip * body::kSlip +
+                          (body::kSlipOfSpeed * body::kSlipOfSpeed + axis.variance) * velocity.x.squaredNorm();
+  const auto density = [&](double of) { return std::exp(-0.5 * sideways * sideways / of) / std::sqrt(of); };
+  return std::log((1.0 - kAny) * density(variance) + kAny * density(stated + kAnySigma * kAnySigma));
+}
 
-void choose_class(Track& track, const config::TrackerConfig& config, const estimators::Estimator& estimator,
-                  const SeenSpan* span) {
-  if (config.classes.size() < 2) return;
-  const body::SizeEvidence evidence = body::evidence_of(track.extent, prior_of(track, config));
-  const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
-  const linear::Gaussian<2> velocity = estimators::velocity_of(estimate);
-  std::size_t best = track.class_index;
+body::SizeEvidence read_otherwise(const body::SizeEvidence& evidence) {
+  body::SizeEvidence other;
+  other.information = evidence.information.reverse();
+  other.weighted = evidence.weighted.reverse();
+  return other;
+}
+
+// The weights of all configured classes for one reading: their sum, and the most probable class.
+struct Weighed {
+  double log_sum = -std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
-  body::Extent extent = track.extent;
+  std::size_t best = 0;
+  body::Extent extent{config::Sizes{}};
+};
+
+Weighed weigh(const Track& track, const body::Body& body, const body::SizeEvidence& evidence,
+              const estimators::Cartesian& estimate, const config::TrackerConfig& config, const SeenSpan* span) {
+  const linear::Gaussian<2> velocity = estimators::velocity_of(estimate);
+  Weighed all;
+  all.best = track.class_index;
+  all.extent = track.extent;
+  std::array<double, config::kClassCount> weights{};
   for (std::size_t k = 0; k < config.classes.size(); ++k) {
     const config::ClassPrior& of = config.classes[k];
     const body::Explained by = body::explained(evidence, of.sizes);
-    double weight = std::log(of.share) + by.log_likelihood +
-                    log_of_reports(track.unfiltered.classes, of.id, config.class_confusion);
-    if (span) weight += log_density(track, by.extent, estimate, *span);
+    double& weight = weights[k];
+    weight = std::log(of.share) + by.log_likelihood +
+             log_of_reports(track.unfiltered.classes, of.id, config.class_confusion);
+    if (span) weight += log_density(body, by.extent, estimate, *span);
     if (config.odometry) weight += log_of_speed(velocity, of.speed_sigma);
-    if (!(weight > most)) continue;
-    most = weight;
-    best = k;
-    extent = by.extent;
+    if (!(weight > all.most)) continue;
+    all.most = weight;
+    all.best = k;
+    all.extent = by.extent;
   }
-  if (best == track.class_index) return;
-  track.class_index = static_cast<std::uint8_t>(best);
-  track.extent = extent;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < config.classes.size(); ++k) sum += std::exp(weights[k] - all.most);
+  all.log_sum = all.most + std::log(sum);
+  return all;
+}
+
+body::Body read_otherwise(body::Body body) {
+  body.heading = body::read_otherwise(body.heading);
+  body.anchor = body::read_otherwise(body.anchor);
+  return body;
+}
+
+// Both readings of a track. Without a known heading there is one.
+struct Readings {
+  Weighed present, other;
+  double log_odds = -std::numeric_limits<double>::infinity();  // for the other reading
+};
+
+Readings readings_of(const Track& track, const config::TrackerConfig& config, const estimators::Estimator& estimator,
+                     const SeenSpan* span) {
+  const body::SizeEvidence evidence = body::evidence_of(track.extent, prior_of(track, config));
+  const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
+  Readings readings;
+  readings.present = weigh(track, track, evidence, estimate, config, span);
+  if (!track.heading.known) return readings;
+  const body::Body other = read_otherwise(static_cast<const body::Body&>(track));
+  readings.other = weigh(track, other, read_otherwise(evidence), estimate, config, span);
+  const linear::Gaussian<2> velocity = estimators::velocity_of(centred(track, estimate).estimate);
+  readings.log_odds = readings.other.log_sum + log_density_of_course(velocity, other.heading) -
+                      readings.present.log_sum - log_density_of_course(velocity, track.heading);
+  return readings;
+}
+
+}  // namespace
+
+double log_odds_of_other_reading(const Track& track, const config::TrackerConfig& config,
+                                 const estimators::Estimator& estimator, const SeenSpan* span) {
+  return readings_of(track, config, estimator, span).log_odds;
+}
+
+void choose_class(Track& track, const config::TrackerConfig& config, const estimators::Estimator& estimator,
+                  const SeenSpan* span) {
+  if (!chooses_class(config)) return;
+  const Readings readings = readings_of(track, config, estimator, span);
+  const bool anew = readings.log_odds > 0.0;
+  const Weighed& best = anew ? readings.other : readings.present;
+  if (!anew && best.best == track.class_index) return;
+  if (anew) {
+    track.heading = body::read_otherwise(track.heading);
+    track.anchor = body::read_otherwise(track.anchor);
+    update_front(track.heading, estimators::velocity_of(estimator.cartesian(track.estimate)));
+  }
+  track.class_index = static_cast<std::uint8_t>(best.best);
+  track.extent = best.extent;
 }
 
 }  // namespace ttf::fusion::tracks::parts

@@ -43,16 +43,18 @@ void Gate::place(const std::vector<Track>& tracks, const sensors::ObservationLis
 }
 
 // Most pairs end here, so that the rest is out of line.
-inline void Gate::try_pair(const Search& search, const sensors::Observation& z, const linear::Vector<2>& sight,
+inline void Gate::try_pair(const Search& search, const sensors::Observation& seen, const linear::Vector<2>& sight,
                            std::size_t row, const association::TrackPlace& placed) const {
-  const double gate = gate_[dimension_of(z.kind)];
-  const bool is_position = z.kind == sensors::ObservationKind::kPosition;
+  const double gate = gate_[dimension_of(seen.kind)];
+  const bool is_position = seen.kind == sensors::ObservationKind::kPosition;
   const auto outside = [&](double dx, double dy, double variance_x, double variance_y) {
     return dx * dx > gate * (placed.variance_x + variance_x) || dy * dy > gate * (placed.variance_y + variance_y);
   };
   const auto beyond = [&](double distance) { return std::max(0.0, std::abs(distance) - placed.reach); };
-  if (is_position && outside(beyond(z.z(0) - placed.x), beyond(z.z(1) - placed.y), z.r(0, 0), z.r(1, 1))) return;
+  if (is_position && outside(beyond(seen.z(0) - placed.x), beyond(seen.z(1) - placed.y), seen.r(0, 0), seen.r(1, 1)))
+    return;
   const Track& track = search.tracks[placed.track];
+  const sensors::Observation& z = search.referral.read(track, seen);
   const body::Distance* distance = nullptr;
   if (placed.reach > 0.0) {
     distance = search.referral.distance_of(track, placed.track, z);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fusion/tracks/body/reading.h"
+#include "fusion/tracks/parts/classes.h"
 #include "fusion/tracks/parts/existence.h"
 #include "fusion/tracks/parts/referral.h"
 
@@ -24,7 +26,9 @@ void JointUpdate::update(Track& track, std::size_t column, const sensors::Observ
   explained_.clear();
   explanations_.push_back({nullptr, unseen / exists});
   for (const association::JointAssociation::Shared& shared : joint.of_column(column)) {
-    explained_.push_back(referred(track, estimator, list.observations[static_cast<std::size_t>(shared.row)]));
+    const sensors::Observation& z = list.observations[static_cast<std::size_t>(shared.row)];
+    const bool otherwise = chooses_class(config_) && body::reads_otherwise(track, estimator, z);
+    explained_.push_back(referred(track, estimator, otherwise ? body::read_otherwise(z) : z));
     explanations_.push_back({&explained_.back(), shared.probability / exists});
   }
   if (explanations_.size() > 1) estimator.update(track.estimate, explanations_);

@@ -68,8 +68,9 @@ sensors::Observation referred(const Track& track, const estimators::Estimator& e
 }
 
 Referral::Referral(std::shared_ptr<const estimators::Estimator> estimator, std::size_t max_observations,
-                   std::size_t max_tracks)
-    : estimator_(std::move(estimator)), distances_(max_tracks), spreads_(max_tracks), taken_(max_observations) {}
+                   std::size_t max_tracks, bool reads_both)
+    : estimator_(std::move(estimator)), distances_(max_tracks), spreads_(max_tracks), taken_(max_observations),
+      reads_both_(reads_both) {}
 
 void Referral::begin(std::size_t tracks) {
   distances_.begin(tracks);

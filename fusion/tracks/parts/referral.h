@@ -15,6 +15,7 @@
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/body/distances.h"
+#include "fusion/tracks/body/reading.h"
 #include "fusion/tracks/body/returns.h"
 #include "fusion/tracks/track.h"
 
@@ -48,11 +49,17 @@ sensors::Observation referred(const Track& track, const estimators::Estimator& e
 
 class Referral {
  public:
-  Referral(std::shared_ptr<const estimators::Estimator> estimator, std::size_t max_observations,
-           std::size_t max_tracks);
+  Referral(std::shared_ptr<const estimators::Estimator> estimator, std::size_t max_observations, std::size_t max_tracks,
+           bool reads_both = false);
 
   // Begins a list, for this many tracks.
   void begin(std::size_t tracks);
+  // Returns the observation in the reading that fits the track (fusion/tracks/body/reading.h): itself, where tracks do not choose their
+  // class. It is valid until the next call.
+  const sensors::Observation& read(const Track& track, const sensors::Observation& observation) {
+    if (!reads_both_ || !body::reads_otherwise(track, *estimator_, observation)) return observation;
+    return read_.emplace(body::read_otherwise(observation));
+  }
   // Forgets what was computed for a track whose heading changes.
   void forget(std::size_t column);
 
@@ -82,6 +89,8 @@ class Referral {
   body::Spreads spreads_;
   std::vector<Referred> taken_;                         // by observation
   std::optional<sensors::Observation> spread_, moved_;  // of expected()
+  bool reads_both_;
+  std::optional<sensors::Observation> read_;
 };
 
 }  // namespace ttf::fusion::tracks::parts

@@ -4,9 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fusion/metrics/chi_square.h"
 #include "fusion/tracks/body/centre.h"
+#include "fusion/tracks/parts/classes.h"
 
 namespace ttf::fusion::tracks::parts {
 namespace {
@@ -41,29 +43,45 @@ double volume_of(const Track& track, const estimators::Estimator& estimator) {
   return estimator.cartesian(track.estimate).p.topLeftCorner<4, 4>().eval().determinant();
 }
 
-void join(Track& elder, const Track& younger, const estimators::Estimator& estimator) {
+// Returns whether the axes of both tracks are a quarter turn apart (fusion/tracks/body/reading.h).
+bool read_differently(const body::Heading& a, const body::Heading& b) {
+  return a.known && b.known && std::abs(std::sin(a.value - b.value)) > std::numbers::sqrt2 / 2.0;
+}
+
+// Joins the axes and the sizes of two tracks that read their object alike. The anchor has been chosen, in the axes of `sense`.
+void join_bodies(Track& elder, const Track& younger, const body::Heading& sense) {
   const body::Heading elder_heading = elder.heading;
-  body::Heading sense = elder_heading;  // the axes of the anchor
-  if (volume_of(younger, estimator) < volume_of(elder, estimator)) {
-    elder.estimate = younger.estimate;
-    elder.anchor = younger.anchor;
-    elder.lists_elsewhere = younger.lists_elsewhere;
-    sense = younger.heading;
-  }
   if (younger.heading.known && (!elder.heading.known || younger.heading.variance < elder.heading.variance))
     elder.heading = younger.heading;
   take_front(elder.heading, elder_heading);
   take_front(elder.heading, younger.heading);
   if (sense.known && body::nearest_half_turn(elder.heading.value, sense.value) != elder.heading.value)
     elder.anchor = opposite(elder.anchor);
-  if (younger.shown.known && (!elder.shown.known || younger.shown.variance < elder.shown.variance))
-    elder.shown = younger.shown;
   // Each counts over that of its prior, as classes begin with different ones.
   if (younger.extent.covariance.determinant() * elder.extent.prior_variances.prod() <
       elder.extent.covariance.determinant() * younger.extent.prior_variances.prod()) {
     elder.extent = younger.extent;
     elder.class_index = younger.class_index;  // whose prior the extent has
   }
+}
+
+void join(Track& elder, const Track& younger, const estimators::Estimator& estimator, bool reads_both) {
+  const bool alike = !reads_both || !read_differently(elder.heading, younger.heading);
+  body::Heading sense = elder.heading;  // the axes of the anchor
+  if (volume_of(younger, estimator) < volume_of(elder, estimator)) {
+    elder.estimate = younger.estimate;
+    elder.anchor = younger.anchor;
+    elder.lists_elsewhere = younger.lists_elsewhere;
+    sense = younger.heading;
+    if (!alike) {  // the reading goes with the anchor
+      elder.heading = younger.heading;
+      elder.extent = younger.extent;
+      elder.class_index = younger.class_index;
+    }
+  }
+  if (alike) join_bodies(elder, younger, sense);
+  if (younger.shown.known && (!elder.shown.known || younger.shown.variance < elder.shown.variance))
+    elder.shown = younger.shown;
   auto& sums = elder.unfiltered.classes.sums;
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += younger.unfiltered.classes.sums[i];
   const bool newer = younger.newest.measured > elder.newest.measured;
@@ -87,7 +105,8 @@ void join(Track& elder, const Track& younger, const estimators::Estimator& estim
 
 }  // namespace
 
-Twins::Twins(const config::TrackerConfig& config, std::size_t max_tracks) : lists_(config.merge_scans) {
+Twins::Twins(const config::TrackerConfig& config, std::size_t max_tracks)
+    : lists_(config.merge_scans), reads_both_(chooses_class(config)) {
   if (config.merge_probability <= 0.0) return;
   for (int degrees = 4; degrees <= 6; ++degrees)
     quantile_[degrees] = metrics::chi_square_quantile(config.merge_probability, degrees);
@@ -153,7 +172,7 @@ void Twins::unite(std::vector<Track>& tracks, const sensors::ObservationList& li
     else if (elder_seen || younger_seen)
       ++younger.twin_lists;
     if (younger.twin_lists < lists_) continue;
-    join(elder, younger, estimator);
+    join(elder, younger, estimator, reads_both_);
     tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(t));
   }
 }

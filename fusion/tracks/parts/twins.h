@@ -17,7 +17,9 @@
 //     estimation algorithm in the presence of unknown correlations", ACC 1997). It is consistent for every
 //     correlation, which is unknown here, and keeps one layout with its modes, unlike a mixture of two layouts;
 //   - the more certain heading is kept, and the extent that is more certain over its prior; reported classes add up, since each
-//     observation counted once; hits are combined; the newest observation is the newer of the two.
+//     observation counted once; hits are combined; the newest observation is the newer of the two;
+//   - where tracks choose their class and the two read their object differently (fusion/tracks/body/reading.h), heading and extent are those
+//     of the kept anchor.
 // The twin of a younger track is the nearest elder by that distance, and among equals the eldest. The youngest
 // track comes first. The constructor allocates all storage.
 #pragma once
@@ -49,6 +51,7 @@ class Twins {
   void find_nearest(const std::vector<Track>& tracks, const estimators::Estimator& estimator);
 
   int lists_;
+  bool reads_both_;
   double quantile_[7] = {};  // by degrees of freedom
   std::vector<Seen> by_x_;
   std::vector<Nearest> nearest_;

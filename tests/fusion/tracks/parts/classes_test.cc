@@ -92,29 +92,38 @@ TEST(Classes, ACarStaysACar) {
   }
 }
 
-// Oracle: Bayes' theorem for one width, which is normal about the mean of its class.
-TEST(Classes, OneWidthAndReportsGiveTheMostProbableClass) {
+// Oracle: Bayes' theorem for one face, whose size is normal about the mean of its class. First the more probable reading, of a width or a
+// length, by the sum over all classes; then the most probable class.
+TEST(Classes, OneFaceAndReportsGiveTheMostProbableReadingAndClass) {
   const config::TrackerConfig config = with_classes();
   constexpr double kSigma = 0.03;
+  int lengths = 0;
   for (std::size_t report = 0; report <= config::kClassCount; ++report)
-    for (double width = 0.3; width < 3.0; width += 0.0137) {
-      std::string most_probable;
-      double most = 0.0;
-      for (const config::ClassPrior& one : config.classes) {
-        const double variance = one.sizes.width_sigma * one.sizes.width_sigma + kSigma * kSigma;
-        const double off = width - one.sizes.width;
-        double probability = one.share * std::exp(-0.5 * off * off / variance) / std::sqrt(variance);
-        if (report < config::kClassCount)
-          probability *= one.name == config.classes[report].name ? 0.95 : 0.05 / (config::kClassCount - 1);
-        if (probability <= most) continue;
-        most = probability;
-        most_probable = one.name;
-      }
+    for (double size = 0.3; size < 3.0; size += 0.0137) {
+      std::string most_probable[2];
+      double sums[2] = {}, most[2] = {};
+      for (const config::ClassPrior& one : config.classes)
+        for (const int length : {0, 1}) {
+          const double sigma = length ? one.sizes.length_sigma : one.sizes.width_sigma;
+          const double variance = sigma * sigma + kSigma * kSigma;
+          const double off = size - (length ? one.sizes.length : one.sizes.width);
+          double probability = one.share * std::exp(-0.5 * off * off / variance) / std::sqrt(variance);
+          if (report < config::kClassCount)
+            probability *= one.name == config.classes[report].name ? 0.95 : 0.05 / (config::kClassCount - 1);
+          sums[length] += probability;
+          if (probability <= most[length]) continue;
+          most[length] = probability;
+          most_probable[length] = one.name;
+        }
+      const int length = sums[1] > sums[0];
+      lengths += length;
       Bench bench(config);
-      const sensors::Observation z = rear(width, kSigma);
+      const sensors::Observation z = rear(size, kSigma);
       bench.step(0, {report < config::kClassCount ? reported(z, report) : z});
-      ASSERT_EQ(class_of(bench), most_probable) << width << " m, reported as " << report;
+      ASSERT_EQ(class_of(bench), most_probable[length]) << size << " m, reported as " << report;
+      ASSERT_EQ(std::abs(bench.set.tracks[0].heading.value) > 1.0, length == 1) << size << " m, reported as " << report;
     }
+  EXPECT_GT(lengths, 100);
 }
 
 TEST(Classes, ReportsOutweighAShare) {
