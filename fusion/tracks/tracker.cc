@@ -6,7 +6,6 @@
 #include "core/check.h"
 #include "fusion/tracks/parts/birth.h"
 #include "fusion/tracks/parts/classes.h"
-#include "fusion/tracks/parts/confirmation.h"
 #include "fusion/tracks/parts/existence.h"
 #include "fusion/tracks/parts/extents.h"
 
@@ -80,7 +79,7 @@ void Tracker::take_in(TrackSet& set, const sensors::ObservationList& list) {
   assigned(set, list);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) take_in(set.tracks[t], t, list);
   parts::give_birth(set, list, association_, config_, *estimator_, max_tracks_);
-  parts::confirm_and_end(set, config_, *estimator_, overlaps_);
+  confirm_and_end(set);
   if (config_.merge_probability > 0.0) twins_.unite(set.tracks, list, *estimator_);
 }
 

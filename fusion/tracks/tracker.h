@@ -27,6 +27,7 @@
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/innovations.h"
 #include "fusion/tracks/parts/association.h"
+#include "fusion/tracks/parts/confirmation.h"
 #include "fusion/tracks/parts/gate.h"
 #include "fusion/tracks/parts/joint_update.h"
 #include "fusion/tracks/parts/overlaps.h"
@@ -55,6 +56,8 @@ class Tracker {
   }
   // Returns whether a track shares an observation of the list that was assigned last, and so has none of its own.
   bool shares(std::size_t track) const { return unresolved_.of(track); }
+  // The last part of a step, for the same methods: confirms and ends tracks.
+  void confirm_and_end(TrackSet& set) { parts::confirm_and_end(set, config_, *estimator_, overlaps_); }
   // Returns how the observation `index` of the list that step() took in last counted.
   const parts::Referred& taken(std::size_t index) const { return referral_.taken(index); }
   // Returns the innovations of the list that step() or assigned() was given last.

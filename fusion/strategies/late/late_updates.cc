@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "fusion/tracks/parts/confirmation.h"
 #include "fusion/tracks/parts/extents.h"
 
 namespace ttf::fusion::strategies::late {
@@ -160,7 +159,7 @@ bool LateUpdates::mend(const sensors::ObservationList& list, int lists_since) {
     const tracks::ObservationId which{list.id, static_cast<std::uint16_t>(assigned[i]), list.measured};
     mend(track, object, which, list.observations[which.index], when, then_.tracks[i]);
   }
-  tracks::parts::confirm_and_end(set_, tracker_.config(), tracker_.estimator());
+  tracker_.confirm_and_end(set_);
   align();
   return true;
 }

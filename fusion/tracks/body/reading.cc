@@ -21,7 +21,9 @@ SeenPoint read_otherwise(SeenPoint seen) {
     case SeenPoint::kSide: return SeenPoint::kEnd;
     case SeenPoint::kCentre:
     case SeenPoint::kCorner:
-    case SeenPoint::kSilhouette: return seen;
+    case SeenPoint::kSilhouette:
+    case SeenPoint::kRightmost:
+    case SeenPoint::kLeftmost: return seen;
   }
   return seen;
 }
