@@ -14,8 +14,9 @@ LaserPreprocessing::LaserPreprocessing(const schedules::model::Cluster& cluster,
       signals_(nodes::host::bind_element<12>(cluster, layout_written(cluster, task, "objects"),
                                              {"x", "y", "heading", "length", "width", "sigma_x", "sigma_y",
                                               "correlation", "sigma_heading", "sigma_length", "sigma_width", "valid"})),
-      preprocessor_(config, static_cast<std::size_t>(layout_read(cluster, task, "raw").max_elements)) {
-  points_.reserve(static_cast<std::size_t>(layout_read(cluster, task, "raw").max_elements));
+      raw_room_(static_cast<std::size_t>(layout_read(cluster, task, "raw").max_elements)),
+      preprocessor_(config, raw_room_) {
+  points_.reserve(raw_room_);
   objects_.reserve(preprocessor_.most_objects());
 }
 
@@ -24,7 +25,7 @@ void LaserPreprocessing::process(nodes::host::StepContext& context, const nodes:
   read_list(context.inputs[0], raw_, [&](const std::array<double, 3>& values) {
     points_.push_back({static_cast<int>(std::lround(values[0])), values[1], values[2]});
   });
-  preprocessor_.process(points_, objects_);
+  preprocessor_.process(points_, objects_, points_.size() < raw_room_);
   nodes::host::Output& out = context.outputs[0];
   keep_nearest(objects_, out.layout().max_elements);
   out.begin(measurement.sequence, static_cast<int>(objects_.size()), measurement.at);
@@ -32,12 +33,11 @@ void LaserPreprocessing::process(nodes::host::StepContext& context, const nodes:
     const LaserObject& object = objects_[static_cast<std::size_t>(i)];
     using ttf::fusion::sensors::SeenPoint;
     const bool corner = object.seen == SeenPoint::kCorner;
-    const int valid = object.seen == SeenPoint::kRightmost  ? kRightmost
-                      : object.seen == SeenPoint::kLeftmost ? kLeftmost
-                                                            : (object.has_heading ? kValidHeading : 0) +
-                                                                  (object.has_length ? kValidLength : 0) +
-                                                                  (object.has_width ? kValidWidth : 0) +
-                                                                  (corner ? kValidCorner : 0);
+    const int valid = object.seen == SeenPoint::kRightmost ? kRightmost
+                      : object.seen == SeenPoint::kLeftmost
+                          ? kLeftmost
+                          : (object.has_heading ? kValidHeading : 0) + (object.has_length ? kValidLength : 0) +
+                                (object.has_width ? kValidWidth : 0) + (corner ? kValidCorner : 0);
     const double values[] = {object.x,
                              object.y,
                              object.heading,

@@ -20,6 +20,7 @@ class LaserPreprocessing final : public Preprocessing {
 
   std::array<std::size_t, 3> raw_;
   std::array<std::size_t, 12> signals_;
+  std::size_t raw_room_;  // a list of so many returns is full
   LaserPreprocessor preprocessor_;
   std::vector<ScanPoint> points_;
   std::vector<LaserObject> objects_;

@@ -74,7 +74,8 @@ LaserPreprocessor::LaserPreprocessor(const LaserPreprocessingConfig& config, std
   outlines_.reserve(most_points);
 }
 
-void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out) {
+void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out, bool is_whole) {
+  is_whole_ = is_whole;
   out.clear();
   outlines_.clear();
   fates_ = {};
@@ -139,7 +140,11 @@ OutlineEnds LaserPreprocessor::ends_of(const Segment& segment) const {
   const auto describe = [&](OutlineEnd& end, const PlanePoint& own, std::size_t neighbour) {
     end.held_gap_m = held_gap(config, own.range, config.azimuth_step_rad);
     end.hidden = std::abs(std::abs(own.azimuth) - config_.half_field_rad) < kNextBeam * config.azimuth_step_rad;
-    if (end.hidden || neighbour >= points_.size()) return;
+    if (end.hidden) return;
+    if (neighbour >= points_.size()) {
+      end.hidden = neighbour == points_.size() && !is_whole_;
+      return;
+    }
     const PlanePoint& other = points_[neighbour];
     end.hidden = std::abs(other.azimuth - own.azimuth) < kNextBeam * config.azimuth_step_rad && other.range < own.range;
   };

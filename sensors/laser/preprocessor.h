@@ -65,8 +65,8 @@ class LaserPreprocessor {
   // Reserves room for `most_points`, the points of the largest scan. A scan never has more segments than points.
   LaserPreprocessor(const LaserPreprocessingConfig& config, std::size_t most_points);
   // Fills `out` with the scan's objects by azimuth, right to left. Allocates only if `out` lacks room for
-  // most_objects().
-  void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out);
+  // most_objects(). A scan of which the list had no room for all returns ends at its last one: what lies there is cut.
+  void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out, bool is_whole = true);
   const SegmentFates& fates() const { return fates_; }  // for the last scan
   // The segments of the last scan that no vehicle fits, by azimuth: too long, too thin or too rough. They are spans of
   // its returns, which are valid until the next scan.
@@ -79,6 +79,7 @@ class LaserPreprocessor {
 
   LaserPreprocessingConfig config_;
   std::size_t most_points_;
+  bool is_whole_ = true;
   std::vector<PlanePoint> points_;
   std::vector<Segment> segments_;
   std::vector<std::span<const PlanePoint>> outlines_;

@@ -15,6 +15,8 @@
 namespace ttf::sensors::laser {
 namespace {
 
+using ttf::fusion::sensors::SeenPoint;
+
 std::vector<sim::world::ObjectState> fan() {
   std::vector<sim::world::ObjectState> cars;
   for (int k = 0; k < 12; ++k) {
@@ -107,13 +109,12 @@ TEST(LaserPreprocessor, AnEndBehindANearerObjectIsNoEndOfAFace) {
   for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
     preprocessor.process(emulated_scan({}, {rear}, sequence), objects);
     ASSERT_EQ(objects.size(), 1U);
-    EXPECT_EQ(objects[0].seen, ttf::fusion::sensors::SeenPoint::kEnd);
+    EXPECT_EQ(objects[0].seen, SeenPoint::kEnd);
     for (const double y : {-1.1, 1.1}) {
       preprocessor.process(emulated_scan({}, {rear, car_at(12.2, y, 0.0, 4.4, 1.8, 1)}, sequence), objects);
       ASSERT_EQ(objects.size(), 2U);
       const LaserObject& far = objects[0].x > objects[1].x ? objects[0] : objects[1];
-      EXPECT_EQ(far.seen,
-                y < 0.0 ? ttf::fusion::sensors::SeenPoint::kLeftmost : ttf::fusion::sensors::SeenPoint::kRightmost)
+      EXPECT_EQ(far.seen, y < 0.0 ? SeenPoint::kLeftmost : SeenPoint::kRightmost)
           << "0.4 m of 1.8 m are hidden at " << y;
       EXPECT_FALSE(far.has_heading || far.has_length || far.has_width);
       preprocessor.process(emulated_scan({}, {side, car_at(12.2, y, 0.0, 4.4, 1.8, 1)}, sequence), objects);
@@ -121,6 +122,24 @@ TEST(LaserPreprocessor, AnEndBehindANearerObjectIsNoEndOfAFace) {
         EXPECT_TRUE(o.x < 15.0 || !o.has_length) << "part of a side is hidden at " << y;
     }
   }
+}
+
+// The list has no room for the left part of a side.
+TEST(LaserPreprocessor, AScanThatIsNotWholeCutsItsLastObject) {
+  LaserPreprocessor preprocessor({}, kMostPoints);
+  std::vector<ScanPoint> scan = emulated_scan({}, {car_at(20.0, 0.0, std::numbers::pi / 2, 12.0, 2.5)}, 0);
+  std::vector<LaserObject> objects;
+  preprocessor.process(scan, objects);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].seen, SeenPoint::kSide);
+  EXPECT_NEAR(objects[0].length, 12.0, 0.3);
+  scan.resize(scan.size() / 2);
+  preprocessor.process(scan, objects, false);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].seen, SeenPoint::kRightmost);
+  EXPECT_FALSE(objects[0].has_length);
+  preprocessor.process(scan, objects);
+  EXPECT_EQ(objects[0].seen, SeenPoint::kSide) << "if nothing says that the scan is not whole";
 }
 
 // The field ends in the middle of a rear 30 m away.

@@ -13,18 +13,11 @@
 #include <vector>
 
 #include "fusion/motion/angles.h"
+#include "tests/fusion/class_reports.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion::tracks::parts {
 namespace {
-
-config::TrackerConfig with_classes(std::initializer_list<std::string_view> names = {}) {
-  config::TrackerConfig config;
-  for (const config::ClassPrior& prior : config::kClassPriors)
-    if (names.size() == 0 || std::find(names.begin(), names.end(), prior.name) != names.end())
-      config.classes.push_back(prior);
-  return config;
-}
 
 std::string class_of(const Bench& bench) {
   if (bench.set.tracks.size() != 1) return "not one track";
@@ -44,12 +37,6 @@ sensors::Observation rear(double width, double sigma) {
   z.sigma_heading = 0.02;
   z.width = width;
   z.sigma_width = sigma;
-  return z;
-}
-
-sensors::Observation reported(sensors::Observation z, std::size_t id) {
-  z.class_id = static_cast<sensors::ClassId>(id);
-  z.score = 1.0;
   return z;
 }
 

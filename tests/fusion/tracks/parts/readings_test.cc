@@ -8,6 +8,7 @@
 
 #include "fusion/tracks/parts/classes.h"
 #include "fusion/tracks/timeline.h"
+#include "tests/fusion/class_reports.h"
 #include "tests/fusion/scenes.h"
 #include "tests/support/allocation_counter.h"
 
@@ -15,16 +16,6 @@ namespace ttf::fusion::tracks::parts {
 namespace {
 
 using sensors::SeenPoint;
-
-config::TrackerConfig with_classes(std::initializer_list<std::string_view> names = {}) {
-  config::TrackerConfig config;
-  for (const config::ClassPrior& prior : config::kClassPriors) {
-    bool listed = names.size() == 0;
-    for (const std::string_view name : names) listed = listed || name == prior.name;
-    if (listed) config.classes.push_back(prior);
-  }
-  return config;
-}
 
 // A face that a laser calls an end.
 sensors::Observation end_of(double x, double y, double size, double sigma) {
@@ -34,12 +25,6 @@ sensors::Observation end_of(double x, double y, double size, double sigma) {
   z.sigma_heading = 0.02;
   z.width = size;
   z.sigma_width = sigma;
-  return z;
-}
-
-sensors::Observation reported(sensors::Observation z, std::size_t id) {
-  z.class_id = static_cast<sensors::ClassId>(id);
-  z.score = 1.0;
   return z;
 }
 
