@@ -13,7 +13,7 @@ namespace ttf::fusion::sensors {
 struct Resolution {
   double range_m = 0.0;
   double across_m = 0.0;
-  double azimuth_sigma_rad = 0.0;  // of one return
+  double azimuth_sigma_rad = 0.0;  // a return has this error
   double rate_mps = 0.0;
   double transverse_speed_mps = 0.0;                               // objects pass the sensor this fast, at most
   double rate_span_mps = std::numeric_limits<double>::infinity();  // range rates are known up to multiples of this

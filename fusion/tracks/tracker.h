@@ -2,7 +2,7 @@
 //   1. tracks are predicted to it; those that were silent for long end (given_up() in fusion/tracks/track.h);
 //   2. its observations are associated with them (fusion/tracks/parts/association.h), of the pairs in the gate
 //      (fusion/tracks/parts/gate.h) of the point that each track follows (fusion/tracks/parts/referral.h). What a radar cannot
-//      tell apart belongs to none (fusion/tracks/parts/unresolved.h);
+//      tell apart belongs to none (fusion/tracks/resolution/unresolved.h);
 //   3. each track counts the list, if its sensor could have seen the object (fusion/tracks/parts/visibility.h), and is corrected
 //      by what belongs to it: its existence (fusion/tracks/parts/existence.h), motion, heading and extent
 //      (fusion/tracks/parts/extents.h), and what is carried along (fusion/tracks/unfiltered.h);
@@ -33,7 +33,7 @@
 #include "fusion/tracks/parts/overlaps.h"
 #include "fusion/tracks/parts/referral.h"
 #include "fusion/tracks/parts/twins.h"
-#include "fusion/tracks/parts/unresolved.h"
+#include "fusion/tracks/resolution/unresolved.h"
 #include "fusion/tracks/parts/visibility.h"
 #include "fusion/tracks/track_set.h"
 
@@ -82,7 +82,7 @@ class Tracker {
   parts::Referral referral_;
   parts::Gate gate_;
   parts::Association association_;
-  parts::Unresolved unresolved_;
+  resolution::Unresolved unresolved_;
   parts::JointUpdate joint_update_;
   parts::Twins twins_;
   parts::Overlaps overlaps_;

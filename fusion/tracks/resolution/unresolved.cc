@@ -1,4 +1,4 @@
-#include "fusion/tracks/parts/unresolved.h"
+#include "fusion/tracks/resolution/unresolved.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 
 #include "fusion/motion/angles.h"
 
-namespace ttf::fusion::tracks::parts {
+namespace ttf::fusion::tracks::resolution {
 namespace {
 
 constexpr double kThree = 3.0;
 
 // Widens the bounds by the uncertainty of the track.
-body::ReturnBounds widened(body::ReturnBounds bounds, const body::SeenBox& box, const estimators::Cartesian& estimate) {
+ReturnBounds widened(ReturnBounds bounds, const body::SeenBox& box, const estimators::Cartesian& estimate) {
   const double range = std::max(0.1, box.centre.norm());
   const linear::Vector<2> sight = box.centre / range, left(-sight.y(), sight.x());
   const linear::Matrix<2> p = estimate.p.topLeftCorner<2, 2>(), v = estimate.p.block<2, 2>(2, 2);
@@ -31,7 +31,7 @@ bool holds(const body::SeenBox& box, const linear::Vector<2>& place, double sigm
 }
 
 // Returns whether the detection lies within the bounds of both outlines together.
-bool among(const sensors::Observation& z, const body::ReturnBounds& a, const body::ReturnBounds& b) {
+bool among(const sensors::Observation& z, const ReturnBounds& a, const ReturnBounds& b) {
   const double middle = 0.5 * (a.low(1) + a.high(1));
   const auto from_middle = [&](double bearing) { return motion::to_half_turn(bearing - middle); };
   const double other = from_middle(0.5 * (b.low(1) + b.high(1))), half = 0.5 * (b.high(1) - b.low(1));
@@ -50,7 +50,7 @@ Unresolved::Unresolved(const config::TrackerConfig& config, std::size_t max_trac
 }
 
 void Unresolved::see(const std::vector<Track>& tracks, const estimators::Estimator& estimator,
-                     const Visibility& visibility) {
+                     const parts::Visibility& visibility) {
   seen_.clear();
   largest_ = 0.0;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -66,7 +66,7 @@ void Unresolved::see(const std::vector<Track>& tracks, const estimators::Estimat
 
 void Unresolved::share(Seen& a, Seen& b, const std::vector<Track>& tracks, const sensors::ObservationList& list,
                        const sensors::Resolution& resolution, const estimators::Estimator& estimator,
-                       Association& association) {
+                       parts::Association& association) {
   for (Seen* seen : {&a, &b}) {
     if (seen->bounded) continue;
     seen->bounded = true;
@@ -74,11 +74,11 @@ void Unresolved::share(Seen& a, Seen& b, const std::vector<Track>& tracks, const
     seen->box = body::seen_box(track, estimator, list.observations.front().from);
     const estimators::Cartesian estimate = estimator.cartesian(track.estimate);
     seen->variance = estimate.p.topLeftCorner<2, 2>().diagonal().maxCoeff();
-    seen->bounds = widened(body::bounds_of(seen->box), seen->box, estimate);
+    seen->bounds = widened(bounds_of(seen->box), seen->box, estimate);
   }
   const double sigma = std::sqrt(a.variance + b.variance);
   if (holds(a.box, b.box.centre, sigma) || holds(b.box, a.box.centre, sigma)) return;
-  if (!body::may_join(a.bounds, b.bounds, resolution)) return;
+  if (!may_join(a.bounds, b.bounds, resolution)) return;
   bool joined = association.observation_of()[a.track] >= 0 || association.observation_of()[b.track] >= 0;
   if (!joined)
     for (std::size_t o = 0; o < list.observations.size(); ++o)
@@ -91,10 +91,9 @@ void Unresolved::share(Seen& a, Seen& b, const std::vector<Track>& tracks, const
   shared_[a.track] = shared_[b.track] = 1;
 }
 
-// The way between the anchors of joined outlines is no longer than the gates and both diagonals; their errors are
-// left out, as far as one that is unsure by more than a gate's width is near to everything.
+// Outlines that may join have anchors within the gates and both diagonals of each other.
 void Unresolved::judge(const std::vector<Track>& tracks, const sensors::ObservationList& list,
-                       const estimators::Estimator& estimator, const Visibility& visibility, Association& association) {
+                       const estimators::Estimator& estimator, const parts::Visibility& visibility, parts::Association& association) {
   any_ = false;
   const sensors::KnownSensor* sensor = sensors::known(sensors_, list.id.sensor);
   if (!sensor || !sensor->resolution || list.observations.empty() || association.is_joint()) return;
@@ -115,4 +114,4 @@ void Unresolved::judge(const std::vector<Track>& tracks, const sensors::Observat
   if (any_) association.withdraw(shared_, tracks, list);
 }
 
-}  // namespace ttf::fusion::tracks::parts
+}  // namespace ttf::fusion::tracks::resolution

@@ -1,5 +1,5 @@
 // Detections that two bodies share: sampled returns of two cars side by side, joined to one detection.
-#include "fusion/tracks/parts/unresolved.h"
+#include "fusion/tracks/resolution/unresolved.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "tests/fusion/scenes.h"
 #include "tests/fusion/tracks/body/drawn_outline.h"
 
-namespace ttf::fusion::tracks {
+namespace ttf::fusion::tracks::resolution {
 namespace {
 
 using body::DrawnOutline;
@@ -162,4 +162,4 @@ TEST(Unresolved, CarsWithADetectionEachAreCorrected) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion::tracks
+}  // namespace ttf::fusion::tracks::resolution

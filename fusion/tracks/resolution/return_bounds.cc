@@ -1,11 +1,11 @@
-#include "fusion/tracks/body/return_bounds.h"
+#include "fusion/tracks/resolution/return_bounds.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "fusion/motion/angles.h"
 
-namespace ttf::fusion::tracks::body {
+namespace ttf::fusion::tracks::resolution {
 namespace {
 
 constexpr double kNearest = 0.1;  // [m]
@@ -14,7 +14,7 @@ constexpr double kNearest = 0.1;  // [m]
 
 // In the axes of the box. A corner is visible if one of its sides faces the sensor. Between two visible corners the range is nearest
 // where the sensor is beside the side.
-ReturnBounds bounds_of(const SeenBox& outline) {
+ReturnBounds bounds_of(const body::SeenBox& outline) {
   const linear::Vector<2> along(std::cos(outline.box.heading), std::sin(outline.box.heading)),
       across(-along.y(), along.x()), half = 0.5 * outline.box.size;
   const linear::Vector<2> sensor(-along.dot(outline.centre), -across.dot(outline.centre));
@@ -51,4 +51,4 @@ bool may_join(const ReturnBounds& a, const ReturnBounds& b, const sensors::Resol
          resolution.joins(range, further, std::min(turn + half(1), std::nextafter(allowed, 0.0)), faster);
 }
 
-}  // namespace ttf::fusion::tracks::body
+}  // namespace ttf::fusion::tracks::resolution

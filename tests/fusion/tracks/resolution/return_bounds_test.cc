@@ -1,5 +1,5 @@
 // The bounds of returns over outlines, against drawn points.
-#include "fusion/tracks/body/return_bounds.h"
+#include "fusion/tracks/resolution/return_bounds.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,10 @@
 #include "tests/fusion/scenes.h"
 #include "tests/fusion/tracks/body/drawn_outline.h"
 
-namespace ttf::fusion::tracks::body {
+namespace ttf::fusion::tracks::resolution {
 namespace {
+
+using body::DrawnOutline, body::SeenBox, body::range_rate_of;
 
 SeenBox car(double x, double y, double heading, double speed, double turn_rate = 0.0) {
   SeenBox o;
@@ -62,4 +64,4 @@ TEST(ReturnBounds, JoinBehindTheSensorToo) {
 }
 
 }  // namespace
-}  // namespace ttf::fusion::tracks::body
+}  // namespace ttf::fusion::tracks::resolution

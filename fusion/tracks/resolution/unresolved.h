@@ -1,7 +1,7 @@
 // Detections of a radar that two bodies share, since its preprocessing joins their returns to one
 // (fusion/sensors/resolution.h).
 //
-// Two confirmed bodies are unresolved if returns of their outlines may be joined (fusion/tracks/body/return_bounds.h), by their
+// Two confirmed bodies are unresolved if returns of their outlines may be joined (fusion/tracks/resolution/return_bounds.h), by their
 // places and range rates, up to three standard deviations. Two detections, one for each, still show them apart. A single one is the
 // mean of both outlines, with an unknown share of each. The share depends on their cross-sections and is much the same from list to
 // list, so that no mean over lists removes its error. So the detection corrects neither track, and the list counts neither for nor
@@ -22,12 +22,12 @@
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/observation.h"
-#include "fusion/tracks/body/return_bounds.h"
+#include "fusion/tracks/resolution/return_bounds.h"
 #include "fusion/tracks/parts/association.h"
 #include "fusion/tracks/parts/visibility.h"
 #include "fusion/tracks/track.h"
 
-namespace ttf::fusion::tracks::parts {
+namespace ttf::fusion::tracks::resolution {
 
 class Unresolved {
  public:
@@ -36,7 +36,7 @@ class Unresolved {
   // Judges the list, which was associated, and takes shared observations from their tracks. The visibility is that of tracks without
   // an observation.
   void judge(const std::vector<Track>& tracks, const sensors::ObservationList& list,
-             const estimators::Estimator& estimator, const Visibility& visibility, Association& association);
+             const estimators::Estimator& estimator, const parts::Visibility& visibility, parts::Association& association);
   // Returns whether a track of the list that was judged last shares its observation.
   bool of(std::size_t track) const { return any_ && shared_[track]; }
 
@@ -47,11 +47,11 @@ class Unresolved {
     bool bounded = false;                              // the rest holds
     body::SeenBox box;
     double variance = 0.0;      // of the position, the larger one [m^2]
-    body::ReturnBounds bounds;  // with three standard deviations
+    ReturnBounds bounds;  // with three standard deviations
   };
-  void see(const std::vector<Track>& tracks, const estimators::Estimator& estimator, const Visibility& visibility);
+  void see(const std::vector<Track>& tracks, const estimators::Estimator& estimator, const parts::Visibility& visibility);
   void share(Seen& a, Seen& b, const std::vector<Track>& tracks, const sensors::ObservationList& list,
-             const sensors::Resolution& resolution, const estimators::Estimator& estimator, Association& association);
+             const sensors::Resolution& resolution, const estimators::Estimator& estimator, parts::Association& association);
 
   std::vector<sensors::KnownSensor> sensors_;
   std::vector<Seen> seen_;
@@ -60,4 +60,4 @@ class Unresolved {
   std::vector<char> shared_;  // by track
 };
 
-}  // namespace ttf::fusion::tracks::parts
+}  // namespace ttf::fusion::tracks::resolution
