@@ -33,8 +33,8 @@
 #include "fusion/tracks/parts/overlaps.h"
 #include "fusion/tracks/parts/referral.h"
 #include "fusion/tracks/parts/twins.h"
-#include "fusion/tracks/resolution/unresolved.h"
 #include "fusion/tracks/parts/visibility.h"
+#include "fusion/tracks/resolution/unresolved.h"
 #include "fusion/tracks/track_set.h"
 
 namespace ttf::fusion::tracks {

@@ -93,7 +93,8 @@ void Unresolved::share(Seen& a, Seen& b, const std::vector<Track>& tracks, const
 
 // Outlines that may join have anchors within the gates and both diagonals of each other.
 void Unresolved::judge(const std::vector<Track>& tracks, const sensors::ObservationList& list,
-                       const estimators::Estimator& estimator, const parts::Visibility& visibility, parts::Association& association) {
+                       const estimators::Estimator& estimator, const parts::Visibility& visibility,
+                       parts::Association& association) {
   any_ = false;
   const sensors::KnownSensor* sensor = sensors::known(sensors_, list.id.sensor);
   if (!sensor || !sensor->resolution || list.observations.empty() || association.is_joint()) return;

@@ -22,9 +22,9 @@
 #include "fusion/config/tracker_config.h"
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/observation.h"
-#include "fusion/tracks/resolution/return_bounds.h"
 #include "fusion/tracks/parts/association.h"
 #include "fusion/tracks/parts/visibility.h"
+#include "fusion/tracks/resolution/return_bounds.h"
 #include "fusion/tracks/track.h"
 
 namespace ttf::fusion::tracks::resolution {
@@ -36,7 +36,8 @@ class Unresolved {
   // Judges the list, which was associated, and takes shared observations from their tracks. The visibility is that of tracks without
   // an observation.
   void judge(const std::vector<Track>& tracks, const sensors::ObservationList& list,
-             const estimators::Estimator& estimator, const parts::Visibility& visibility, parts::Association& association);
+             const estimators::Estimator& estimator, const parts::Visibility& visibility,
+             parts::Association& association);
   // Returns whether a track of the list that was judged last shares its observation.
   bool of(std::size_t track) const { return any_ && shared_[track]; }
 
@@ -46,12 +47,14 @@ class Unresolved {
     linear::Vector<2> at = linear::Vector<2>::Zero();  // the anchor [m]
     bool bounded = false;                              // the rest holds
     body::SeenBox box;
-    double variance = 0.0;      // of the position, the larger one [m^2]
-    ReturnBounds bounds;  // with three standard deviations
+    double variance = 0.0;  // of the position, the larger one [m^2]
+    ReturnBounds bounds;    // with three standard deviations
   };
-  void see(const std::vector<Track>& tracks, const estimators::Estimator& estimator, const parts::Visibility& visibility);
+  void see(const std::vector<Track>& tracks, const estimators::Estimator& estimator,
+           const parts::Visibility& visibility);
   void share(Seen& a, Seen& b, const std::vector<Track>& tracks, const sensors::ObservationList& list,
-             const sensors::Resolution& resolution, const estimators::Estimator& estimator, parts::Association& association);
+             const sensors::Resolution& resolution, const estimators::Estimator& estimator,
+             parts::Association& association);
 
   std::vector<sensors::KnownSensor> sensors_;
   std::vector<Seen> seen_;
