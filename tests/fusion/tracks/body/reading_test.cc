@@ -37,13 +37,13 @@ TEST(Reading, AnEndIsASideOfTheSameFaceAndBackAgain) {
   EXPECT_TRUE(side.has_length && !side.has_width);
   EXPECT_EQ(side.length, 2.1);
   EXPECT_EQ(side.sigma_length, 0.05);
-  EXPECT_NEAR(side.heading, 0.3 + 0.5 * kPi, 1e-15);
+  EXPECT_NEAR(side.heading, 0.3 + 0.5 * kPi, 1e-12);
   EXPECT_EQ(side.z, end.z);
   EXPECT_EQ(side.r, end.r);
   EXPECT_EQ(back.seen, SeenPoint::kEnd);
   EXPECT_TRUE(back.has_width && !back.has_length);
   EXPECT_EQ(back.width, 2.1);
-  EXPECT_NEAR(nearest_half_turn(back.heading, end.heading), end.heading, 1e-15);
+  EXPECT_NEAR(nearest_half_turn(back.heading, end.heading), end.heading, 1e-12);
   for (const SeenPoint seen : {SeenPoint::kCorner, SeenPoint::kSilhouette, SeenPoint::kCentre}) {
     sensors::Observation z = end;
     z.seen = seen;
