@@ -38,7 +38,7 @@ class Overlaps {
   };
   static Near near_of(const Track& track, std::size_t index, const estimators::Estimator& estimator);
 
-  std::vector<Near> by_x_;   // of confirmed tracks
+  std::vector<Near> by_x_;   // confirmed tracks
   std::vector<char> ended_;  // by track
 };
 

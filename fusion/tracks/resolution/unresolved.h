@@ -47,7 +47,7 @@ class Unresolved {
     linear::Vector<2> at = linear::Vector<2>::Zero();  // the anchor [m]
     bool bounded = false;                              // the rest holds
     body::SeenBox box;
-    double variance = 0.0;  // of the position, the larger one [m^2]
+    double variance = 0.0;  // the position's larger one [m^2]
     ReturnBounds bounds;    // with three standard deviations
   };
   void see(const std::vector<Track>& tracks, const estimators::Estimator& estimator,
