@@ -116,11 +116,11 @@ ANSWER = """# Who collides?
 
     a command
 
-| fault | paradigm | collisions | error [m] | change [%] |
-|---|---|---|---|---|
-| crash | tt | 3 | 0.50 ± 0.10 | **-27 (-29 to -24)** |
-| crash | adva | 1 | 0.204 ± 0.020 | 0 (-2 to +1) |
-| none | tt | 0 | 0.10 ± 0.30 | - |
+| fault | paradigm | collisions | error [m] | change [%] | seed 2 |
+|---|---|---|---|---|---|
+| crash | tt | 3 | 0.50 ± 0.10 | **-27 (-29 to -24)** | -31..-25 |
+| crash | adva | 1 | 0.204 ± 0.020 | 0 (-2 to +1) | -1..+2 |
+| none | tt | 0 | 0.10 ± 0.30 | - | - |
 
     harmed: 9
 """
@@ -135,7 +135,7 @@ class Sentences(unittest.TestCase):
             (root / "docs/results").mkdir(parents=True)
             (root / "docs/results/page.md").write_text(ANSWER.format(sentence, directive))
             page = sentences_test.Page(root / "docs/results/page.md")
-            return sentences_test.problems_of(page, {}) + sentences_test.unheld(page)
+            return sentences_test.problems_of(page, {}) + sentences_test.unheld(page.answer())
 
     def holds(self, sentence: str, directive: str):
         self.assertEqual(self.problems(sentence, directive), [])
@@ -158,6 +158,28 @@ class Sentences(unittest.TestCase):
         self.holds("It has 27 % (24 to 29) less.", "27 % (24 to 29) = -t(1,'crash|tt','change*')")
         self.fails("It has 27 % (25 to 29) less.", "27 % (25 to 29) = -t(1,'crash|tt','change*')", "is 27, 24, 29")
         self.fails("It has 27 ± 3 % less.", "27 ± 3 % = -t(1,'crash|tt','change*')", "is 27, nan")
+
+    def test_intervals_are_taken_together_by_their_ends(self):
+        expression = "span([-x for x in ends(t(1,'crash|tt','change*|seed 2'))])"
+        self.holds("It has 24 to 31 % less.", f"24 to 31 % = {expression}")
+        self.fails("It has 25 to 31 % less.", f"25 to 31 % = {expression}", "is 24, 31")
+        self.holds("It has -2 to +2 % more.", "-2 to +2 % = span(ends(t(1,'crash|adva','change*|seed 2')))")
+        self.holds("It has 0.4 to 0.6 m.", "0.4 to 0.6 m = span(ends(t(1,'crash|tt','error*')))")
+
+    def test_numbers_of_a_lists_items_are_no_figures(self):
+        self.holds("1. In 3 drives.\n2. In 1 drive.", "3 = t(1,'crash|tt','collisions'); 1 = t(1,'crash|adva','collisions')")
+        self.fails("1. In 3 drives.\n2. In 1 drive.", "3 = t(1,'crash|tt','collisions')", "1 is not accounted for")
+
+    def test_a_section_with_its_table_is_held_like_an_answer(self):
+        with tempfile.TemporaryDirectory() as folder:
+            readme = pathlib.Path(folder) / "README.md"
+            readme.write_text("# One\n\nIn 9 ways.\n\n**The answer.** All:\n\n| a |\n|---|\n| 3 % |\n\n## Other\n\n| b |\n|---|\n| 4 |\n")
+            page = sentences_test.Page(readme)
+            self.assertEqual(sentences_test.unheld(page.sections("**The answer.**")),
+                             ["the answer has figures and no <!-- says: ... -->: | a | |---| | 3 % | ..."])
+            self.assertEqual(len(sentences_test.unheld(page.sections("# One"))), 2)
+            with self.assertRaisesRegex(sentences_test.Wrong, "no line begins with"):
+                page.sections("**The short answer.**")
 
     def test_ratios_to_their_last_digit(self):
         self.holds("It is 2.5 times as large.", "2.5 = ratio(t(1,'crash|tt','error*'),t(1,'crash|adva','error*'))")

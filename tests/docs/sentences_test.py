@@ -24,13 +24,16 @@ A directive stands behind a paragraph, and accounts for every figure in digits t
                                  each over its base, in per cent of it, less it, and with it
     between(CELLS, LOW, HIGH), signed(CELLS)
                                  the cells from LOW to HIGH; those whose interval excludes 0
+    ends(CELLS)                  both ends of each cell's interval; a cell without an interval is both of its ends
     half(CELL), squared(CELL)    the interval's half width; the square
 
 A cell has a mean, and an interval if the table prints one: "13 ± 10" are mean and half width, "13 (4 to 21)" mean and ends.
+"-29..-23" are two cells, the ends of an interval.
 A figure holds if it is the expression's value to its last digit; the cells' own rounding is allowed for. A fraction in
 words may be off by an eighth of itself.
 
-The answers in docs/results.md take their figures from the answers of their pages: each figure is there, too.
+README.md's answer, and short answer and range of docs/results.md, have directives, too. The other answers in docs/results.md take
+their figures from the answers of their pages: each figure is there, too.
 """
 import fnmatch
 import json
@@ -44,6 +47,7 @@ COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 NUMBER = re.compile(r"(?<![\w.,])[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?![\w]*[A-Za-z_]\d)")
 BLOCK = re.compile(r"^```.*?^```$|^    [^\n]*$", re.DOTALL | re.MULTILINE)
 UNREAD = re.compile(r"`[^`]*`|\]\([^)]*\)|\*\*")   # code, links' targets and marks have no figures
+ITEM = re.compile(r"^\d+\. ", re.MULTILINE)          # the number of a list's item is no figure, either
 WORDS = {"none": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
          "ten": 10, "eleven": 11, "twelve": 12}
 PARTS = {"half": 1 / 2, "third": 1 / 3, "quarter": 1 / 4, "fifth": 1 / 5, "sixth": 1 / 6, "seventh": 1 / 7, "eighth": 1 / 8,
@@ -122,7 +126,7 @@ def number(text):
 
 def figures_of(cell):
     """The figures of a table's cell, most often one."""
-    text = cell.replace("*", "").replace("−", "-").strip()
+    text = cell.replace("*", "").replace("−", "-").replace("..", " to ").strip()
     parts = NUMBER.findall(text)
     if not parts:
         return []
@@ -208,9 +212,16 @@ class Page:
         body = self.text.split("\n", 1)[1]
         return re.split(r"^(?:#|    |\||```|<!-- table)", body, maxsplit=1, flags=re.MULTILINE)[0]
 
+    def sections(self, *begins):
+        """The text from each of these beginnings of lines to the next heading, tables included."""
+        found = [re.search(rf"^{re.escape(begin)}.*?(?=^#|\Z)", self.text, re.DOTALL | re.MULTILINE) for begin in begins]
+        if None in found:
+            raise Wrong(f"no line begins with '{begins[found.index(None)]}'")
+        return "\n\n".join(match[0] for match in found)
+
 
 def read(text):
-    return UNREAD.sub(" ", " ".join(text.split()))
+    return UNREAD.sub(" ", " ".join(ITEM.sub("", text).split()))
 
 
 def span(*values):
@@ -233,6 +244,11 @@ def ends(value):
     return value.low, value.high
 
 
+def ends_of(values):
+    """Both ends of each interval. The means are not among them."""
+    return [plain(end) for value in flat([values]) for end in (ends(value) if ends(value)[0] is not None else (value, value))]
+
+
 def half(value):
     """An interval's half width, with the rounding of its last digit."""
     if value.half is None:
@@ -250,7 +266,7 @@ def names_of(page):
     return {"__builtins__": {}, "abs": abs, "len": len, "t": page.cell, "of": of, "printed": page.printed, "span": span,
             "share": lambda v, b: each(lambda x, y: 100 * x / y, v, b),
             "least": lambda *v: span(*v)[0], "most": lambda *v: span(*v)[1], "ratio": lambda v, b: each(lambda x, y: x / y, v, b),
-            "minus": lambda v, b: each(lambda x, y: x - y, v, b), "signed": signed, "half": half, "plus": lambda v, b: each(lambda x, y: x + y, v, b), "squared": lambda x: x * x,
+            "minus": lambda v, b: each(lambda x, y: x - y, v, b), "signed": signed, "ends": ends_of, "half": half, "plus": lambda v, b: each(lambda x, y: x + y, v, b), "squared": lambda x: x * x,
             "between": lambda v, low, high: [x for x in flat([v]) if low <= x.value <= high], "change": page.change,
             "kept": lambda *asked: Figure(page.kept(*asked)["mean"])}
 
@@ -324,9 +340,9 @@ def problems_of(page, counts):
     return found
 
 
-def unheld(page):
-    """Paragraphs of the answer with figures and without a directive."""
-    return [f"the answer has figures and no <!-- says: ... -->: {read(block)[:60]} ..." for block in page.answer().strip().split("\n\n")
+def unheld(answer):
+    """Paragraphs of an answer with figures and without a directive."""
+    return [f"the answer has figures and no <!-- says: ... -->: {read(block)[:60]} ..." for block in answer.strip().split("\n\n")
             if "<!-- says:" not in block and NUMBER.search(read(COMMENT.sub("", block)))]
 
 
@@ -347,19 +363,21 @@ def problems_of_answers(index):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     counts, failed = {}, 0
-    pages = sorted((root / "docs/results").glob("*.md"))
-    for path in [*pages, root / "docs/results.md"]:
+    index, readme = root / "docs/results.md", root / "README.md"
+    answers = {index: ("**The short answer.**", "## The range"), readme: ("**The answer.**",)}
+    pages = [*sorted((root / "docs/results").glob("*.md")), index, readme]
+    for path in pages:
         page = Page(path)
         try:
-            found = problems_of(page, counts)
+            found = problems_of(page, counts) + unheld(page.sections(*answers[path]) if path in answers else page.answer())
         except Wrong as wrong:
             found = [str(wrong)]
-        found += unheld(page) if path in pages else problems_of_answers(page)
+        found += problems_of_answers(page) if path == index else []
         for line in found:
             print(f"{path.relative_to(root)}: {line}")
         failed += len(found)
     if not failed:
-        print(f"{len(pages) + 1} pages: {counts.get('held', 0)} figures follow from tables, {counts.get('given', 0)} are conditions, "
+        print(f"{len(pages)} pages: {counts.get('held', 0)} figures follow from tables, {counts.get('given', 0)} are conditions, "
               f"{counts.get('apart', 0)} are of no table")
     return 1 if failed else 0
 
