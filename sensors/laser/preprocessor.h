@@ -65,7 +65,7 @@ class LaserPreprocessor {
   // Reserves room for `most_points`, the points of the largest scan. A scan never has more segments than points.
   LaserPreprocessor(const LaserPreprocessingConfig& config, std::size_t most_points);
   // Fills `out` with the scan's objects by azimuth, right to left. Allocates only if `out` lacks room for
-  // most_objects(). A scan of which the list had no room for all returns ends at its last one: what lies there is cut.
+  // most_objects(). Without `is_whole` the list had no room for all returns, and an object at the last one is cut.
   void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out, bool is_whole = true);
   const SegmentFates& fates() const { return fates_; }  // for the last scan
   // The segments of the last scan that no vehicle fits, by azimuth: too long, too thin or too rough. They are spans of

@@ -17,9 +17,9 @@
 //   - The outline ends up to one beam's step after its last beam, anywhere in between. An end is known only if the
 //     next beam would have met the same face near enough to be held together with it (segmentation.h), and if nothing
 //     nearer hides it.
-//   - Where nothing of this is known, and one end of the outline is hidden, the other end is stated: a corner of the vehicle, though
-//     not which one, with the direction into the face that ends there as its heading. The middle of such an outline would err by
-//     half of what is hidden, to the same side in scan after scan.
+//   - Where nothing of this is known, and one end of the outline is hidden, the other end is stated. It is a corner of the vehicle,
+//     though not which one. Its heading is the direction into the face that ends there. The middle of such an outline would err by
+//     half of the hidden part, to the same side in scan after scan.
 #pragma once
 
 #include <array>

@@ -30,7 +30,7 @@ namespace ttf::fusion::tracks::body {
 // An observed point relative to a track's anchor.
 struct Distance {
   Anchor to;                                               // the observed point
-  bool is_vague = false;                                   // the point of the object is unknown
+  bool is_vague = false;                                   // it may be another point
   linear::Vector<2> between = linear::Vector<2>::Zero();   // from the anchor to the point [m]
   linear::Matrix<2> by_size = linear::Matrix<2>::Zero();   // its derivatives by length and width
   linear::Matrix<2> constant = linear::Matrix<2>::Zero();  // covariance by the sizes, which repeats [m^2]

@@ -1,12 +1,12 @@
 // The two readings of a rectangle: which of its sides is the length.
 //
-// A sensor measures a face: its middle, its direction and how long it is. A truck's rear and a motorbike's side are alike in that. So
-// what a sensor calls an end of the width s with the axis h may be a side of the length s with the axis h + 90 degrees, and the other
-// way round. A corner stays a corner. The rectangle is the same in both readings; only the names of its sides and of its axes change.
-// Spans, returns and distances are the same, too.
+// A sensor measures a face: its middle, its direction and its length. A truck's rear and a motorbike's side are alike in that. A sensor
+// calls it an end of the width s with the axis h. It may be a side of the length s with the axis h + 90 degrees, and the other way round.
+// A corner stays a corner. The rectangle is the same in both readings. Only the names of its sides and axes change. Spans, returns and
+// distances are the same, too.
 //
-// So the axis of a body is measured up to a quarter turn, as it is up to half a turn without the front. An observation counts in the reading
-// that fits the body better, and the body as a whole may be read anew (fusion/tracks/parts/classes.h).
+// So the axis of a body is measured up to a quarter turn. Without the front it is up to half a turn. An observation counts in the
+// reading that fits the body better. The body as a whole may be read anew (fusion/tracks/parts/classes.h).
 #pragma once
 
 #include "fusion/estimators/estimator.h"

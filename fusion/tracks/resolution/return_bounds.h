@@ -7,7 +7,7 @@
 namespace ttf::fusion::tracks::resolution {
 
 // The least and the largest range [m], bearing [rad] and range rate [m/s] over a visible outline. Bearings are in the axes of the
-// tracks, about that of the outline's centre, so that they may exceed half a turn.
+// tracks. They lie about that of the outline's centre. They may exceed half a turn.
 struct ReturnBounds {
   linear::Vector<3> low = linear::Vector<3>::Zero(), high = linear::Vector<3>::Zero();
 };

@@ -3,9 +3,9 @@
 //
 // Two confirmed bodies are unresolved if returns of their outlines may be joined (fusion/tracks/resolution/return_bounds.h), by their
 // places and range rates, up to three standard deviations. Two detections, one for each, still show them apart. A single one is the
-// mean of both outlines, with an unknown share of each. The share depends on their cross-sections and is much the same from list to
-// list, so that no mean over lists removes its error. So the detection corrects neither track, and the list counts neither for nor
-// against them. It shows that something is there: no track ends by silence, and none begins.
+// mean of both outlines, with an unknown share of each. The share depends on their cross-sections and hardly changes from list to list.
+// No mean over lists removes its error. So the detection corrects neither track. The list counts neither for nor against them. It
+// shows that something is there: no track ends by silence, and none begins.
 //
 // Blair, Brandt-Pearce: "Unresolved Rayleigh target detection using monopulse measurements" (IEEE Transactions on Aerospace and
 // Electronic Systems 34, 1998); Koch, van Keuk: "Multiple hypothesis track maintenance with possibly unresolved measurements" (the

@@ -299,7 +299,7 @@ TEST(RectangleFit, AShortRearBesideALongSideLeavesItACornerOrASide) {
   }
 }
 
-// A nearer car hides the middle of one to the far end, from either side. The visible part ends at a true corner.
+// A nearer car hides the middle of one to the far end, from either side. The visible rest ends at a true corner.
 TEST(RectangleFit, TheFreeEndOfACutOutlineIsACorner) {
   double sum = 0.0;
   int ends = 0;
