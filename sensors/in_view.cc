@@ -61,7 +61,7 @@ InView::InView(std::vector<SensorView> sensors, std::size_t most_objects)
     : sensors_(std::move(sensors)), most_(most_objects) {
   std::stable_partition(sensors_.begin(), sensors_.end(),
                         [](const SensorView& sensor) { return sensor.field.shadow == 0.0; });
-  constexpr std::size_t kPieces = 2, kCutsOfAPiece = 2, kCutsOfAnOutline = 8;  // an edge crosses a circle twice
+  constexpr std::size_t kPieces = 2, kCutsOfAPiece = 2, kCutsOfAnOutline = 16;  // an edge crosses each of two circles twice
   seen_.reserve(most_);
   objects_.reserve(most_);
   for (auto* list : {&cuts_, &rays_})
@@ -118,6 +118,7 @@ double InView::add_unseen(const Field& field, std::size_t object) {
   }
   if (!add_silhouette(object, span_about(state, circle.bearing), -half_field, half_field)) return 0.0;
   if (circle.distance + circle.reach > field.max_range) cut_at_range(field.max_range, state);
+  if (circle.distance - circle.reach < field.min_range) cut_at_range(field.min_range, state);
   return circle.distance + circle.reach;
 }
 

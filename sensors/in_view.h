@@ -3,11 +3,11 @@
 // An object is in view of a sensor if a ray from the sensor meets its outline
 //   V1  in the field (fusion/sensors/known_sensor.h): within the half angle, in no blind sector, within the ranges, and
 //   V2  unhidden: a nearer outline hides all behind it, up to the share `shadow` of its own distance.
-// Such a part of it is enough. One sensor is, too. Nothing is drawn: an object whose echoes are weak is in view. A sensor within
+// A part of the outline is enough, and one sensor is enough. Nothing is drawn: an object whose echoes are weak is in view. A sensor within
 // an outline does not see that object. It sees through it.
 //
-// The rays part the plane into sectors. Their edges are the ends of outlines and of blind sectors. An outline that crosses the
-// largest range has edges there, too. All rays of a sector meet the same outlines in the same order, unless outlines overlap.
+// The rays part the plane into sectors. Their edges are the ends of outlines and of blind sectors. An outline that crosses an end of the
+// ranges has edges there, too. All rays of a sector meet the same outlines in the same order, unless outlines overlap.
 // So the middle of a sector decides. Another ray goes to the middle of each object. Cameras look there. The end of a finite
 // shadow may lie within a sector. These rays decide there, too. n objects take about n log n steps, and one for each outline
 // that a ray meets.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +25,7 @@ struct Pairs {
 // Sets `stays` of each pair. The probability of any false verdict is at most 1 - confidence.
 Pairs judged_together(std::vector<PairedDifference> pairs, double confidence);
 
-// Names each two paradigms with certain differences: "adva less than buff at 0.1 m and 40 m; tt less than buff at 5 of 9
+// Names each two paradigms with certain differences: "adva less than buff at 0.1 m and at 40 m; tt less than buff at 5 of 9
 // points". Up to three points are named, more are counted. A single point has no name. Returns "" if no pair is certain.
 std::string certain_pairs(const Pairs& pairs, std::span<const std::string> paradigms,
                           std::span<const std::string> points);

@@ -120,7 +120,7 @@ struct TrackerConfig {
   double merge_probability = 0.0;
   int merge_scans = 5;
   // The less certain one of two confirmed tracks in one place ends (fusion/tracks/parts/overlaps.h). Absent: it ends, unless late
-  // lists are fused by a method that cannot bring it back.
+  // lists are fused by a method that cannot restore an ended track.
   std::optional<bool> end_overlaps;
   bool ends_overlaps() const { return end_overlaps.value_or(late == oosm::Kind::kRewind); }
   // Where the file has these keys, for findings about the cluster or the recording; 0: nowhere.

@@ -9,6 +9,9 @@
 namespace ttf::fusion::sensors {
 namespace {
 
+// An axis, or the direction into a face.
+bool has_direction(const Observation& o) { return o.has_heading || is_outermost(o.seen); }
+
 void turn(Observation& o, double angle) {
   linear::Matrix<2> rotation;
   const double c = std::cos(angle), s = std::sin(angle);
@@ -17,7 +20,7 @@ void turn(Observation& o, double angle) {
   linear::Matrix<2> r = rotation * o.r.topLeftCorner<2, 2>() * rotation.transpose();
   linear::symmetrise<2>(r);
   o.r.topLeftCorner<2, 2>() = r;
-  if (o.has_heading) o.heading = motion::to_half_turn(o.heading + angle);
+  if (has_direction(o)) o.heading = motion::to_half_turn(o.heading + angle);
 }
 
 void correct_position(Observation& o, const SystematicErrors& errors) {
@@ -62,7 +65,7 @@ void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   const bool position = observation.kind == ObservationKind::kPosition;
   if (!position) {
     correct_polar(observation, sensor.errors);
-    if (observation.has_heading) observation.heading = motion::to_half_turn(observation.heading + sensor.mounting.yaw);
+    if (has_direction(observation)) observation.heading = motion::to_half_turn(observation.heading + sensor.mounting.yaw);
     return;
   }
   correct_position(observation, sensor.errors);
@@ -75,7 +78,7 @@ void carry(Observation& observation, const Mounting& vehicle) {
   if (observation.kind == ObservationKind::kPosition) {
     turn(observation, vehicle.yaw);
     observation.z.head<2>() += vehicle.position;
-  } else if (observation.has_heading) {
+  } else if (has_direction(observation)) {
     observation.heading = motion::to_half_turn(observation.heading + vehicle.yaw);
   }
 }

@@ -43,8 +43,8 @@ enum class SeenPoint : std::uint8_t {
   kSide,        // the middle of the near side
   kCorner,      // where near end and near side meet
   kSilhouette,  // the outline as seen: its mean distance, in the middle of its span
-  // The corner where a face ends on its right or left, as seen; the outline's other end is hidden. `heading` is the direction
-  // into the face, across it: that of an axis or across one.
+  // A corner: the right or left end of a face, as seen. The outline's other end is hidden. `heading` is the direction into the face,
+  // which may be an end or a side; has_heading is false.
   kRightmost,
   kLeftmost,
 };

@@ -20,10 +20,10 @@ struct Resolution {
 
   // Returns how far across returns may be that are joined, of which the nearer has this range [m].
   double across(double range) const {
-    constexpr double kThree = 4.25;  // three standard deviations of a difference
-    return across_m + kThree * range * azimuth_sigma_rad;
+    constexpr double kThreeOfADifference = 4.25;  // standard deviations of one
+    return across_m + kThreeOfADifference * range * azimuth_sigma_rad;
   }
-  // Returns whether returns are joined that differ so: [m], [rad], [m/s]. The nearer has this range [m].
+  // Returns whether two returns with these differences [m], [rad], [m/s] are joined. The nearer one has this range [m].
   bool joins(double range, double further, double turn, double faster) const {
     return std::abs(further) <= range_m && range * std::abs(turn) <= across(range) &&
            std::abs(std::remainder(faster, rate_span_mps)) <= rate_mps + transverse_speed_mps * std::abs(turn);

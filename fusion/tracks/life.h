@@ -27,7 +27,7 @@ struct Life {
   int lists = 0;                     // since birth, the first included
   int misses = 0;                    // lists in a row without an observation
   ObservationId birth, newest;       // the first observation and the last
-  GlobalTime shared{};               // the newest list whose observation of it was one of others, too
+  GlobalTime shared{};               // the newest list with an observation that it shares with other tracks
   double existence = 1.0;  // probability that the object exists (fusion/tracks/parts/existence.h); 1 for births m_of_n
 };
 

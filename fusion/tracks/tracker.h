@@ -7,9 +7,9 @@
 //      by what belongs to it: its existence (fusion/tracks/parts/existence.h), motion, heading and extent
 //      (fusion/tracks/parts/extents.h), and what is carried along (fusion/tracks/unfiltered.h);
 //   4. other observations begin tracks (fusion/tracks/parts/birth.h);
-//   5. tracks are confirmed and end (fusion/tracks/parts/confirmation.h);
-//   6. two tracks in one place, and two tracks of one object, become one (fusion/tracks/parts/overlaps.h,
-//      fusion/tracks/parts/twins.h).
+//   5. tracks are confirmed and end (fusion/tracks/parts/confirmation.h); of two in one place, the less certain one ends
+//      (fusion/tracks/parts/overlaps.h);
+//   6. two tracks of one object become one, if the configuration says so (fusion/tracks/parts/twins.h).
 //
 // M of N leaves out a list of a sensor that could not see the object, unless it has an observation of it. So a track that no
 // sensor can see ends by silence.

@@ -54,7 +54,8 @@ using OutlineEnds = std::array<OutlineEnd, 2>;  // at the smallest and at the la
 enum class VehicleShape : std::uint8_t { kVehicle, kPart, kThin, kRough };
 
 // Position of the seen point and its covariance. Heading [rad] of the vehicle's own axis, up to half a turn: known
-// unless it is a silhouette or the end of a cut outline. Length and width [m]. A value whose has_ flag is clear is 0.
+// unless it is a silhouette or the end of a cut outline. Length and width [m]. A value whose has_ flag is clear is 0, except the heading of a free end: the
+// direction into its face.
 struct LaserObject : ttf::fusion::sensors::PlanePosition {
   ttf::fusion::sensors::SeenPoint seen = ttf::fusion::sensors::SeenPoint::kSilhouette;
   double heading = 0, length = 0, width = 0;

@@ -65,7 +65,7 @@ def digits(text):
     whole, _, behind = text.lstrip("+-").replace(",", "").partition(".")
     if behind:
         return 10.0 ** -len(behind)
-    return 10.0 ** (len(whole) - len(whole.rstrip("0"))) if len(whole) > 3 else 1.0
+    return 10.0 ** min(len(whole) - len(whole.rstrip("0")), len(whole) - 2) if len(whole) > 3 else 1.0
 
 
 class Figure:
@@ -294,7 +294,8 @@ def problem_of(words, expression, page):
     """Why a figure does not follow, or ""."""
     try:
         result = eval(expression, names_of(page))  # the page's own words, with the names above alone
-    except (Wrong, TypeError, NameError, SyntaxError, ValueError, ZeroDivisionError, OSError, AttributeError) as wrong:
+    except (Wrong, TypeError, NameError, SyntaxError, ValueError, ZeroDivisionError, OSError, AttributeError, LookupError,
+            re.error) as wrong:
         return f"'{words}': {expression}: {wrong}"
     parts = parts_of(words)
     values = wanted_of(result, len(parts))

@@ -54,6 +54,7 @@ config::TrackerConfig Crossing::config() const {
   config.process_noise = process_noise;
   config.detection_probability = detection_probability;
   config.clutter_density = clutter_density;
+  config.end_overlaps = false;  // they pass through each other
   return config;
 }
 

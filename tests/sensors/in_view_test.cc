@@ -57,6 +57,15 @@ TEST(InView, TheNearestPartIsInTheRange) {
     // Aside, its near corner (99.8, 6.1) is in the range of 100 m; the middle of its silhouette is not.
     EXPECT_TRUE(in_view({ahead(0.5, 100.0, shadow)}, {car_at(0, 102.0, 7.0)})[0]);
     EXPECT_FALSE(in_view({ahead(0.5, 100.0, shadow)}, {car_at(0, 102.1, 7.0)})[0]);
+    // The middle of a wall 28.5 m ahead is nearer than 30 m, its ends are not.
+    SensorView blind_near = ahead(0.8, 100.0, shadow);
+    blind_near.field.min_range = 30.0;
+    ObjectState wall = car_at(0, 29.0, 0.0);
+    wall.length = 1.0;
+    wall.width = 30.0;
+    EXPECT_TRUE(in_view({blind_near}, {wall})[0]);
+    wall.width = 10.0;
+    EXPECT_FALSE(in_view({blind_near}, {wall})[0]);
   }
   SensorView far = ahead(0.5, 100.0);
   far.field.min_range = 30.0;

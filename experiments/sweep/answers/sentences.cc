@@ -341,10 +341,13 @@ std::string lost_lines(const SweepFile& sweep, const SweepAnswer& answer) {
   if (answer.lost->left_out == 0) return text;
   SweepAnswer without;
   without.points = answer.lost->points;
+  const auto has_drives = [](const PointAnswer& point) { return point.means.front().front().count > 0; };
+  if (std::ranges::none_of(without.points, has_drives)) return text + "No replication is without a lost track.\n";
   const std::string lines = answer_lines(sweep, without);
   if (lines.empty()) return text;
   return text +
-         fmt::format("Without {}, left out for all paradigms:\n", counted(answer.lost->left_out, "such replication")) +
+         fmt::format("Without {} that lost a track, left out for all paradigms:\n",
+                     counted(answer.lost->left_out, "replication")) +
          lines;
 }
 

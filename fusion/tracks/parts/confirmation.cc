@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <optional>
 
 #include "fusion/tracks/parts/overlaps.h"
 
@@ -27,6 +29,16 @@ bool has_ended(const Track& track, const config::TrackerConfig& config, const es
   return sure_hits(track, config) + left < config.confirm_hits;
 }
 
+// The younger track goes on with the identity of the elder one.
+void take_place(Track& elder, const Track& younger) {
+  const TrackId id = elder.id;
+  const ObservationId birth = elder.birth;
+  elder = younger;
+  elder.id = id;
+  elder.birth = birth;
+  elder.confirmed = true;
+}
+
 }  // namespace
 
 void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const estimators::Estimator& estimator,
@@ -36,7 +48,13 @@ void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const e
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
     if (track.confirmed || confirmed >= config.max_objects || !is_believed(track, config)) continue;
-    if (none_overlap && overlaps.overlaps_confirmed(set.tracks, t, set.time, config, estimator)) continue;
+    const std::optional<std::size_t> other =
+        none_overlap ? overlaps.confirmed_in_place_of(set.tracks, t, set.time, config, estimator) : std::nullopt;
+    if (other && set.tracks[*other].newest.measured < track.birth.measured) {
+      take_place(set.tracks[*other], track);
+      set.tracks.erase(set.tracks.begin() + static_cast<std::ptrdiff_t>(t--));
+    }
+    if (other) continue;
     track.confirmed = true;
     ++confirmed;
   }

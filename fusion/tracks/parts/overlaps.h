@@ -2,14 +2,18 @@
 //   - the one that was not observed in this list, if the other one was;
 //   - else the one with the larger variance of its centre;
 //   - else the younger one.
-// A tentative track is not confirmed while it overlaps a confirmed one, but remains and takes its observations.
+// A tentative track is not confirmed while it overlaps a confirmed one, but remains and takes its observations. If the confirmed one
+// has had none since the tentative one began, the gate refuses its own object: the tentative one takes its place and its identity.
 //
-// A place is what a track surely covers (fusion/tracks/footprint.h), so that cars parked bumper to bumper keep their
-// tracks while their lengths are unknown. Only tracks whose anchors are near each other are compared, in order of x. The constructor
-// allocates all storage.
+// A place is what a track surely covers (fusion/tracks/footprint.h), so that cars parked bumper to bumper keep their tracks while
+// their lengths are unknown. Two tracks that a radar has not resolved since both were observed (fusion/tracks/resolution) may drift into
+// each other: both stay. Pairs of confirmed tracks are found in order of x, and judged in order of birth. A tentative track is compared
+// with all confirmed ones. The constructor allocates the storage of as many pairs as tracks.
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/time.h"
@@ -23,9 +27,10 @@ class Overlaps {
  public:
   explicit Overlaps(std::size_t max_tracks);
 
-  // Returns whether the track, the index-th, overlaps a confirmed one. Tracks are in order of birth, with states of instant `time`.
-  bool overlaps_confirmed(const std::vector<Track>& tracks, std::size_t index, GlobalTime time,
-                          const config::TrackerConfig& config, const estimators::Estimator& estimator) const;
+  // Returns the eldest confirmed track that the index-th one overlaps. Tracks are in order of birth, with states of instant `time`.
+  std::optional<std::size_t> confirmed_in_place_of(const std::vector<Track>& tracks, std::size_t index, GlobalTime time,
+                                                   const config::TrackerConfig& config,
+                                                   const estimators::Estimator& estimator) const;
   // Ends the less certain one of each two confirmed tracks that overlap.
   void end(std::vector<Track>& tracks, GlobalTime time, const config::TrackerConfig& config,
            const estimators::Estimator& estimator);
@@ -40,6 +45,7 @@ class Overlaps {
 
   std::vector<Near> by_x_;   // confirmed tracks
   std::vector<char> ended_;  // by track
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // in one place: the elder, the younger
 };
 
 }  // namespace ttf::fusion::tracks::parts

@@ -35,6 +35,18 @@ ReturnBounds bounds_of(const body::SeenBox& outline) {
       any = true;
     }
   bounds.low(0) = beyond.norm();
+  // Along a line of sight v, the range rate of all matter is the one that the velocity of the outline, turned about the sensor, has
+  // there. So it is largest along that velocity, and least against it.
+  const linear::Vector<2> v =
+      outline.velocity - outline.turn_rate * linear::Vector<2>(-outline.centre.y(), outline.centre.x());
+  const auto is_in_view = [&](const linear::Vector<2>& direction) {
+    const double bearing = middle + motion::to_half_turn(std::atan2(direction.y(), direction.x()) - middle);
+    return bearing > bounds.low(1) && bearing < bounds.high(1);
+  };
+  if (any && v.norm() > 0.0) {
+    if (is_in_view(v)) bounds.high(2) = std::max(bounds.high(2), v.norm());
+    if (is_in_view(-v)) bounds.low(2) = std::min(bounds.low(2), -v.norm());
+  }
   return bounds;
 }
 

@@ -37,7 +37,10 @@ bool among(const sensors::Observation& z, const ReturnBounds& a, const ReturnBou
   const double other = from_middle(0.5 * (b.low(1) + b.high(1))), half = 0.5 * (b.high(1) - b.low(1));
   const double bearing = from_middle(z.z(1) + z.from.yaw);
   const double range_error = kThree * std::sqrt(z.r(0, 0)), bearing_error = kThree * std::sqrt(z.r(1, 1));
-  return z.z(0) > std::min(a.low(0), b.low(0)) - range_error && z.z(0) < std::max(a.high(0), b.high(0)) + range_error &&
+  const double low_rate = std::min(a.low(2), b.low(2)), high_rate = std::max(a.high(2), b.high(2));
+  const double faster = std::abs(std::remainder(z.z(2) - 0.5 * (low_rate + high_rate), z.rate_span));
+  return faster < 0.5 * (high_rate - low_rate) + kThree * std::sqrt(z.r(2, 2)) &&
+         z.z(0) > std::min(a.low(0), b.low(0)) - range_error && z.z(0) < std::max(a.high(0), b.high(0)) + range_error &&
          bearing > std::min(a.low(1) - middle, other - half) - bearing_error &&
          bearing < std::max(a.high(1) - middle, other + half) + bearing_error;
 }
@@ -52,12 +55,14 @@ Unresolved::Unresolved(const config::TrackerConfig& config, std::size_t max_trac
 void Unresolved::see(const std::vector<Track>& tracks, const estimators::Estimator& estimator,
                      const parts::Visibility& visibility) {
   seen_.clear();
-  largest_ = 0.0;
+  largest_ = widest_ = 0.0;
   for (std::size_t t = 0; t < tracks.size(); ++t) {
     if (!tracks[t].confirmed || !visibility.counts(t)) continue;
     Seen& seen = seen_.emplace_back();
     seen.track = t;
-    seen.at = estimator.position(tracks[t].estimate).x;
+    const linear::Gaussian<2> at = estimator.position(tracks[t].estimate);
+    seen.at = at.x;
+    widest_ = std::max(widest_, at.p.trace());
     largest_ = std::max(largest_, tracks[t].extent.size.norm());
   }
   std::sort(seen_.begin(), seen_.end(),
@@ -91,7 +96,7 @@ void Unresolved::share(Seen& a, Seen& b, const std::vector<Track>& tracks, const
   shared_[a.track] = shared_[b.track] = 1;
 }
 
-// Outlines that may join have anchors within the gates and both diagonals of each other.
+// Outlines that may join have anchors within the gates, both diagonals and their errors of each other.
 void Unresolved::judge(const std::vector<Track>& tracks, const sensors::ObservationList& list,
                        const estimators::Estimator& estimator, const parts::Visibility& visibility,
                        parts::Association& association) {
@@ -105,7 +110,8 @@ void Unresolved::judge(const std::vector<Track>& tracks, const sensors::Observat
     for (std::size_t j = i + 1; j < seen_.size(); ++j) {
       Seen &a = seen_[i], &b = seen_[j];
       const double range = (a.at - list.observations.front().from.position).norm();
-      const double near = 2.0 * largest_ + resolution.range_m + resolution.across(range);
+      const double near =
+          2.0 * largest_ + 2.0 * kThree * std::sqrt(widest_) + resolution.range_m + resolution.across(range);
       if (b.at.x() - a.at.x() > near) break;
       if (std::abs(b.at.y() - a.at.y()) > near) continue;
       const auto observation_of = association.observation_of();

@@ -59,6 +59,7 @@ class Unresolved {
   std::vector<sensors::KnownSensor> sensors_;
   std::vector<Seen> seen_;
   double largest_ = 0.0;  // [m], of all diagonals
+  double widest_ = 0.0;   // [m^2], of all variances of positions
   bool any_ = false;
   std::vector<char> shared_;  // by track
 };

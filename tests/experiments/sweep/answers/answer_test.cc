@@ -85,7 +85,7 @@ TEST_F(SweepAnswers, LostTracksAreCountedAndLeftOutForAllParadigms) {
   EXPECT_THAT(sentences, testing::HasSubstr("undecided at 1."));
   EXPECT_THAT(sentences,
               testing::HasSubstr("An object lost its track in 0 of 10 drives of adva, 1 of 10 drives of tt.\n"
-                                 "Without 1 such replication, left out for all paradigms:\n"
+                                 "Without 1 replication that lost a track, left out for all paradigms:\n"
                                  "position_rmse_truth of tt is less than that of adva at 2 points"));
 }
 

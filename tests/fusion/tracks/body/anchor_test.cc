@@ -137,15 +137,26 @@ TEST(Outermost, IsTheEndOfTheFaceInView) {
       for (const double error : {-0.7, 0.0, 0.7}) {
         const double into_face = std::atan2(into.y(), into.x()) + error;
         for (const SeenPoint point : {SeenPoint::kRightmost, SeenPoint::kLeftmost}) {
-          const Anchor corner = outermost_of(point, into_face, along);
+          const V side = point == SeenPoint::kRightmost ? right : V(-right);
+          const std::optional<Anchor> found =
+              outermost_of(point, into_face, along, outwards + side, 20.0 * outwards);
+          ASSERT_TRUE(found) << heading << " " << error;
+          const Anchor corner = *found;
           EXPECT_EQ(corner.point, SeenPoint::kCorner);
           const V at = corner.along * along + corner.across * across;
-          const V expected = outwards + (point == SeenPoint::kRightmost ? right : V(-right));
-          EXPECT_NEAR((at - expected).norm(), 0.0, 1e-12) << heading << " " << error;
+          EXPECT_NEAR((at - outwards - side).norm(), 0.0, 1e-12) << heading << " " << error;
         }
       }
     }
   }
+}
+
+// From beyond the corner the face beside it comes into view, and would end the outline at its far corner.
+TEST(Outermost, IsVagueWhereTheNextFaceIsInView) {
+  const V along = unit(0.0);
+  const V corner(-1.0, -1.0);
+  EXPECT_TRUE(outermost_of(SeenPoint::kRightmost, 0.0, along, corner, {-20.0, -0.5}));
+  EXPECT_FALSE(outermost_of(SeenPoint::kRightmost, 0.0, along, corner, {-20.0, -1.5}));
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ Cars split_car(int) { return {car(20.0, 0.0), car(20.0, 1.2)}; }
 
 TEST(Overlaps, OneCarInTwoPiecesHasOneTrack) {
   config::TrackerConfig keeping;
+  keeping.end_overlaps = false;
   EXPECT_EQ(confirmed(after_ten(keeping, split_car)), 2);
   EXPECT_EQ(confirmed(after_ten(ending(), split_car)), 1);
 }
@@ -58,10 +59,25 @@ TEST(Overlaps, TheTrackThatIsNotSeenEnds) {
     const double x = 35.0 - 1.5 * k;
     return k < 4 ? Cars{car(24.0, 0.0), car(x, 0.0)} : Cars{car(x, 0.0)};
   };
-  const TrackSet kept = after_ten({}, passing), ended = after_ten(ending(), passing);
+  config::TrackerConfig keeping;
+  keeping.end_overlaps = false;
+  const TrackSet kept = after_ten(keeping, passing), ended = after_ten(ending(), passing);
   EXPECT_EQ(confirmed(kept), 2);
   ASSERT_EQ(confirmed(ended), 1);
   EXPECT_EQ(ended.tracks[0].birth.index, 1) << "the younger one is seen";
+}
+
+// The car jumps by half of its length, out of its own gate: its new track continues the old one.
+TEST(Overlaps, ATrackThatRefusesItsObjectIsReplacedAndKeepsItsIdentity) {
+  Bench bench(ending());
+  for (int k = 0; k < 20; ++k) bench.step(100 * k, {car(20.0, 0.0)});
+  ASSERT_EQ(confirmed(bench.set), 1);
+  const ObservationId birth = bench.set.tracks[0].birth;
+  for (int k = 20; k < 24; ++k) bench.step(100 * k, {car(22.2, 0.0)});
+  ASSERT_EQ(bench.set.tracks.size(), 1u);
+  EXPECT_TRUE(bench.set.tracks[0].confirmed);
+  EXPECT_TRUE(bench.set.tracks[0].birth == birth);
+  EXPECT_NEAR(state_of(bench.set.tracks[0])(0), 22.2, 0.1);
 }
 
 TEST(Overlaps, OtherMethodsForLateListsAreRefused) {

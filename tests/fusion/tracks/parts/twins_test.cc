@@ -17,6 +17,7 @@ config::TrackerConfig uniting(double probability = 0.99) {
   config::TrackerConfig config;
   config.merge_probability = probability;
   config.merge_scans = 4;
+  config.end_overlaps = false;  // it would come first
   config.delete_misses = 30;
   return config;
 }

@@ -25,7 +25,7 @@ SeenBox car(double x, double y, double heading, double speed, double turn_rate =
 
 TEST(ReturnBounds, HoldTheDrawnPointsOfTheVisibleOutline) {
   for (const SeenBox& o : {car(45.0, 0.0, 0.0, 3.0), car(20.0, 3.5, 0.0, 8.0), car(3.0, 2.5, 0.1, 8.0),
-                           car(25.0, 5.0, 1.5, 5.0), car(30.0, -8.0, 2.4, 8.0, 0.5)}) {
+                           car(25.0, 5.0, 1.5, 5.0), car(30.0, -8.0, 2.4, 8.0, 0.5), car(6.0, 0.0, 0.0, -20.0)}) {
     const ReturnBounds bounds = bounds_of(o);
     const DrawnOutline drawn(o.centre, o.box);
     RandomStream stream({1, 0, Purpose::kTest, 0, 0});
