@@ -83,8 +83,8 @@ constexpr Description kTracker[] = {
     {"confirm_existence", "A track is confirmed from this probability of existence; for `existence`."},
     {"delete_existence", "A track ends below this probability of existence; for `existence`."},
     {"overlaps",
-     "Of two confirmed tracks in one place, the less certain one ends, or both are kept; absent, both are kept if `late` "
-     "is not `rewind`.",
+     "Of two confirmed tracks in one place, the less certain one ends, or both are kept; absent, it ends if the lists "
+     "are recorded scans.",
      "end"},
     {"merge_probability", "Two confirmed tracks within this quantile of each other become one; 0: never."},
     {"merge_scans", "Two tracks become one after so many lists in a row that leave them so close."},

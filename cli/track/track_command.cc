@@ -116,9 +116,11 @@ Recording read_recording(const TrackOptions& options, Findings& findings) {
   }
 }
 
-// Scans are of one sensor.
+// Scans are of one sensor, and of a street: its tracks must not overlap, unless the configuration says so.
 void prepare_for_scans(recording::replay::ReplayConfig& config, const recording::replay::SensorSetup& usual) {
   if (config.sensors.empty()) config.sensors.emplace_back("laser", usual);
+  // The other methods for late lists cannot end tracks for good.
+  if (!config.tracker.end_overlaps) config.tracker.end_overlaps = config.tracker.late == fusion::oosm::Kind::kRewind;
   if (config.sensors.size() > 1)
     throw InputError({config.file, 0, "sensors", std::to_string(config.sensors.size()),
                       "must be one sensor: scans are those of one scanner"});

@@ -119,10 +119,9 @@ struct TrackerConfig {
   // (fusion/tracks/parts/twins.h); 0: never.
   double merge_probability = 0.0;
   int merge_scans = 5;
-  // The less certain one of two confirmed tracks in one place ends (fusion/tracks/parts/overlaps.h). Absent: it ends, unless late
-  // lists are fused by a method that cannot restore an ended track.
+  // The less certain one of two confirmed tracks in one place ends (fusion/tracks/parts/overlaps.h). Absent: both are kept,
+  // unless the lists are recorded scans.
   std::optional<bool> end_overlaps;
-  bool ends_overlaps() const { return end_overlaps.value_or(late == oosm::Kind::kRewind); }
   // Where the file has these keys, for findings about the cluster or the recording; 0: nowhere.
   int cross_noise_line = 0, odometry_line = 0;
 };

@@ -43,7 +43,7 @@ void take_place(Track& elder, const Track& younger) {
 
 void confirm_and_end(TrackSet& set, const config::TrackerConfig& config, const estimators::Estimator& estimator,
                      Overlaps& overlaps) {
-  const bool none_overlap = config.ends_overlaps();
+  const bool none_overlap = config.end_overlaps.value_or(false);
   auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
