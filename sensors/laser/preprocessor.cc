@@ -52,6 +52,7 @@ LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml) {
   c.shape.thinnest_m = yaml.number_or("thinnest", c.shape.thinnest_m, {0.0, 2.0}, "m");
   c.shape.roughest_m = yaml.number_or("roughest", c.shape.roughest_m, {0.01, 100.0}, "m");
   c.cut_silhouettes = yaml.boolean_or("cut_silhouettes", c.cut_silhouettes);
+  c.free_ends = yaml.boolean_or("free_ends", c.free_ends);
   return c;
 }
 
@@ -123,8 +124,10 @@ void LaserPreprocessor::take(const Segment& segment, int splits, std::vector<Las
     outlines_.push_back(points);
     return;
   }
-  const bool unknown = object.seen == SeenPoint::kSilhouette && (ends[0].hidden || ends[1].hidden);
-  if (unknown || (is_outermost(object.seen) && !config_.cut_silhouettes)) {
+  const auto is_cut = [&](const OutlineEnd& end) { return end.by_field || (end.hidden && !config_.cut_silhouettes); };
+  const bool is_silhouette = object.seen == SeenPoint::kSilhouette;
+  if ((is_silhouette && std::any_of(ends.begin(), ends.end(), is_cut)) ||
+      (is_outermost(object.seen) && !config_.free_ends)) {
     ++fates_.cut;
     return;
   }
@@ -139,12 +142,10 @@ OutlineEnds LaserPreprocessor::ends_of(const Segment& segment) const {
   const std::size_t last = segment.first + segment.count - 1;
   const auto describe = [&](OutlineEnd& end, const PlanePoint& own, std::size_t neighbour) {
     end.held_gap_m = held_gap(config, own.range, config.azimuth_step_rad);
-    end.hidden = std::abs(std::abs(own.azimuth) - config_.half_field_rad) < kNextBeam * config.azimuth_step_rad;
-    if (end.hidden) return;
-    if (neighbour >= points_.size()) {
-      end.hidden = neighbour == points_.size() && !is_whole_;
-      return;
-    }
+    end.by_field = std::abs(std::abs(own.azimuth) - config_.half_field_rad) < kNextBeam * config.azimuth_step_rad ||
+                   (neighbour == points_.size() && !is_whole_);
+    end.hidden = end.by_field;
+    if (end.hidden || neighbour >= points_.size()) return;
     const PlanePoint& other = points_[neighbour];
     end.hidden = std::abs(other.azimuth - own.azimuth) < kNextBeam * config.azimuth_step_rad && other.range < own.range;
   };

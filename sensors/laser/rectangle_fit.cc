@@ -128,15 +128,15 @@ bool surely_a_width(const RectangleConfig& config, const Size& size) {
          size.value + size.margin < config.widest_rear_m;
 }
 
-// One end of the outline is known, and the other one is hidden: the corner where a face ends, and the direction into the face.
+// One end of the outline is known, and the field cuts the other one: the corner where a face ends, and the direction into the face.
 struct SeenEnd {
   FaceEnd end;
   Matrix2d covariance;
   Vector2d into;
 };
 std::optional<LaserObject> outermost(const OutlineEnds& ends, const SeenEnd& right, const SeenEnd& left) {
-  const bool by_right = right.end.known && ends[1].hidden;
-  if (!by_right && !(left.end.known && ends[0].hidden)) return std::nullopt;
+  const bool by_right = right.end.known && ends[1].by_field;
+  if (!by_right && !(left.end.known && ends[0].by_field)) return std::nullopt;
   const SeenEnd& seen = by_right ? right : left;
   LaserObject object;
   object.seen = by_right ? SeenPoint::kRightmost : SeenPoint::kLeftmost;

@@ -17,9 +17,9 @@
 //   - The outline ends up to one beam's step after its last beam, anywhere in between. An end is known only if the
 //     next beam would have met the same face near enough to be held together with it (segmentation.h), and if nothing
 //     nearer hides it.
-//   - Where nothing of this is known, and one end of the outline is hidden, the other end is stated. It is a corner of the vehicle,
-//     though not which one. Its heading is the direction into the face that ends there. The middle of such an outline would err by
-//     half of the hidden part, to the same side in scan after scan.
+//   - Where nothing of this is known, and the field's edge cuts one end of the outline, the other end is stated: a corner of the
+//     vehicle, though not which one. Its heading is the direction into the face that ends there. The middle of such an outline would
+//     err by half of the cut part, to the same side in scan after scan.
 #pragma once
 
 #include <array>
@@ -41,7 +41,8 @@ struct RectangleConfig {
 
 // The first or the last beam of an object.
 struct OutlineEnd {
-  bool hidden = false;      // something nearer begins there
+  bool hidden = false;      // something nearer begins there, or the field ends
+  bool by_field = false;    // the field ends there, or the list does
   double held_gap_m = 0.6;  // returns up to this far apart would have been held together there
 };
 using OutlineEnds = std::array<OutlineEnd, 2>;  // at the smallest and at the largest azimuth

@@ -35,11 +35,12 @@ void put_unknown(Distance& distance, const Body& body, const linear::Vector<2>& 
   distance.constant = covariance_of(centre, sight);
 }
 
-// The heading is the track's, if only by its course.
+// The heading is the track's, if only by its course. One that is not sure names no corner.
 std::optional<Anchor> outermost_of(const sensors::Observation& z, const Body& body,
                                    const estimators::Estimator& estimator) {
-  const double heading =
-      body.heading.known ? body.heading.value : facing_of(estimator.cartesian(body.estimate), body.heading).heading;
+  const Facing facing = facing_of(estimator.cartesian(body.estimate), body.heading);
+  if (facing.sigma > kBehindSilhouette.lost) return std::nullopt;
+  const double heading = body.heading.known ? body.heading.value : facing.heading;
   return body::outermost_of(z.seen, z.heading, {std::cos(heading), std::sin(heading)}, z.z.head<2>(), z.from.position);
 }
 

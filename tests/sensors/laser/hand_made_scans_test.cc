@@ -117,8 +117,7 @@ TEST(HandMadeScans, TwoVehiclesThatTouchAreSplitAtTheStep) {
     const auto objects = objects_in(preprocessor, scan);
     ASSERT_EQ(objects.size(), 2U) << k;
     EXPECT_NEAR(objects[0].y, -1.0, 0.3);
-    EXPECT_EQ(objects[1].seen, ttf::fusion::sensors::SeenPoint::kLeftmost) << "the nearer one hides the other end";
-    EXPECT_NEAR(objects[1].y, 1.85, 0.1);
+    EXPECT_NEAR(objects[1].y, 1.0, 0.3);
     EXPECT_EQ(objects_in(before, scan).size(), 1U);
   }
 }

@@ -299,20 +299,22 @@ TEST(RectangleFit, AShortRearBesideALongSideLeavesItACornerOrASide) {
   }
 }
 
-// A nearer car hides the middle of one to the far end, from either side. The visible rest ends at a true corner.
+// The field's edge cuts a car, at either side. The visible part ends at a true corner.
 TEST(RectangleFit, TheFreeEndOfACutOutlineIsACorner) {
   double sum = 0.0;
   int ends = 0;
+  LaserPreprocessingConfig config;
   for (const double range : {10.0, 25.0, 40.0})
-    for (const double heading : {0.0, 0.03, -0.2, 1.2, std::numbers::pi / 2})
+    for (const double turned : {0.0, 0.03, -0.2, 1.2, std::numbers::pi / 2})
       for (const double side : {-1.0, 1.0})
         for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
-          const auto far = car_at(range, 0.0, heading), near = car_at(0.5 * range, side * 0.9, 0.0, 0.5, 1.8, 1);
-          LaserPreprocessor preprocessor({}, kMostPoints);
+          const double edge = side * config.half_field_rad, heading = edge + turned;
+          const auto far = car_at(range * std::cos(edge), range * std::sin(edge), heading);
+          LaserPreprocessor preprocessor(config, kMostPoints);
           std::vector<LaserObject> objects;
-          preprocessor.process(emulated_scan({}, {far, near}, sequence), objects);
+          preprocessor.process(emulated_scan({}, {far}, sequence), objects);
           for (const LaserObject& o : objects) {
-            if (o.x < 0.7 * range || !is_outermost(o.seen)) continue;
+            if (!is_outermost(o.seen)) continue;
             EXPECT_EQ(o.seen, side > 0.0 ? SeenPoint::kRightmost : SeenPoint::kLeftmost);
             expect_positive_definite(o);
             double nearest = 1e9, squared = 0.0;
