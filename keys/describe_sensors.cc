@@ -177,7 +177,8 @@ constexpr Description kLaserPreprocessing[] = {
     {"thinnest", "A group of returns that is all in view and thinner is no vehicle; 0: none is too thin."},
     {"roughest", "A group of returns is no vehicle if its best outline leaves more than this, root mean square."},
     {"cut_silhouettes",
-     "An object of which something nearer hides an end, and that shows no face or corner, is reported as a silhouette."},
+     "An object of which something nearer hides an end, and that shows no face or corner, is reported as a "
+     "silhouette."},
     {"free_ends", "An outline that the field's edge cuts is reported by its free end; otherwise it is left out."},
 };
 

@@ -61,7 +61,8 @@ InView::InView(std::vector<SensorView> sensors, std::size_t most_objects)
     : sensors_(std::move(sensors)), most_(most_objects) {
   std::stable_partition(sensors_.begin(), sensors_.end(),
                         [](const SensorView& sensor) { return sensor.field.shadow == 0.0; });
-  constexpr std::size_t kPieces = 2, kCutsOfAPiece = 2, kCutsOfAnOutline = 16;  // an edge crosses each of two circles twice
+  constexpr std::size_t kPieces = 2, kCutsOfAPiece = 2,
+                        kCutsOfAnOutline = 16;  // an edge crosses each of two circles twice
   seen_.reserve(most_);
   objects_.reserve(most_);
   for (auto* list : {&cuts_, &rays_})

@@ -65,7 +65,8 @@ void place(Observation& observation, SensorId id, const KnownSensor& sensor) {
   const bool position = observation.kind == ObservationKind::kPosition;
   if (!position) {
     correct_polar(observation, sensor.errors);
-    if (has_direction(observation)) observation.heading = motion::to_half_turn(observation.heading + sensor.mounting.yaw);
+    if (has_direction(observation))
+      observation.heading = motion::to_half_turn(observation.heading + sensor.mounting.yaw);
     return;
   }
   correct_position(observation, sensor.errors);

@@ -124,10 +124,8 @@ void LaserPreprocessor::take(const Segment& segment, int splits, std::vector<Las
     outlines_.push_back(points);
     return;
   }
-  const auto is_cut = [&](const OutlineEnd& end) { return end.by_field || (end.hidden && !config_.cut_silhouettes); };
-  const bool is_silhouette = object.seen == SeenPoint::kSilhouette;
-  if ((is_silhouette && std::any_of(ends.begin(), ends.end(), is_cut)) ||
-      (is_outermost(object.seen) && !config_.free_ends)) {
+  const bool is_cut = object.seen == SeenPoint::kSilhouette && (ends[0].hidden || ends[1].hidden);
+  if ((is_cut && !config_.cut_silhouettes) || (is_outermost(object.seen) && !config_.free_ends)) {
     ++fates_.cut;
     return;
   }

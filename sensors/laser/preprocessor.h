@@ -30,9 +30,9 @@ struct LaserPreprocessingConfig {
   double half_field_rad = 1.05;    // the scan reaches so far; an outline that it cuts has no end there
   int fewest_points = 3;           // smaller segments are no objects, nor are segments of a single beam
   double longest_extent_m = 12.0;  // longer segments are walls and hedges, not vehicles
-  // A silhouette of which something nearer hides a part is reported: its middle errs by up to half of the hidden part.
+  // A silhouette of which something nearer, or the field's edge, hides a part is reported: its middle errs by up to half of that part.
   bool cut_silhouettes = true;
-  bool free_ends = true;  // one that the field's edge cuts is reported by its free end
+  bool free_ends = true;  // an outline that the field's edge cuts is reported by its free end, if that is known
 };
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
 

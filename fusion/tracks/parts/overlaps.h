@@ -43,8 +43,8 @@ class Overlaps {
   };
   static Near near_of(const Track& track, std::size_t index, const estimators::Estimator& estimator);
 
-  std::vector<Near> by_x_;   // confirmed tracks
-  std::vector<char> ended_;  // by track
+  std::vector<Near> by_x_;                                  // confirmed tracks
+  std::vector<char> ended_;                                 // by track
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // in one place: the elder, the younger
 };
 

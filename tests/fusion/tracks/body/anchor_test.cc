@@ -138,8 +138,7 @@ TEST(Outermost, IsTheEndOfTheFaceInView) {
         const double into_face = std::atan2(into.y(), into.x()) + error;
         for (const SeenPoint point : {SeenPoint::kRightmost, SeenPoint::kLeftmost}) {
           const V side = point == SeenPoint::kRightmost ? right : V(-right);
-          const std::optional<Anchor> found =
-              outermost_of(point, into_face, along, outwards + side, 20.0 * outwards);
+          const std::optional<Anchor> found = outermost_of(point, into_face, along, outwards + side, 20.0 * outwards);
           ASSERT_TRUE(found) << heading << " " << error;
           const Anchor corner = *found;
           EXPECT_EQ(corner.point, SeenPoint::kCorner);
