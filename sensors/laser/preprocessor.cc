@@ -8,7 +8,7 @@ namespace {
 
 using ttf::fusion::sensors::SeenPoint;
 
-// An outline is rough only if so many returns say so, and if noise does not make it (in standard deviations).
+// An outline is rough only if so many returns say so. Noise must not make it so, in standard deviations.
 constexpr std::size_t kFewestOfRough = 6;
 constexpr double kNoiseOfRough = 3.0;
 // A neighbour, or the field's edge, hides an end if it is within so many beams.
@@ -16,15 +16,15 @@ constexpr double kNextBeam = 2.5;
 // One outline with no more than this left is not split, nor one with so many standard deviations of the noise.
 constexpr double kSmooth_m = 0.08, kNoiseOfSmooth = 1.5;
 
-// `object` is the fit of `points`, those of one segment with these ends. `noise` [m] is that of a range, `step` [rad] that
-// of the beams.
+// `object` is the fit of `points`, those of one segment with these ends. `noise` [m] is that of a range. `step` [rad] is that of
+// the beams.
 VehicleShape shape_of(const ShapeConfig& config, const LaserObject& object, std::span<const PlanePoint> points,
                       const OutlineEnds& ends, double noise, double step) {
   if (points.size() >= kFewestOfRough && object.residual_m > std::max(config.roughest_m, kNoiseOfRough * noise))
     return VehicleShape::kRough;
   if (object.seen != SeenPoint::kSilhouette && !is_outermost(object.seen)) return VehicleShape::kVehicle;
   const PlanePoint &first = points.front(), &last = points.back();
-  // The outline ends up to one step beyond its last beams; half of that on the average.
+  // The outline ends up to one step beyond its last beams. On the average it is half of that.
   const double across = std::hypot(last.x - first.x, last.y - first.y) + step * 0.5 * (first.range + last.range);
   if (!ends[0].hidden && !ends[1].hidden && across < config.thinnest_m) return VehicleShape::kThin;
   return VehicleShape::kPart;

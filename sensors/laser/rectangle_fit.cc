@@ -128,7 +128,7 @@ bool surely_a_width(const RectangleConfig& config, const Size& size) {
          size.value + size.margin < config.widest_rear_m;
 }
 
-// One end of the outline is known, and the field cuts the other one: the corner where a face ends, and the direction into the face.
+// The corner where a face ends. The field cuts the other end of the outline. `into` is the direction into the face.
 struct SeenEnd {
   FaceEnd end;
   Matrix2d covariance;
@@ -147,7 +147,8 @@ std::optional<LaserObject> outermost(const OutlineEnds& ends, const SeenEnd& rig
   return object;
 }
 
-// One face: a side or an end, if both its ends are known and it is as long as one of them. Else one of its ends, if that is known.
+// One face is a side or an end. Both of its ends must be known, and the face must be as long as one of these. Else one of its ends is
+// stated, if that is known.
 std::optional<LaserObject> single_face(const RectangleConfig& config, std::span<const PlanePoint> points,
                                        const OutlineEnds& ends, const FaceFit& fit) {
   const Vector2d n = direction(fit.normal), t = quarter_on(n);
@@ -202,7 +203,7 @@ struct CornerFace {
   SeenEnd end;
 };
 
-// Two faces: a corner, if it is known which of them is the side. Else the end of one of them, if the other one's is hidden.
+// Two faces are a corner. It must be known which of them is the side. Else the end of one of them is stated.
 std::optional<LaserObject> two_faces(const RectangleConfig& config, std::span<const PlanePoint> points,
                                      const OutlineEnds& ends, const CornerFit& fit) {
   const Vector2d right_normal = direction(fit.normal), left_normal(right_normal.y(), -right_normal.x());
