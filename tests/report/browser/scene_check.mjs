@@ -185,6 +185,9 @@ export async function many_play(name, page, check, pictures) {
   await canvas.focus();
   await page.keyboard.press("Home");
   await page.keyboard.press(" ");
+  // A busy machine begins to play late.
+  await page.waitForFunction((shown) => Number(shown.dataset.truth) >= 900, await canvas.elementHandle(), { timeout: 20000 })
+    .catch(() => {});
   const took = [];
   for (let i = 0; i < 25; ++i) {
     await page.waitForTimeout(60);
