@@ -12,11 +12,11 @@ using sensors::SeenPoint;
 
 bool has_sides(SeenPoint seen) { return seen != SeenPoint::kCentre && seen != SeenPoint::kSilhouette; }
 
-// Without the track's heading, that of the observation counts. Where a range and a bearing point, the mounting tells.
+// Without the track's heading, that of the observation counts. Where a range and a bearing point, the mounting tells. The face of an
+// outermost point counts, too.
 bool is_its_own(const sensors::Observation& z, const Body& body) {
-  if (is_outermost(z.seen)) return true;
   if (!body.heading.known) return z.has_heading || has_sides(z.seen);
-  return has_sides(z.seen) && z.kind != sensors::ObservationKind::kPosition;
+  return has_sides(z.seen) && (is_outermost(z.seen) || z.kind != sensors::ObservationKind::kPosition);
 }
 
 }  // namespace

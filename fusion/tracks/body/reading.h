@@ -9,6 +9,8 @@
 // reading that fits the body better. The body as a whole may be read anew (fusion/tracks/parts/classes.h).
 #pragma once
 
+#include <optional>
+
 #include "fusion/estimators/estimator.h"
 #include "fusion/sensors/observation.h"
 #include "fusion/tracks/body/body.h"
@@ -34,9 +36,12 @@ Direction axis_of(const Body& body, const estimators::Estimator& estimator);
 // by those of the sides, which count up to five standard deviations. So a sure axis decides alone, and the sizes decide where it is not
 // sure. An observation of no face stands as it is.
 bool reads_otherwise(const Direction& axis, const Extent& extent, const sensors::Observation& observation);
-inline bool reads_otherwise(const Body& body, const estimators::Estimator& estimator, const sensors::Observation& z) {
-  return z.has_heading && z.seen != sensors::SeenPoint::kCentre &&
-         reads_otherwise(axis_of(body, estimator), body.extent, z);
+// Returns the observation in its other reading, if that fits the body better.
+inline std::optional<sensors::Observation> better_reading(const Body& body, const estimators::Estimator& estimator,
+                                                          const sensors::Observation& observation) {
+  if (!observation.has_heading || !reads_otherwise(axis_of(body, estimator), body.extent, observation))
+    return std::nullopt;
+  return read_otherwise(observation);
 }
 
 }  // namespace ttf::fusion::tracks::body

@@ -27,8 +27,8 @@ void JointUpdate::update(Track& track, std::size_t column, const sensors::Observ
   explanations_.push_back({nullptr, unseen / exists});
   for (const association::JointAssociation::Shared& shared : joint.of_column(column)) {
     const sensors::Observation& z = list.observations[static_cast<std::size_t>(shared.row)];
-    const bool otherwise = chooses_class(config_) && body::reads_otherwise(track, estimator, z);
-    explained_.push_back(referred(track, estimator, otherwise ? body::read_otherwise(z) : z));
+    const auto other = chooses_class(config_) ? body::better_reading(track, estimator, z) : std::nullopt;
+    explained_.push_back(referred(track, estimator, other ? *other : z));
     explanations_.push_back({&explained_.back(), shared.probability / exists});
   }
   if (explanations_.size() > 1) estimator.update(track.estimate, explanations_);

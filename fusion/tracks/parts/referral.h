@@ -57,8 +57,9 @@ class Referral {
   // Returns the observation in the reading that fits the track (fusion/tracks/body/reading.h): itself, where tracks do not choose their
   // class. It is valid until the next call.
   const sensors::Observation& read(const Track& track, const sensors::Observation& observation) {
-    if (!reads_both_ || !body::reads_otherwise(track, *estimator_, observation)) return observation;
-    return read_.emplace(body::read_otherwise(observation));
+    if (!reads_both_) return observation;
+    read_ = body::better_reading(track, *estimator_, observation);
+    return read_ ? *read_ : observation;
   }
   // Forgets what was computed for a track whose heading changes.
   void forget(std::size_t column);
