@@ -131,5 +131,22 @@ TEST(KnownSensor, OfNothingKnownNothingChanges) {
   EXPECT_EQ(z.r, before.r);
 }
 
+// Only an axis and the direction into a face are directions; a silhouette's heading means nothing.
+TEST(KnownSensor, ADirectionTurnsWithTheMountingAndTheVehicle) {
+  for (const double mounted : {0.0, 0.5, -2.2})
+    for (const double turned : {0.0, 0.9, 1.57})
+      for (const SeenPoint seen : {SeenPoint::kRightmost, SeenPoint::kLeftmost, SeenPoint::kSilhouette}) {
+        KnownSensor sensor;
+        sensor.mounting = {.position = {3.7, 0.5}, .yaw = mounted};
+        Observation z = position(20.0, 1.0, 0.1);
+        z.seen = seen;
+        z.heading = 0.1;
+        place(z, SensorId{1}, sensor);
+        carry(z, {.position = {10.0, -4.0}, .yaw = turned});
+        const double expected = seen == SeenPoint::kSilhouette ? 0.1 : 0.1 + mounted + turned;
+        EXPECT_NEAR(z.heading, expected, 1e-12) << mounted << " " << turned;
+      }
+}
+
 }  // namespace
 }  // namespace ttf::fusion::sensors

@@ -9,6 +9,7 @@
 #include "core/random.h"
 #include "fusion/linear/gaussian.h"
 #include "fusion/tracks/body/anchor.h"
+#include "fusion/tracks/body/returns.h"
 
 namespace ttf::fusion::tracks::body {
 
@@ -69,6 +70,17 @@ inline double range_rate_of(const linear::Vector<2>& polar, const linear::Vector
   const linear::Vector<2> lever = plane_of(polar) - at;
   return std::cos(polar(1)) * (velocity.x() - turn_rate * lever.y()) +
          std::sin(polar(1)) * (velocity.y() + turn_rate * lever.x());
+}
+
+// A car of 4.4 m by 1.8 m that drives along its heading.
+inline SeenBox seen_car(double x, double y, double heading, double speed, double turn_rate = 0.0) {
+  SeenBox o;
+  o.centre << x, y;
+  o.box.size << 4.4, 1.8;
+  o.box.heading = heading;
+  o.velocity << speed * std::cos(heading), speed * std::sin(heading);
+  o.turn_rate = turn_rate;
+  return o;
 }
 
 }  // namespace ttf::fusion::tracks::body

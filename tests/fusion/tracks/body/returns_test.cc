@@ -14,16 +14,6 @@
 namespace ttf::fusion::tracks::body {
 namespace {
 
-SeenBox outline(double x, double y, double heading, double speed, double turn_rate = 0.0) {
-  SeenBox o;
-  o.centre << x, y;
-  o.box.size << 4.4, 1.8;
-  o.box.heading = heading;
-  o.velocity << speed * std::cos(heading), speed * std::sin(heading);
-  o.turn_rate = turn_rate;
-  return o;
-}
-
 linear::Matrix<3> by_drawing(const SeenBox& o) {
   constexpr int kPoints = 20'000;
   const DrawnOutline drawn(o.centre, o.box);
@@ -40,8 +30,8 @@ linear::Matrix<3> by_drawing(const SeenBox& o) {
 }
 
 TEST(Returns, SpreadAsPointsDrawnOnTheOutline) {
-  for (const SeenBox& o : {outline(45.0, 0.0, 0.0, 3.0), outline(20.0, 3.5, 0.0, 8.0), outline(60.0, 3.5, 0.0, 8.0),
-                           outline(25.0, 5.0, 1.5, 5.0), outline(30.0, -8.0, 2.4, 8.0, 0.5)}) {
+  for (const SeenBox& o : {seen_car(45.0, 0.0, 0.0, 3.0), seen_car(20.0, 3.5, 0.0, 8.0), seen_car(60.0, 3.5, 0.0, 8.0),
+                           seen_car(25.0, 5.0, 1.5, 5.0), seen_car(30.0, -8.0, 2.4, 8.0, 0.5)}) {
     const linear::Matrix<3> spread = spread_of(o), drawn = by_drawing(o);
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(std::sqrt(spread(i, i)), std::sqrt(drawn(i, i)), 0.08 * std::sqrt(drawn(i, i)) + 1e-3)
@@ -51,7 +41,7 @@ TEST(Returns, SpreadAsPointsDrawnOnTheOutline) {
   }
 }
 
-TEST(Returns, AroundTheSensorThereIsNoOutline) { EXPECT_TRUE(spread_of(outline(0.0, 0.0, 0.0, 1.0)).isZero(0.0)); }
+TEST(Returns, AroundTheSensorThereIsNoOutline) { EXPECT_TRUE(spread_of(seen_car(0.0, 0.0, 0.0, 1.0)).isZero(0.0)); }
 
 // A car almost end-on, whose course alone tells the heading: the rear and, turned a little, a side as well. Headings are drawn as
 // the track states them, and returns on the outline turned so. Returns the mean d2, of three degrees of freedom, of the
@@ -119,7 +109,7 @@ TEST(Returns, LieWithinTheirCovarianceWhereTheHeadingIsUncertainNearEndOn) {
 TEST(Returns, SpreadAsOverTheBoxWhereTheHeadingIsExact) {
   const auto estimator = estimators::make_estimator({});
   for (const double heading : {0.0, 0.05, 0.8}) {
-    const SeenBox box = outline(30.0, 2.0, heading, 8.0, 0.2);
+    const SeenBox box = seen_car(30.0, 2.0, heading, 8.0, 0.2);
     Body body;
     body.extent.size = box.box.size;
     body.heading = {{heading, 0.0, true}, box.turn_rate};

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/random.h"
 #include "fusion/loading/tracker.h"
+#include "fusion/tracks/footprint.h"
+#include "fusion/tracks/parts/birth.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion::tracks::parts {
@@ -78,6 +81,40 @@ TEST(Overlaps, ATrackThatRefusesItsObjectIsReplacedAndKeepsItsIdentity) {
   EXPECT_TRUE(bench.set.tracks[0].confirmed);
   EXPECT_TRUE(bench.set.tracks[0].birth == birth);
   EXPECT_NEAR(state_of(bench.set.tracks[0])(0), 22.2, 0.1);
+}
+
+// Oracle: all pairs, in order of birth. Cars are drawn over a square, so that some stand in others' places.
+TEST(Overlaps, TheSearchFindsTheOverlapsOfAllPairs) {
+  const config::TrackerConfig config = ending();
+  const auto estimator = estimators::make_estimator(config);
+  RandomStream stream({.seed = 5});
+  int ended = 0;
+  for (int drawn = 0; drawn < 40; ++drawn) {
+    std::vector<Track> tracks;
+    for (int k = 0; k < 25; ++k) {
+      const sensors::Observation z = car(60.0 * stream.uniform(), 30.0 * stream.uniform());
+      tracks.push_back(born(z, {{}, static_cast<std::uint16_t>(k), GlobalTime{}}, config, *estimator));
+      tracks.back().confirmed = true;
+      tracks.back().hits = k % 3 == 0 ? 0 : 1;
+    }
+    const auto footprint = [&](const Track& track) {
+      return footprint_of(view_of(track, GlobalTime{}, GlobalTime{}, config, *estimator));
+    };
+    std::vector<char> left(tracks.size(), 1);
+    for (std::size_t e = 0; e < tracks.size(); ++e)
+      for (std::size_t y = e + 1; y < tracks.size(); ++y)
+        if (left[e] && left[y] && overlap_depth(footprint(tracks[e]), footprint(tracks[y])) > 0.0)
+          left[tracks[e].hits < tracks[y].hits ? e : y] = 0;  // all are as certain of their places
+    std::vector<std::uint16_t> expected, found;
+    for (std::size_t k = 0; k < tracks.size(); ++k)
+      if (left[k]) expected.push_back(tracks[k].birth.index);
+    Overlaps overlaps(tracks.size());
+    overlaps.end(tracks, GlobalTime{}, config, *estimator);
+    for (const Track& track : tracks) found.push_back(track.birth.index);
+    EXPECT_EQ(found, expected) << drawn;
+    ended += static_cast<int>(25 - found.size());
+  }
+  EXPECT_GT(ended, 100);
 }
 
 TEST(Overlaps, OtherMethodsForLateListsAreRefused) {

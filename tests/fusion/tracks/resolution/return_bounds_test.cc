@@ -11,21 +11,12 @@
 namespace ttf::fusion::tracks::resolution {
 namespace {
 
-using body::DrawnOutline, body::SeenBox, body::range_rate_of;
-
-SeenBox car(double x, double y, double heading, double speed, double turn_rate = 0.0) {
-  SeenBox o;
-  o.centre << x, y;
-  o.box.size << 4.4, 1.8;
-  o.box.heading = heading;
-  o.velocity << speed * std::cos(heading), speed * std::sin(heading);
-  o.turn_rate = turn_rate;
-  return o;
-}
+using body::DrawnOutline, body::SeenBox, body::range_rate_of, body::seen_car;
 
 TEST(ReturnBounds, HoldTheDrawnPointsOfTheVisibleOutline) {
-  for (const SeenBox& o : {car(45.0, 0.0, 0.0, 3.0), car(20.0, 3.5, 0.0, 8.0), car(3.0, 2.5, 0.1, 8.0),
-                           car(25.0, 5.0, 1.5, 5.0), car(30.0, -8.0, 2.4, 8.0, 0.5), car(6.0, 0.0, 0.0, -20.0)}) {
+  for (const SeenBox& o :
+       {seen_car(45.0, 0.0, 0.0, 3.0), seen_car(20.0, 3.5, 0.0, 8.0), seen_car(3.0, 2.5, 0.1, 8.0),
+        seen_car(25.0, 5.0, 1.5, 5.0), seen_car(30.0, -8.0, 2.4, 8.0, 0.5), seen_car(6.0, 0.0, 0.0, -20.0)}) {
     const ReturnBounds bounds = bounds_of(o);
     const DrawnOutline drawn(o.centre, o.box);
     RandomStream stream({1, 0, Purpose::kTest, 0, 0});
@@ -50,17 +41,17 @@ TEST(ReturnBounds, OfOutlinesJoinUpToTheGates) {
     EXPECT_EQ(may_join(bounds_of(a), bounds_of(b), radar), may_join(bounds_of(b), bounds_of(a), radar));
     return may_join(bounds_of(a), bounds_of(b), radar);
   };
-  const SeenBox one = car(20.0, 1.75, 0.0, 8.0);
-  EXPECT_TRUE(join(one, car(20.0, -1.75, 0.0, 8.0))) << "side by side";
-  EXPECT_FALSE(join(one, car(20.0, -5.25, 0.0, 8.0))) << "a lane apart";
-  EXPECT_FALSE(join(one, car(20.0, -1.75, 0.0, 10.0))) << "another range rate";
-  EXPECT_TRUE(join(one, car(20.0, -1.75, 0.0, 68.0))) << "the same one, but for the span";
-  EXPECT_FALSE(join(one, car(36.0, 1.75, 0.0, 8.0))) << "ahead";
+  const SeenBox one = seen_car(20.0, 1.75, 0.0, 8.0);
+  EXPECT_TRUE(join(one, seen_car(20.0, -1.75, 0.0, 8.0))) << "side by side";
+  EXPECT_FALSE(join(one, seen_car(20.0, -5.25, 0.0, 8.0))) << "a lane apart";
+  EXPECT_FALSE(join(one, seen_car(20.0, -1.75, 0.0, 10.0))) << "another range rate";
+  EXPECT_TRUE(join(one, seen_car(20.0, -1.75, 0.0, 68.0))) << "the same one, but for the span";
+  EXPECT_FALSE(join(one, seen_car(36.0, 1.75, 0.0, 8.0))) << "ahead";
 }
 
 TEST(ReturnBounds, JoinBehindTheSensorToo) {
   const sensors::Resolution radar{5.0, 2.5, 0.003, 1.0, 0.0, 60.0};
-  EXPECT_TRUE(may_join(bounds_of(car(-20.0, 1.75, 0.0, 8.0)), bounds_of(car(-20.0, -1.75, 0.0, 8.0)), radar));
+  EXPECT_TRUE(may_join(bounds_of(seen_car(-20.0, 1.75, 0.0, 8.0)), bounds_of(seen_car(-20.0, -1.75, 0.0, 8.0)), radar));
 }
 
 }  // namespace
