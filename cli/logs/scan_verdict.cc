@@ -19,7 +19,7 @@ std::vector<std::string> reasons_for_no_box(const sensors::laser::LaserPreproces
   dropped(fates.single_beam, "are of a single beam");
   dropped(fates.large, fmt::format("are longer than {:g} m (longest_extent)", config.longest_extent_m));
   dropped(fates.thin, fmt::format("are thinner than {:g} m (thinnest)", config.shape.thinnest_m));
-  dropped(fates.cut, "are cut by the field's edge or something nearer, without a known end (cut_silhouettes)");
+  dropped(fates.cut, "are cut by the field's edge or something nearer (cut_silhouettes, free_ends)");
   dropped(fates.rough,
           fmt::format("are rough: their best outline leaves more than {:g} m (roughest)", config.shape.roughest_m));
   return reasons;

@@ -117,8 +117,7 @@ class DriveMeasures final : public ImageUses {
   explicit DriveMeasures(TrueTime from, double gate_m = kGate_m, std::optional<TrueTime> until = std::nullopt,
                          const fusion::metrics::CutOff& cut_off = {});
 
-  // The judged part also ends at the instant that this returns, if any: that of a collision, which may come at any time. All
-  // truth before a use is recorded before it. So is what `end` needs.
+  // The judged part also ends at the instant that `end` returns, if any, such as that of a collision. A use at that instant counts.
   void end_with(std::function<std::optional<TrueTime>()> end) { end_ = std::move(end); }
 
   // Judges the last use and returns the summary. Call it once, at the end.

@@ -71,8 +71,7 @@ struct KnownSensor {
   SystematicErrors errors;
   std::optional<Field> field;                  // absent: the sensor is taken to see everything
   double range_rate_span = Field::kUnbounded;  // [m/s]: a radar's range rates are known up to multiples of this
-  std::optional<Resolution>
-      resolution;  // a radar's, whose preprocessing joins returns; absent: it resolves all objects
+  std::optional<Resolution> resolution;        // a radar's that joins returns; absent: all is resolved
 
   // Returns whether the sensor sits at the vehicle's origin, along its axes and without known biases: the
   // tracker takes its measurements unchanged.

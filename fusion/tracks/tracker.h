@@ -1,8 +1,8 @@
 // The multi-object tracker of all strategies: the order of the parts in a step. For each list,
 //   1. tracks are predicted to it; those that were silent for long end (given_up() in fusion/tracks/track.h);
 //   2. its observations are associated with them (fusion/tracks/parts/association.h), of the pairs in the gate
-//      (fusion/tracks/parts/gate.h) of the point that each track follows (fusion/tracks/parts/referral.h). What a radar cannot
-//      tell apart belongs to none (fusion/tracks/resolution/unresolved.h);
+//      (fusion/tracks/parts/gate.h) of the point that each track follows (fusion/tracks/parts/referral.h). A detection of
+//      two bodies that a radar does not resolve belongs to none (fusion/tracks/resolution/unresolved.h);
 //   3. each track counts the list, if its sensor could have seen the object (fusion/tracks/parts/visibility.h), and is corrected
 //      by what belongs to it: its existence (fusion/tracks/parts/existence.h), motion, heading and extent
 //      (fusion/tracks/parts/extents.h), and what is carried along (fusion/tracks/unfiltered.h);

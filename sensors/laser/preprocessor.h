@@ -44,7 +44,7 @@ struct SegmentFates {
   std::size_t large = 0;        // longer than longest_extent_m
   std::size_t thin = 0;         // thinner than a vehicle
   std::size_t rough = 0;        // no outline fits
-  std::size_t cut = 0;          // cut outlines whose free end is unknown, or is left out
+  std::size_t cut = 0;          // silhouettes with a hidden end, or free ends, where these are left out
   std::size_t segments() const;
   SegmentFates& operator+=(const SegmentFates& other);
 };

@@ -1,4 +1,4 @@
-// The bounds of a radar's returns over an outline, and whether a radar can tell the returns of two outlines apart.
+// The bounds of a radar's returns over an outline, and whether a radar resolves two outlines.
 #pragma once
 
 #include "fusion/sensors/resolution.h"
