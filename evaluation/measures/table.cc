@@ -229,6 +229,11 @@ constexpr Measure kLists[] = {
    "an image's objects on these, not judged either", ""},
   {"missed", "", "", [](F f) { return share(f.summary.missed, f.summary.missed + f.summary.matched); },
    "share of true objects in view without an image's object", kWorse},
+  {"out_of_view", "", "",
+   [](F f) {
+     return share(f.summary.out_of_view, f.summary.out_of_view + f.summary.missed + f.summary.matched);
+   },
+   "share of true objects in no sensor's field, or hidden: they are not judged", kSame},
   {"spurious", "", "", [](F f) { return share(f.summary.spurious, f.summary.spurious + f.summary.matched); },
    "share of an image's objects without a true object", "can look worse"},
 };

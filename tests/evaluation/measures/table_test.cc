@@ -75,6 +75,17 @@ TEST(MeasureTable, ADriveWithoutComparisonHasNoValueInsteadOfAPerfectZero) {
   EXPECT_FALSE(json.contains("odometry"));
 }
 
+TEST(MeasureTable, SharesOfObjectsInViewAndOfAll) {
+  accuracy::DriveSummary summary;
+  summary.missed = 2;
+  summary.matched = 6;
+  summary.out_of_view = 24;
+  const sim::drives::DriveOutcome outcome;
+  const DriveFigures figures{summary, outcome};
+  EXPECT_EQ(value_of(*find_measure("missed"), figures), 2.0 / 8.0);
+  EXPECT_EQ(value_of(*find_measure("out_of_view"), figures), 24.0 / 32.0);
+}
+
 TEST(MeasureTable, APartThatADrivenVehicleHasNotIsNullOrAbsent) {
   const accuracy::DriveSummary summary;
   const sim::drives::DriveOutcome outcome;
