@@ -119,9 +119,10 @@ std::string harms_text(const ExperimentOptions& options, const CampaignFile& cam
   for (std::size_t v = 0; v < campaign.variants.size(); ++v)
     for (const FaultResult& result : results) {
       if (result.outcomes[v].harms == 0 || !bus.is_harmless(v, result.drawn.fault) || ++count > kShownHarms) continue;
-      out += fmt::format("fault {}: {}\n  {}\n  ttfusion experiment {} --replay {}\n", result.index,
+      out += fmt::format("fault {}: {}\n  {}\n  ttfusion experiment {} --replay {}{}\n", result.index,
                          experiments::campaign::fault_text(result.drawn, bus.cluster()),
-                         experiments::campaign::harm_text(result.outcomes[v], bus), options.file, result.index);
+                         experiments::campaign::harm_text(result.outcomes[v], bus), options.file, result.index,
+                         options.seed ? fmt::format(" --seed {}", *options.seed) : "");
     }
   if (count > kShownHarms) out += fmt::format("and {} more, in results.csv\n", count - kShownHarms);
   return out;
@@ -153,7 +154,7 @@ int run_fault_campaign(const ExperimentOptions& options) {
   if (options.resume)
     throw InputError(
         {"command line", 0, "--resume", "", "is for sweeps: a campaign does not keep its trials one by one"});
-  const CampaignFile campaign = experiments::campaign::load_campaign(options.file);
+  const CampaignFile campaign = experiments::campaign::read_campaign(file_with_seed(options.file, options.seed));
   const std::unique_ptr<const CampaignBus> bus = experiments::campaign::bus_of(campaign);
   if (options.replay) return replay(options, campaign, *bus);
   if (!options.out.empty()) create_folder(options.out);

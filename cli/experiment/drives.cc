@@ -102,7 +102,7 @@ report::drive::Drive driven(const SweepDrives& drives, const experiments::result
 std::vector<report::drive::Drive> all_driven(const report::experiment::ExperimentFolder& folder,
                                              const std::string& file, std::uint32_t point,
                                              const nodes::foreign::StepFolder* steps, std::uint32_t& replication) {
-  const SweepFile sweep = experiments::sweep::load_sweep(file);
+  const SweepFile sweep = experiments::sweep::read_sweep(file_with_seed(file, folder.seed));
   const SweepDrives drives(sweep, steps);
   check_same_experiment(drives, folder);
   const std::vector<experiments::results::Row> rows = first_done_by_all(*folder.store, point, folder.paradigms.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/drive/step_options.h"
+#include "core/strict_yaml.h"
 #include "experiments/mpi/ranks.h"
 #include "experiments/results/shard.h"
 #include "experiments/sweep/drives.h"
@@ -22,7 +23,8 @@ struct ExperimentOptions {
   std::string truth;  // refused
   drive::StepOptions steps;
   unsigned jobs = 0;
-  std::uint32_t replications = 0;  // 0: as many as in the file
+  std::uint32_t replications = 0;     // 0: as many as in the file
+  std::optional<std::uint64_t> seed;  // none: the file's
   bool resume = false;
   bool json = false;
 };
@@ -33,6 +35,10 @@ experiments::results::Shard shard_of(const std::string& text);
 enum class ExperimentKind : std::uint8_t { kSweep, kFaultCampaign };
 // Throws InputError.
 ExperimentKind kind_of(const ExperimentOptions& options);
+
+// Reads an experiment's file as if it had another seed. A store of it is thus another experiment's than the file's own. Throws
+// InputError.
+StrictYaml file_with_seed(const std::string& path, std::optional<std::uint64_t> seed);
 
 // Decides the number of replications: the option's, else that of the existing or merged folders, else the
 // file's. Then sets it in `options` only if it differs from the file's. Throws InputError.

@@ -28,7 +28,7 @@ int run_on_ranks(const ExperimentOptions& given, experiments::mpi::Ranks& ranks)
     if (kind_of(options) != ExperimentKind::kSweep)
       throw InputError(
           {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
-    sweep.emplace(experiments::sweep::load_sweep(options.file));
+    sweep.emplace(experiments::sweep::read_sweep(file_with_seed(options.file, options.seed)));
     if (ranks.rank() == 0) settle_replications(options, *sweep);  // rank 0 sends the others their drives
     folder = drive::step_folder(options.steps);
     drives.emplace(*sweep, drive::pointer_to(folder));

@@ -86,7 +86,8 @@ Store opened(const SweepDrives& drives, const std::string& path) {
   if (store.head().identity != drives.identity() || store.head().measures != drives.columns() ||
       store.head().version != TTF_VERSION)
     throw InputError(
-        {path, 0, "", "", "must belong to this experiment: the file, a file that it names or the program has changed"});
+        {path, 0, "", "",
+         "must belong to this experiment: the file, its seed, a file that it names or the program has changed"});
   const SweepFile& sweep = drives.sweep();
   for (const experiments::results::RowKey& key : store.keys())
     if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())
@@ -146,6 +147,7 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
   store.for_each([&](const experiments::results::Row& row) {
     if (row.status == experiments::results::kDone || ++shown > kShownFailures) return;
     std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
+    if (options.seed) more += fmt::format(" --seed {}", *options.seed);
     for (const std::string& argument : options.steps.arguments()) more += " " + argument;
     text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out out/one\n", sweep.label_of(row.key.point),
                         row.status, options.file, key_text(sweep, row.key), more);
@@ -220,7 +222,7 @@ void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
 
 int run_sweep_experiment(const ExperimentOptions& given, experiments::mpi::Ranks& alone) {
   ExperimentOptions options = given;
-  SweepFile sweep = experiments::sweep::load_sweep(options.file);
+  SweepFile sweep = experiments::sweep::read_sweep(file_with_seed(options.file, options.seed));
   settle_replications(options, sweep);
   const std::optional<nodes::foreign::StepFolder> folder = drive::step_folder(options.steps);
   const SweepDrives drives(sweep, drive::pointer_to(folder));

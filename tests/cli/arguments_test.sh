@@ -54,6 +54,9 @@ for jobs in 0 1025 -1 2.5 010 0x10 many 99999999999999999999; do
   one_sentence "--jobs = $jobs: must be a whole number 1..1024" experiment x.yaml "--jobs=$jobs"
 done
 one_sentence '--replications = 0: must be a whole number 1..10000000' experiment x.yaml --replications 0
+for seed in -1 2.5 one 4611686018427387905; do
+  one_sentence "--seed = $seed: must be a whole number 0..4611686018427387904" experiment x.yaml "--seed=$seed"
+done
 one_sentence '--shuffle = 1001: must be a whole number 1..1000' track x.csv --shuffle 1001
 one_sentence '--point = -1: must be a whole number 0..9999' report x --point -1 -o x.html
 one_sentence '--frame = one: must be a whole number 0..999999999' diagram x.csv --kind boxes --frame one -o x.svg

@@ -21,6 +21,14 @@ awk -F, -v OFS=, '$2 == "guardian" && $7 == "yes" && !done { $12 = "frame_lost";
   "$work/merged/results.csv" >"$work/campaign/results.csv"
 expect 1 'does not hold' experiment "$campaign" --merge "$work/campaign"
 says 'ttfusion experiment .*campaign.yaml --replay [0-9]+'
+sed -e 's/^seed: .*/seed: 77/' "$campaign" >"$work/schedules/seed.yaml"
+expect 0 '' experiment "$work/schedules/seed.yaml" --out "$work/copy"
+expect 0 '' experiment "$campaign" --seed 77 --out "$work/seed"
+cmp -s "$work/copy/results.csv" "$work/seed/results.csv" || fail "--seed 77 is not a copy of the file with seed 77"
+cmp -s "$work/merged/results.csv" "$work/seed/results.csv" && fail "another seed draws the same faults"
+grep -q '"seed": 77,' "$work/seed/coverage.json" || fail "coverage.json does not name the seed"
+expect 2 'results.csv:[0-9]+: line' experiment "$campaign" --merge "$work/seed"
+expect 0 '' experiment "$campaign" --seed 77 --merge "$work/seed"
 expect 2 'campaign.yaml: --merge: lacks shard 2/2: give the folders of all shards' experiment "$campaign" \
   --merge "$work/shard1"
 expect 0 '' experiment "$campaign" --shard 3/5 --out "$work/shard3"

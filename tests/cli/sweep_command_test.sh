@@ -112,9 +112,32 @@ expect 2 '--replay = 1/tt: must be point/paradigm/replication, of points 0..1 an
 expect 2 'must be point/paradigm/replication' experiment "$file" --replay 2/tt/0
 expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff/0
 
-# ---- refused input, and unexpected results
+# ---- another seed than the file's: as a copy of the file with that seed, in a folder of its own
 sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
-expect 2 'must belong to this experiment: the file, a file that it names or the program has changed' \
+expect 0 '' experiment "$work/other.yaml" --out "$work/copy"
+expect 0 '' experiment "$file" --seed 4 --out "$work/seed"
+for name in runs.csv summary.csv answer.txt; do
+  cmp "$work/copy/$name" "$work/seed/$name" || fail "$name with --seed 4 is not that of a copy of the file"
+done
+cmp -s "$work/whole/runs.csv" "$work/seed/runs.csv" && fail "another seed drives the same"
+grep -q '"seed": 4,' "$work/seed/answer.json" || fail "answer.json does not name the seed"
+expect 0 '' experiment "$work/other.yaml" --out "$work/seed" --resume
+expect 0 '' experiment "$file" --seed 3 --out "$work/whole" --resume
+expect 2 'must belong to this experiment: the file, its seed, a file' experiment "$file" --seed 4 --out "$work/whole" --resume
+expect 2 'must belong to this experiment: the file, its seed, a file' experiment "$file" --out "$work/seed" --resume
+expect 2 'must belong to this experiment' experiment "$file" --seed 4 --merge "$work/first" "$work/second" --out "$work/never"
+grep -qF "$("$program" experiment "$file" --seed 4 --replay 1/tt/7 | awk '$1 == "position_rmse_truth" {print $2}')" \
+  "$work/seed/runs.csv" || fail "--replay with --seed drives another run"
+expect 0 '' report "$work/seed" -o "$work/seed.html"
+grep -q 'No drive is shown here' "$work/seed.html" && fail "the report cannot drive a run of another seed again"
+expect 0 '' experiment "$source/experiments/process_noise.yaml" --seed 4611686018427387904 --replay 0/tt/0
+sed 's/^seed: 3$/seed: many/' "$file" >"$work/no_seed.yaml"
+expect 2 'no_seed.yaml:5: seed = many: must be' experiment "$work/no_seed.yaml" --seed 4 --out "$work/never"
+sed '/^seed: 3$/d' "$file" >"$work/no_seed.yaml"
+expect 2 'no_seed.yaml.*: seed: is missing' experiment "$work/no_seed.yaml" --seed 4 --out "$work/never"
+
+# ---- refused input, and unexpected results
+expect 2 'must belong to this experiment: the file, its seed, a file that it names or the program has changed' \
   experiment "$work/other.yaml" --out "$work/whole" --resume
 expect 2 'must belong to this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
 expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$work/first" "$work/none" \
