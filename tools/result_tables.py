@@ -18,17 +18,21 @@ A directive stands as a comment above its table:
     names: X=Y, ...  the page says Y where the experiment says X; `<!-- names: X=Y, ... -->` says it for a page's tables
     crossing: yes    percent: a last column, where the sign changes along `columns`
     given: X=V V .., a column X before the others, of figures that are not the answer's, a value a row; to compare with
+    seeds: N, M of P a column behind the others for each of these seeds: the figure of paradigm P (default: the last one) by the same
+                 command with `--seed N`. `N without R` is the mean without replication R, for `means` and `percent`
 
 A change in per cent is the answer's own (experiments/results/ratio.h): its interval contains the spreads of both means.
 Where the baseline's mean is not certainly above 0, the change has no interval, and the table says so.
 
 Differences that stay certain among all of their measure, by Holm's method, are bold. A line above the table counts them.
 """
+import copy
 import math
 import re
 
 NAMES = re.compile(r"<!-- names: ([^>]*?) -->")
 DIRECTIVE = re.compile(r"<!-- table: ([^>]*?) -->\n*(?:\*[^*\n]+\*\n+)?((?:\|[^\n]*\n)*)")
+SEED = re.compile(r"^(\d+)(?: without (\d+))?$")
 SMALLEST = 1e-9  # below, a figure is rounding
 MOST_PLACES = 6
 KINDS = ("values", "means", "differences", "percent", "changes", "interactions")
@@ -52,9 +56,25 @@ class Directive:
         self.names = {**(names or {}), **dict(item.split("=", 1) for item in listed.get("names", []))}
         self.crossing = "crossing" in keys
         self.given = {name: values.split() for name, values in (item.split("=", 1) for item in listed.get("given", []))}
-        unknown = set(keys) - {"rows", "columns", "where", "names", "crossing", "given"}
+        seeds, _, of_seeds = keys.get("seeds", "").partition(" of ")
+        self.of_seeds = of_seeds or (self.paradigms[-1] if self.paradigms else "")
+        self.seeds = [seed.strip() for seed in seeds.split(",") if seed.strip()]
+        unknown = set(keys) - {"rows", "columns", "where", "names", "crossing", "given", "seeds"}
         if self.kind not in KINDS or not self.measures or unknown:
             raise Wrong(f"table: {text}: must be one of {', '.join(KINDS)}, a measure, and known keys")
+        if self.seeds and (self.kind in ("changes", "interactions") or len(self.measures) > 1 or self.columns
+                           or not self.of_seeds or not all(SEED.match(seed) for seed in self.seeds)):
+            raise Wrong(f"table: {text}: seeds must be as `2` or `2 without 8`, of one paradigm and measure, without `columns`")
+
+    def of_one(self, paradigm):
+        """The table's column of one paradigm alone."""
+        one = copy.copy(self)
+        one.paradigms, one.given, one.seeds = [paradigm], {}, []
+        return one
+
+    def numbers(self):
+        """Each further column's seed, and the replication that it leaves out or None."""
+        return [SEED.match(seed).groups() for seed in self.seeds]
 
     def name(self, word):
         return self.names.get(word, word.replace("_", " "))
@@ -65,6 +85,7 @@ class Cell:
 
     def __init__(self, point, paradigm, measure, text, half_width=None):
         self.point, self.paradigm, self.measure, self.text, self.half_width = point, paradigm, measure, text, half_width
+        self.seed = None  # another one than the page's
 
 
 def decimals(value, half_width, digits=2):
@@ -149,7 +170,7 @@ class Table:
         if strangers:
             raise Wrong(f"table: {directive.text}: {strangers[0]} is no paradigm (there are: {', '.join(everyone)})")
         self.certain = {m: certain_of(answer, m) for m in directive.measures}
-        self.header, self.lines = self.with_given(*self.laid_out())
+        self.header, self.lines = self.with_seeds(*self.with_given(*self.laid_out()))
 
     def estimate(self, point, paradigm, measure):
         return point["paradigms"][paradigm][measure]
@@ -213,6 +234,22 @@ class Table:
         header = [*header[:len(self.rows)], *given, *header[len(self.rows):]]
         return header, [([*named, *(values[i] for values in given.values())], cells)
                         for i, (named, cells) in enumerate(lines)]
+
+    def with_seeds(self, header, lines):
+        d = self.directive
+        for seed, (number, without) in zip(d.seeds, d.numbers()):
+            answer = self.answer.get("seeds", {}).get(number)
+            if answer is not None and without is not None:
+                answer = {**answer, "points": answer["without"].get(without)}
+            if not answer or not answer["points"]:
+                raise Wrong(f"table: {d.text}: no answer of seed {seed} is kept")
+            cells = [cells[-1] for _, cells in Table(d.of_one(d.of_seeds), answer).lines]
+            for cell in cells:
+                # The kept paradigms are no family. Without a replication there are means alone.
+                cell.seed, cell.text = number, cell.text.replace("**", "").removesuffix(" (no interval)" if without else "")
+            header = [*header, d.name(f"seed {seed}")]
+            lines = [(named, [*before, cell]) for (named, before), cell in zip(lines, cells)]
+        return header, lines
 
     def laid_out(self):
         d = self.directive

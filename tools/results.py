@@ -7,12 +7,15 @@
                                             drives a part of each page, and holds it against what the page prints
     results.py printed [PAGE ...]           holds each page's tables against the kept answer, without a drive
 
+A table may name further seeds. The page's command is then driven with `--seed`, too, and of each seed is kept what the tables have.
+
 The pages say what their tables are (result_tables.py). Kept are the answer of each page's drive, and the first
 replications of each paradigm and point (tests/golden/results). The check drives the same ones, or fewer of them. Their
 mean must not be further from the kept one than the printed interval is wide to one side. The random numbers are the same, so any
 difference is the program's. A small change of the program passes. One that a table would show does not.
 """
 import argparse
+import copy
 import csv
 import json
 import math
@@ -45,10 +48,33 @@ class Page:
         self.kept_answer = KEPT / f"{path.stem}.json"
         self.driven = DRIVEN / pathlib.Path(self.experiment or path.stem).stem
         self.tables = result_tables.tables_of(self.text)
+        self.seed = None  # the file's
+
+    def of_seed(self, seed):
+        """The page with another seed's tables, files and options."""
+        other = copy.copy(self)
+        other.seed = seed
+        other.options = [*self.options, "--seed", seed]
+        other.kept, other.kept_answer, other.driven = (at.with_name(f"{at.stem}_seed_{seed}{at.suffix}")
+                                                       for at in (self.kept, self.kept_answer, self.driven))
+        other.tables = [(directive, text) for directive, text in self.tables if seed in dict(directive.numbers())]
+        return other
+
+    def all_seeds(self):
+        seeds = {seed for directive, _ in self.tables for seed, _ in directive.numbers()}
+        return [self, *(self.of_seed(seed) for seed in sorted(seeds, key=int))]
+
+    def left_out(self):
+        """The replications of this seed that a column leaves out."""
+        return sorted({one for directive, _ in self.tables for seed, one in directive.numbers() if seed == self.seed and one})
+
+    def answer(self):
+        """The kept answer, with those of the other seeds."""
+        own, *others = (json.loads(page.kept_answer.read_text(encoding="utf-8")) for page in self.all_seeds())
+        return {**own, "seeds": {str(other["seed"]): other for other in others}}
 
     def fill(self):
-        answer = json.loads(self.kept_answer.read_text(encoding="utf-8"))
-        self.path.write_text(result_tables.filled(self.text, answer), encoding="utf-8")
+        self.path.write_text(result_tables.filled(self.text, self.answer()), encoding="utf-8")
 
 
 def drive(experiment, options, folder, jobs):
@@ -60,12 +86,12 @@ def drive(experiment, options, folder, jobs):
     return done.returncode == 0
 
 
-def first_replications(folder, measures, replications=REPLICATIONS):
-    """(point, paradigm) -> measure -> the values of the first replications."""
+def values_of(folder, measures, wanted):
+    """(point, paradigm) -> measure -> the values of the wanted replications."""
     found = {}
     with open(pathlib.Path(folder) / "runs.csv", encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
-            if int(row["replication"]) >= replications or row["status"] != "done":
+            if not wanted(int(row["replication"])) or row["status"] != "done":
                 continue
             cell = found.setdefault((int(row["point"]), row["paradigm"]), {m: [] for m in measures})
             for measure in measures:
@@ -73,11 +99,15 @@ def first_replications(folder, measures, replications=REPLICATIONS):
     return found
 
 
+def first_replications(folder, measures, replications=REPLICATIONS):
+    return values_of(folder, measures, lambda replication: replication < replications)
+
+
 def measures_of(page):
     return list(dict.fromkeys(m for directive, _ in page.tables for m in directive.measures))
 
 
-def trimmed(answer, measures):
+def trimmed(answer, measures, paradigms=None):
     """An answer with the measures of these tables alone, to six digits."""
     def rounded(value):
         if isinstance(value, dict):
@@ -86,7 +116,8 @@ def trimmed(answer, measures):
             return [rounded(of) for of in value]
         return float(f"{value:.6g}") if isinstance(value, float) else value
     points = [{"point": p["point"], "axes": p["axes"],
-               "paradigms": {name: {m: rounded(cells[m]) for m in measures} for name, cells in p["paradigms"].items()}}
+               "paradigms": {name: {m: rounded(cells[m]) for m in measures} for name, cells in p["paradigms"].items()
+                             if paradigms is None or name in paradigms}}
               for p in answer["points"]]
     kept = {**{key: answer[key] for key in ("baseline", "confidence", "seed")}, "points": points,
             "measures": {m: answer["measures"][m] for m in measures}}
@@ -99,26 +130,50 @@ def printed(pages):
     """Whether a page prints other tables than its kept answer has."""
     failed = False
     for page in pages:
-        if not page.kept_answer.exists():
+        if not all(one.kept_answer.exists() for one in page.all_seeds()):
             print(f"{page.path.name}: has no kept answer: tools/results.py drive {page.path.relative_to(TOP)}")
             failed = True
             continue
-        if result_tables.filled(page.text, json.loads(page.kept_answer.read_text(encoding="utf-8"))) != page.text:
+        if result_tables.filled(page.text, page.answer()) != page.text:
             print(f"{page.path.name}: prints other tables than its drive gave: tools/results.py drive "
                   f"{page.path.relative_to(TOP)}")
             failed = True
     return failed
 
 
+def points_without(page, answer, replication):
+    """The points of an answer without one replication. They have means, without intervals."""
+    runs = values_of(page.driven, measures_of(page), lambda one: one != replication)
+
+    def estimate(point, paradigm, measure):
+        own, base = (mean(runs[point, p][measure]) for p in (paradigm, answer["baseline"]))
+        found = {"mean": own, "half_width": None}
+        if paradigm != answer["baseline"]:
+            found["difference"] = {"mean": own - base, "half_width": None,
+                                   "percent": {"mean": 100 * (own / base - 1), "low": None, "high": None}}
+        return found
+    return [{**p, "paradigms": {name: {m: estimate(p["point"], name, m) for m in cells} for name, cells in p["paradigms"].items()}}
+            for p in answer["points"]]
+
+
 def keep(page):
-    measures = measures_of(page)
+    """Keeps the answer and the first replications. Another seed than the page's has the paradigms of its columns alone."""
+    measures, paradigms = measures_of(page), None
     KEPT.mkdir(parents=True, exist_ok=True)
     answer = json.loads((page.driven / "answer.json").read_text(encoding="utf-8"))
-    page.kept_answer.write_text(json.dumps(trimmed(answer, measures), separators=(",", ":")) + "\n", encoding="utf-8")
+    if page.seed:
+        paradigms = {answer["baseline"], *(directive.of_seeds for directive, _ in page.tables)}
+    kept = trimmed(answer, measures, paradigms)
+    if page.left_out():
+        kept["without"] = {r: trimmed({**kept, "points": points_without(page, kept, int(r))}, measures)["points"]
+                           for r in page.left_out()}
+    page.kept_answer.write_text(json.dumps(kept, separators=(",", ":")) + "\n", encoding="utf-8")
     with open(page.kept, "w", encoding="utf-8", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(["point", "paradigm", "replication", *measures])
         for (point, paradigm), cell in sorted(first_replications(page.driven, measures).items()):
+            if paradigms is not None and paradigm not in paradigms:
+                continue
             for r in range(len(cell[measures[0]])):
                 out.writerow([point, paradigm, r, *(f"{cell[m][r]:.6g}" for m in measures)])
 
@@ -166,8 +221,9 @@ def printed_cells(table):
     return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in table.splitlines()[2:]]
 
 
-def contradictions(page, today, answer, replications):
-    then, found = kept_rows(page, replications), []
+def contradictions(page, todays, answer, replications):
+    """`todays` has the rows of today's drives by the seed, None for the page's own."""
+    thens, found = {seed: kept_rows(page.of_seed(seed) if seed else page, replications) for seed in todays}, []
     for directive, text in page.tables:
         table = result_tables.Table(directive, answer)
         in_page = printed_cells(text)
@@ -178,11 +234,13 @@ def contradictions(page, today, answer, replications):
             for cell, said in zip(cells, line[len(named):]):
                 if cell.measure is None:
                     continue
+                then, today = thens[cell.seed], todays[cell.seed]
                 base = (mean(then[cell.point["point"], table.baseline][cell.measure]) if directive.kind == "percent"
                         else None)
                 a, b = (figure(directive.kind, rows, cell, table.baseline, base) for rows in (then, today))
                 if not (abs(b - a) <= allowed(said, a, b) or (math.isnan(a) and math.isnan(b))):
-                    where = ", ".join(f"{k} {v}" for k, v in cell.point["axes"].items())
+                    where = ", ".join(f"{k} {v}" for k, v in [*cell.point["axes"].items(),
+                                                              *([("seed", cell.seed)] if cell.seed else [])])
                     found.append(f"{cell.measure} of {cell.paradigm}, {where}: replications 0 to {replications - 1} "
                                  f"give {b:.4g}, and gave {a:.4g} for the table, which prints {said}")
     return found
@@ -203,13 +261,19 @@ def check(pages, replications, jobs):
     failed, driven = False, set()
     with tempfile.TemporaryDirectory() as top:
         for page in pages:
-            folder = pathlib.Path(top) / page.driven.name
-            if page.driven not in driven:  # pages may share an experiment
-                driven.add(page.driven)
-                drive(page.experiment, ["--replications", str(replications)], folder, jobs)
-            answer = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
-            today = first_replications(folder, measures_of(page), replications)
-            found = contradictions(page, today, answer, replications)
+            answers, todays = {}, {}
+            for one in page.all_seeds():
+                folder, seed = pathlib.Path(top) / one.driven.name, one.seed
+                if one.driven not in driven:  # pages may share an experiment
+                    driven.add(one.driven)
+                    seeded = ["--seed", seed] if seed else []
+                    drive(one.experiment, ["--replications", str(replications), *seeded], folder, jobs)
+                answers[seed] = json.loads((folder / "answer.json").read_text(encoding="utf-8"))
+                todays[seed] = first_replications(folder, measures_of(one), replications)
+            # The figures are the rows', so that no point needs a replication less here.
+            seeds = {one.seed: {**answers[one.seed], "without": {r: answers[one.seed]["points"] for r in one.left_out()}}
+                     for one in page.all_seeds()[1:]}
+            found = contradictions(page, todays, {**answers[None], "seeds": seeds}, replications)
             failed = report(page, found) or failed
     return failed
 
@@ -230,14 +294,14 @@ def main():
         if asked.what == "printed":
             sys.exit(1 if printed(pages) else 0)
         for page in pages:
-            if asked.what == "drive":
-                if page.driven not in driven:  # pages may share an experiment
-                    driven.add(page.driven)
-                    shutil.rmtree(page.driven, ignore_errors=True)
-                    as_expected = drive(page.experiment, page.options, page.driven, asked.jobs)
+            for one in page.all_seeds() if asked.what == "drive" else []:
+                if one.driven not in driven:  # pages may share an experiment
+                    driven.add(one.driven)
+                    shutil.rmtree(one.driven, ignore_errors=True)
+                    as_expected = drive(one.experiment, one.options, one.driven, asked.jobs)
                     verdict = "as expected" if as_expected else "AN EXPECTATION DOES NOT HOLD"
-                    print(f"{page.path.name}: {verdict}", flush=True)
-                keep(page)
+                    print(f"{page.path.name}{f', seed {one.seed}' if one.seed else ''}: {verdict}", flush=True)
+                keep(one)
             page.fill()
     except result_tables.Wrong as wrong:
         sys.exit(f"error: {wrong}")

@@ -146,6 +146,54 @@ class Tables(unittest.TestCase):
         self.assertEqual(result_tables.filled(percent, answer()), percent)
 
 
+class Seeds(unittest.TestCase):
+    """A column of the same experiment with another seed."""
+
+    def seeded(self, text):
+        other = answer()
+        other["seed"] = 2
+        for point in other["points"]:
+            point["paradigms"]["free"]["error"]["difference"]["percent"]["mean"] = -10.0
+        without = json.loads(json.dumps(other["points"]))
+        for point in without:
+            point["paradigms"]["free"]["error"]["difference"]["percent"] = {"mean": -7.0, "low": None, "high": None}
+        other["without"] = {"8": without}
+        return result_tables.Table(result_tables.Directive(text), {**answer(), "seeds": {"2": other}})
+
+    def test_a_column_of_each_is_behind_the_others(self):
+        text = self.seeded("percent error of free; where: road=dry; seeds: 2, 2 without 8; names: seed 2=again").text()
+        self.assertIn("| density | free | again | seed 2 without 8 |", text)
+        self.assertIn("| 1 | **-25 (-29 to -20)** | -10 (-29 to -20) | -7.00 |", text)
+        text = self.seeded("means error of tt free; where: road=dry; seeds: 2 of tt").text()
+        self.assertIn("| density | tt | free | seed 2 |", text)
+
+    def test_the_cells_name_their_seed(self):
+        table = self.seeded("means error of free; where: road=dry; seeds: 2, 2 without 8")
+        self.assertEqual([cell.seed for cell in table.cells()], [None, "2", "2"] * 2)
+
+    def test_what_cannot_be_is_refused(self):
+        for text, said in [("percent error of free; where: road=dry; seeds: 3", "no answer of seed 3 is kept"),
+                           ("percent error of free; where: road=dry; seeds: 2 without 9", "no answer of seed 2 without 9 is kept"),
+                           ("percent error of free; where: road=dry; seeds: two", "seeds must be as `2`"),
+                           ("means error age of free; where: road=dry; seeds: 2", "seeds must be as `2`"),
+                           ("percent error of free; columns: density; seeds: 2", "seeds must be as `2`")]:
+            with self.assertRaisesRegex(result_tables.Wrong, said):
+                self.seeded(text)
+
+    def test_the_page_has_files_of_each_seed(self):
+        page = results.Page.__new__(results.Page)
+        page.options, page.seed = ["--replications", "9"], None
+        page.kept, page.kept_answer, page.driven = (pathlib.Path(name) for name in ("made.csv", "made.json", "driven/made"))
+        page.tables = result_tables.tables_of("<!-- table: means error of tt; seeds: 12, 2, 2 without 8 -->\n"
+                                              "<!-- table: means error of tt -->\n")
+        own, two, twelve = page.all_seeds()
+        self.assertEqual((own.seed, len(own.tables), own.left_out()), (None, 2, []))
+        self.assertEqual((two.seed, len(two.tables), two.left_out()), ("2", 1, ["8"]))
+        self.assertEqual(twelve.options, ["--replications", "9", "--seed", "12"])
+        self.assertEqual([str(at) for at in (two.kept, two.kept_answer, two.driven)],
+                         ["made_seed_2.csv", "made_seed_2.json", "driven/made_seed_2"])
+
+
 class Check(unittest.TestCase):
     """The printed interval of `free` at density 1 is 0.10 wide to either side."""
 
@@ -159,7 +207,7 @@ class Check(unittest.TestCase):
                  for key, cell in rows.items()}
         was, results.kept_rows = results.kept_rows, lambda *_: rows
         try:
-            return results.contradictions(page, today, answer(), results.REPLICATIONS)
+            return results.contradictions(page, {None: today}, answer(), results.REPLICATIONS)
         finally:
             results.kept_rows = was
 
@@ -187,6 +235,7 @@ class Printed(unittest.TestCase):
             page.path, page.kept_answer = results.TOP / "docs/results/made_up.md", pathlib.Path(folder) / "made_up.json"
             page.kept_answer.write_text(json.dumps(results.trimmed(answer(), ["error"])), encoding="utf-8")
             page.text = change(result_tables.filled("<!-- table: differences error; where: road=dry -->\n", answer()))
+            page.tables = result_tables.tables_of(page.text)
             with contextlib.redirect_stdout(io.StringIO()):
                 return results.printed([page])
 
