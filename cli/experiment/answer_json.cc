@@ -108,6 +108,12 @@ nlohmann::ordered_json answer_json(const SweepFile& sweep, const answers::SweepA
     const evaluation::measures::Measure& measure = *evaluation::measures::find_measure(name);
     json["measures"][name] = {{"unit", measure.unit}, {"meaning", measure.meaning}};
   }
+  if (answer.lost) {
+    json["lost_tracks"]["replications"] = answer.lost->left_out;
+    for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+      json["lost_tracks"]["paradigms"][sweep.paradigms[p].name] = {{"drives", answer.lost->drives[p]},
+                                                                   {"lost", answer.lost->lost[p]}};
+  }
   const auto axes = sweep.grid();
   for (const answers::PointAnswer& point : answer.points) {
     nlohmann::ordered_json one{{"point", point.point}};

@@ -41,6 +41,12 @@ const std::string* file_of(const std::vector<Edit>& edits, std::string_view key)
   return last == edits.rend() ? nullptr : &last->value;
 }
 
+std::vector<std::string> stored_measures(const SweepFile& sweep) {
+  std::vector<std::string> names = sweep.measures;
+  if (std::ranges::find(names, kTrackLost) == names.end()) names.emplace_back(kTrackLost);
+  return names;
+}
+
 // Names the file that a key's value is.
 std::string_view kind_words(std::string_view key) {
   return key == kScenarioFile ? "a scenario file" : key == kClusterFile ? "a cluster file" : "a file of faults";
@@ -281,7 +287,8 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
     std::optional<evaluation::driving::DrivingFindings> driven;
     if (driving) driven = driving->finish();
     const evaluation::measures::DriveFigures figures{summary, outcome, driven ? &*driven : nullptr};
-    for (const std::string& name : sweep_.measures) row.values.push_back(value_of(*find_measure(name), figures));
+    for (const std::string& name : stored_measures(sweep_))
+      row.values.push_back(value_of(*find_measure(name), figures));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -294,7 +301,7 @@ results::Row SweepDrives::run(const results::RowKey& key, const PreparedDrive& d
 std::vector<std::string> SweepDrives::columns() const {
   std::vector<std::string> names;
   for (const Axis* axis : sweep_.drawn()) names.push_back(axis->name);
-  names.insert(names.end(), sweep_.measures.begin(), sweep_.measures.end());
+  for (std::string& name : stored_measures(sweep_)) names.push_back(std::move(name));
   return names;
 }
 

@@ -43,7 +43,7 @@ class SweepDrives {
   results::Row run(const results::RowKey& key, const PreparedDrive& drive,
                    recording::records::Sink* listener = nullptr) const;
 
-  // The store's columns; a drawn axis has its name in the file.
+  // The store's columns: drawn axes by their names in the file, the file's measures, and kTrackLost unless it is one of them.
   std::vector<std::string> columns() const;
   // A hash of all files behind the drives, libraries included.
   const std::string& identity() const { return identity_; }

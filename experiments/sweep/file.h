@@ -158,6 +158,9 @@ struct SweepFile {
   std::string label_without(std::uint32_t point, std::size_t axis) const;
 };
 
+// The measure that every drive is stored with, whatever `measures` says: a lost track may be a mean's largest part.
+inline constexpr std::string_view kTrackLost = "track_lost";
+
 inline constexpr std::size_t kMostPoints = 10'000;
 inline constexpr std::uint64_t kMostDrives = 100'000'000;
 inline constexpr std::uint32_t kMostReplications = 10'000'000;

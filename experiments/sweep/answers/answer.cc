@@ -247,8 +247,7 @@ std::vector<std::uint32_t> lost_at(const SweepFile& sweep, const PointDrives& dr
 }
 
 std::optional<LostTracks> lost_tracks(const SweepFile& sweep, const results::Store& store) {
-  const std::size_t measure = measure_index(sweep, kTrackLost);
-  if (measure == sweep.measures.size()) return std::nullopt;
+  const std::size_t measure = measure_index(sweep, kTrackLost);  // if not the file's: the column behind them
   LostTracks all;
   all.drives.resize(sweep.paradigms.size());
   all.lost.resize(sweep.paradigms.size());
@@ -257,11 +256,11 @@ std::optional<LostTracks> lost_tracks(const SweepFile& sweep, const results::Sto
     all.left_out += lost_at(sweep, drives, measure).size();
     for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
       for (const Row* row : drives.of(p)) {
-        ++all.drives[p];
+        all.drives[p] += !std::isnan(drives.value(*row, measure));
         all.lost[p] += drives.value(*row, measure) > 0.0;
       }
   }
-  if (all.left_out == 0) return all;
+  if (all.left_out == 0) return measure < sweep.measures.size() ? std::optional(all) : std::nullopt;
   const auto without = [&](std::uint32_t point) {
     std::vector<Row> rows = store.of_point(point);
     const std::vector<std::uint32_t> lost = lost_at(sweep, PointDrives(sweep, rows), measure);

@@ -61,8 +61,6 @@ struct InteractionAnswer {
 
 using results::Outcome;
 
-inline constexpr std::string_view kTrackLost = "track_lost";
-
 // A point at which an expectation is not certain, with a sentence about the reason.
 struct Unmet {
   std::string point, why;
@@ -78,8 +76,8 @@ struct ExpectationAnswer {
 // Drives in which an object lost its track, by paradigm over all points. One such drive may be the largest part of a mean. So the
 // points are there without each replication in which a paradigm lost one there.
 struct LostTracks {
-  std::vector<std::uint64_t> drives, lost;
-  std::uint64_t left_out = 0;  // replications, over all points
+  std::vector<std::uint64_t> drives, lost;  // drives without tracks to judge do not count
+  std::uint64_t left_out = 0;               // replications, over all points
   std::vector<PointAnswer> points;
 };
 
@@ -91,7 +89,7 @@ struct SweepAnswer {
   std::vector<Crossing> crossings;
   std::vector<InteractionAnswer> interactions;  // as in the file
   std::vector<ExpectationAnswer> expectations;
-  std::optional<LostTracks> lost;  // if the file has the measure kTrackLost
+  std::optional<LostTracks> lost;  // if some drive lost one; always for a file that has the measure kTrackLost
   bool holds() const;
 };
 

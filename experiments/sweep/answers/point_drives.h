@@ -24,7 +24,7 @@ class PointDrives {
   std::size_t failed() const { return failed_; }
   // The drives of a paradigm that did not fail, by replication.
   const std::vector<const results::Row*>& of(std::size_t paradigm) const { return by_paradigm_[paradigm]; }
-  // Returns a measure of a drive, by its place in the file's `measures`.
+  // Returns a measure of a drive, by its place in the file's `measures`. Behind them is kTrackLost, unless it is one of them.
   double value(const results::Row& row, std::size_t measure) const { return row.values[first_ + measure]; }
 
  private:

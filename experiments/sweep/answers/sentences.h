@@ -11,7 +11,7 @@ namespace ttf::experiments::sweep::answers {
 // axis, has the numbers of points at which the first measure is less, more or undecided. It also has by how much, and where
 // that changes for certain.
 std::string answer_lines(const SweepFile& sweep, const SweepAnswer& answer);
-// Counts the drives in which an object lost its track, and has the answer without such replications. "" if the file does not ask.
+// Counts the drives in which an object lost its track, and has the answer without such replications. "" without SweepAnswer::lost.
 std::string lost_lines(const SweepFile& sweep, const SweepAnswer& answer);
 // Says how many comparisons, and how many interactions, stay certain together. Names each pair of paradigms that does.
 std::string family_lines(const SweepFile& sweep, const SweepAnswer& answer);

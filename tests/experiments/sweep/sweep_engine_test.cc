@@ -69,8 +69,8 @@ TEST_F(SweepEngine, PrecisionIsThereWhereItIsAskedFor) {
   const results::Row without = SweepDrives(sweep).run({0, 0, 0});
   sweep.measures.push_back("precision");
   const results::Row with = SweepDrives(sweep).run({0, 0, 0});
-  ASSERT_EQ(with.values.size(), 3u);
-  EXPECT_EQ(std::vector(with.values.begin(), with.values.begin() + 2), without.values);
+  ASSERT_EQ(with.values.size(), 4u);
+  EXPECT_EQ((std::vector{with.values[0], with.values[1], with.values[3]}), without.values) << "the last is track_lost";
   EXPECT_GT(with.values[2], 0.01);
   EXPECT_LT(with.values[2], 10.0);
 }
@@ -96,7 +96,10 @@ class OneElsewhere final : public Elsewhere {
 TEST_F(SweepEngine, AClosedLoopHasItsMeasures) {
   SweepFile open = small_sweep(1);
   open.measures = {"collision", "gap_error_rms", "stopping_distance"};
-  for (const double value : SweepDrives(open).run({0, 0, 0}).values) EXPECT_TRUE(std::isnan(value));
+  results::Row undriven = SweepDrives(open).run({0, 0, 0});
+  EXPECT_EQ(undriven.values.back(), 0.0) << "its tracks are judged";
+  undriven.values.pop_back();
+  for (const double value : undriven.values) EXPECT_TRUE(std::isnan(value));
   const SweepFile closed = parse_sweep(
       "kind: sweep\nname: loop\nquestion: Does it stop?\nscenario: ../scenarios/acc_braking_lead.yaml\nseed: 1\n"
       "replications: 1\nparadigms:\n  tt: {strategy: tt, set: {duration: 8 s}}\n"
@@ -131,7 +134,8 @@ TEST_F(SweepEngine, ServicesThatKeepALaneAndWatchABlindSpotHaveTheirs) {
     return row.values;
   };
   // A car overtakes from 3 s on.
-  const std::vector<double> with = values("blind_spot"), without = values("acc_braking_lead");
+  std::vector<double> with = values("blind_spot"), without = values("acc_braking_lead");
+  without.pop_back();  // track_lost
   for (const double value : without) EXPECT_TRUE(std::isnan(value));
   EXPECT_GT(with[0], 0.0);
   EXPECT_GE(with[1], with[0]);
@@ -188,7 +192,7 @@ TEST_F(SweepEngine, DrawnAxesAreDrawnOnceAReplication) {
   text.insert(text.find("measures:"), "  q: {keys: [tracker.process_noise], uniform: [0.1, 5]}\n");
   const SweepFile with_draws = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
   const SweepDrives drives(with_draws);
-  EXPECT_THAT(drives.columns(), testing::ElementsAre("q", "position_rmse_truth", "age_fused"));
+  EXPECT_THAT(drives.columns(), testing::ElementsAre("q", "position_rmse_truth", "age_fused", "track_lost"));
   const results::Row one = drives.run({0, 1, 0}), other = drives.run({1, 1, 1}), next = drives.run({0, 2, 0});
   EXPECT_EQ(one.values[0], other.values[0]);
   EXPECT_NE(one.values[0], next.values[0]);

@@ -20,7 +20,7 @@ namespace {
 using SweepAnswers = StoreFolder;
 
 results::Row made_up(std::uint32_t point, std::uint32_t replication, std::uint32_t paradigm, double rmse) {
-  return {{point, replication, paradigm}, results::kDone, {rmse, 10.0}};
+  return {{point, replication, paradigm}, results::kDone, {rmse, 10.0, 0.0}};
 }
 
 std::string unmet(const ExpectationAnswer& answer) {
@@ -37,7 +37,7 @@ TEST_F(SweepAnswers, AbsentValuesAreCountedAndEventsAreShares) {
   const SweepDrives drives(sweep);
   results::Store made = store(drives, "made");
   const auto row = [](std::uint32_t point, std::uint32_t r, std::uint32_t paradigm, double distance, double collision) {
-    return results::Row{{point, r, paradigm}, results::kDone, {distance, collision}};
+    return results::Row{{point, r, paradigm}, results::kDone, {distance, collision, 0.0}};
   };
   for (std::uint32_t r = 0; r < 4; ++r)
     made.add({row(0, r, 0, 70.0 + r, 0.0), row(0, r, 1, r == 0 ? std::nan("") : 71.0 + r, r == 0 ? 1.0 : 0.0)});
@@ -89,9 +89,32 @@ TEST_F(SweepAnswers, LostTracksAreCountedAndLeftOutForAllParadigms) {
                                  "position_rmse_truth of tt is less than that of adva at 2 points"));
 }
 
+// The event is stored with every drive. A drive without tracks is not among those that may lose one.
+TEST_F(SweepAnswers, LostTracksAreCountedWithoutBeingAskedFor) {
+  const SweepFile sweep = small_sweep(3);
+  results::Store made = store(SweepDrives(sweep), "made");
+  for (std::uint32_t r = 0; r < 3; ++r)
+    for (const std::uint32_t point : {0u, 1u}) {
+      results::Row one = made_up(point, r, 0, 1.0), other = made_up(point, r, 1, r == 1 ? 7.0 : 0.9 - 0.01 * r);
+      other.values.back() = r == 1 ? 1.0 : 0.0;
+      if (r == 2) one.values.back() = std::nan("");
+      made.add({one, other});
+    }
+  const SweepAnswer answer = answer_of(sweep, made);
+  ASSERT_TRUE(answer.lost);
+  EXPECT_EQ(answer.lost->drives, (std::vector<std::uint64_t>{4, 6}));
+  EXPECT_EQ(answer.lost->lost, (std::vector<std::uint64_t>{0, 2}));
+  EXPECT_EQ(answer.points[0].means[0].size(), 2u) << "no measure of the file";
+  EXPECT_THAT(answer_text(sweep, answer),
+              testing::HasSubstr("An object lost its track in 0 of 4 drives of adva, 2 of 6 drives of tt.\n"
+                                 "Without 2 replications that lost a track, left out for all paradigms:\n"));
+}
+
 TEST_F(SweepAnswers, WithoutALostTrackThereIsNoSecondAnswer) {
   const SweepFile without = small_sweep(2);
-  EXPECT_FALSE(answer_of(without, store(SweepDrives(without), "without")).lost) << "the file does not ask";
+  results::Store none = store(SweepDrives(without), "without");
+  none.add({made_up(0, 0, 0, 1.0), made_up(0, 0, 1, 1.0)});
+  EXPECT_FALSE(answer_of(without, none).lost) << "none is lost, and the file does not ask";
   std::string text = sweep_text(2);
   text.replace(text.find("age_fused"), 9, "track_lost");
   const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
@@ -185,8 +208,8 @@ TEST_F(SweepAnswers, MeasuresAgreeWithinAMargin) {
     results::Store made = store(drives, "made" + margin);
     for (std::uint32_t r = 0; r < 3; ++r) {
       const double off = 0.1 * (static_cast<double>(r) - 1.0);  // not on the average
-      made.add({{{0, r, 0}, results::kDone, {5.0 + r + off, 5.0 + r}},
-                {{1, r, 0}, results::kDone, {7.0 + r + off, 5.0 + r}}});
+      made.add({{{0, r, 0}, results::kDone, {5.0 + r + off, 5.0 + r, 0.0}},
+                {{1, r, 0}, results::kDone, {7.0 + r + off, 5.0 + r, 0.0}}});
     }
     return answer_of(sweep, made).expectations.at(0);
   };
@@ -213,7 +236,8 @@ TEST_F(SweepAnswers, FewDrivesDoNotAgree) {
   const double spread[] = {-0.010, 0.012, -0.002};
   EXPECT_EQ(answer_of(sweep, few).expectations[0].outcome, Outcome::kUndecided) << "without any drive";
   for (std::uint32_t r = 0; r < 3; ++r) {
-    for (const std::uint32_t point : {0u, 1u}) few.add({{{point, r, 0}, results::kDone, {0.0124 + spread[r], 0.0351}}});
+    for (const std::uint32_t point : {0u, 1u})
+      few.add({{{point, r, 0}, results::kDone, {0.0124 + spread[r], 0.0351, 0.0}}});
     const SweepAnswer answer = answer_of(sweep, few);
     EXPECT_EQ(answer.expectations[0].outcome, Outcome::kUndecided) << r;
     EXPECT_THAT(unmet(answer.expectations[0]), testing::HasSubstr("more replications")) << r;
@@ -379,7 +403,7 @@ TEST_F(SweepAnswers, InteractionsNeedAllFourDrives) {
     for (std::uint32_t drive = 0; drive < 4; ++drive) {
       if (drive == r) continue;  // each of the first four replications lacks one
       results::Row row = made_up(drive / 2, r, drive % 2, 1.0 + r);
-      if (r == 4 && drive == 0) row = {row.key, "out of luck", {std::nan(""), std::nan("")}};
+      if (r == 4 && drive == 0) row = {row.key, "out of luck", {std::nan(""), std::nan(""), std::nan("")}};
       made.add({row});
     }
   const SweepAnswer answer = answer_of(sweep, made);
@@ -446,13 +470,13 @@ TEST_F(SweepAnswers, AFailedRunIsARow) {
                made_up(0, 1, 0, 2.0),
                made_up(0, 2, 0, 3.0),
                made_up(0, 0, 1, 2.0),
-               {{0, 1, 1}, "out of luck", {std::nan(""), std::nan("")}},
+               {{0, 1, 1}, "out of luck", {std::nan(""), std::nan(""), std::nan("")}},
                made_up(0, 2, 1, 4.0)});
   const SweepAnswer answer = answer_of(sweep, failing);
   EXPECT_EQ(answer.failed, 1u);
   EXPECT_EQ(answer.points[0].differences[1][0].count, 2u);
   EXPECT_EQ(answer.points[0].means[0][0].count, 3u);
-  EXPECT_THAT(runs_csv(sweep, failing), testing::HasSubstr("0,1,1,tt,out of luck,,\n"));
+  EXPECT_THAT(runs_csv(sweep, failing), testing::HasSubstr("0,1,1,tt,out of luck,,,\n"));
 }
 
 }  // namespace
