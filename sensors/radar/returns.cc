@@ -1,12 +1,21 @@
 #include "sensors/radar/returns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
 #include "core/check.h"
 
 namespace ttf::sensors::radar {
+namespace {
+
+constexpr double kLeastSpeed = 0.25;  // [m/s]; narrower gates divide returns by their noise
+constexpr double kFive = 5.0;         // standard deviations
+
+double square(double x) { return x * x; }
+
+}  // namespace
 
 RadarPreprocessingConfig load_radar_preprocessing(YamlMap& yaml) {
   RadarPreprocessingConfig c;
@@ -31,9 +40,9 @@ ReturnJoiner::ReturnJoiner(const RadarPreprocessingConfig& config, std::size_t m
   members_.reserve(most_returns);
 }
 
-bool ReturnJoiner::together(const Return& a, const Return& b) const {
-  return resolution_.joins(std::min(a.range, b.range), a.range - b.range, a.azimuth - b.azimuth,
-                           a.range_rate - b.range_rate);
+bool ReturnJoiner::together(const Return& a, const Return& b, const Resolution& resolution) const {
+  return resolution.joins(std::min(a.range, b.range), a.range - b.range, a.azimuth - b.azimuth,
+                          a.range_rate - b.range_rate);
 }
 
 // Range rates are averaged about the first return's: a fold may lie between them.
@@ -55,20 +64,70 @@ RadarObject ReturnJoiner::object_of(const std::vector<Return>& returns) const {
           static_cast<int>(members_.size())};
 }
 
+// Takes the chain of returns that begins with this one.
+void ReturnJoiner::take_chain(const std::vector<Return>& returns, std::size_t first, const Resolution& resolution) {
+  members_.assign(1, first);
+  taken_[first] = 1;
+  for (std::size_t next = 0; next < members_.size(); ++next)
+    for (std::size_t other = first + 1; other < returns.size(); ++other) {
+      if (taken_[other] || !together(returns[members_[next]], returns[other], resolution)) continue;
+      taken_[other] = 1;
+      members_.push_back(other);
+    }
+}
+
+// The least squares of a and b, with b between its bounds. The error of an azimuth changes the range rate by the velocity across.
+double ReturnJoiner::chi_squared(const std::vector<Return>& returns, double fold) const {
+  const Return& first = returns[members_.front()];
+  using Row = std::array<double, 3>;  // cos, sin, range rate
+  const auto row_of = [&](std::size_t m) {
+    const double t = returns[m].azimuth - first.azimuth;
+    const double later = std::remainder(returns[m].range_rate - first.range_rate, config_.rate_span_mps);
+    return Row{std::cos(t), std::sin(t), first.range_rate + fold + later};
+  };
+  double cc = 0.0, cs = 0.0, ss = 0.0, cr = 0.0, sr = 0.0;
+  for (const std::size_t m : members_) {
+    const auto [c, s, rate] = row_of(m);
+    cc += c * c, cs += c * s, ss += s * s, cr += c * rate, sr += s * rate;
+  }
+  const double determinant = cc * ss - cs * cs, most = config_.transverse_speed_mps;
+  const double b = determinant > 1e-12 ? std::clamp((cc * sr - cs * cr) / determinant, -most, most) : 0.0;
+  const double a = (cr - b * cs) / cc;
+  double sum = 0.0;
+  for (const std::size_t m : members_) {
+    const auto [c, s, rate] = row_of(m);
+    sum += square(rate - a * c - b * s) /
+           (square(config_.rate_sigma_mps) + square((b * c - a * s) * config_.azimuth_sigma_rad));
+  }
+  return sum;
+}
+
+// Laurent and Massart (Annals of Statistics 28, 2000, lemma 1): a chi-squared of d degrees of freedom exceeds d + 2 sqrt(d x) + 2 x in
+// one of exp(x) cases at most, here in one of a million. The range rates may be folded once.
+bool ReturnJoiner::is_one_body(const std::vector<Return>& returns) const {
+  if (members_.size() < 3) return true;
+  constexpr double kX = 14.0;
+  const double freedom = static_cast<double>(members_.size() - 2);
+  const double most = freedom + 2.0 * std::sqrt(freedom * kX) + 2.0 * kX;
+  for (const double folds : {0.0, -1.0, 1.0})
+    if (chi_squared(returns, folds * config_.rate_span_mps) <= most) return true;
+  return false;
+}
+
 void ReturnJoiner::join(const std::vector<Return>& returns, std::vector<RadarObject>& objects) {
   TTF_CHECK(returns.size() <= taken_.size(), "{} returns, room for {}", returns.size(), taken_.size());
   objects.clear();
   std::fill(taken_.begin(), taken_.end(), 0);
   for (std::size_t first = 0; first < returns.size(); ++first) {
     if (taken_[first]) continue;
-    members_.assign(1, first);
-    taken_[first] = 1;
-    for (std::size_t next = 0; next < members_.size(); ++next)
-      for (std::size_t other = first + 1; other < returns.size(); ++other) {
-        if (taken_[other] || !together(returns[members_[next]], returns[other])) continue;
-        taken_[other] = 1;
-        members_.push_back(other);
-      }
+    Resolution resolution = resolution_;
+    take_chain(returns, first, resolution);
+    while (resolution.transverse_speed_mps > kLeastSpeed && !is_one_body(returns)) {
+      for (const std::size_t m : members_) taken_[m] = 0;
+      resolution.transverse_speed_mps *= 0.5;
+      resolution.rate_mps = std::max(0.5 * resolution.rate_mps, kFive * config_.rate_sigma_mps);
+      take_chain(returns, first, resolution);
+    }
     objects.push_back(object_of(returns));
   }
   std::sort(objects.begin(), objects.end(), [](const RadarObject& a, const RadarObject& b) {

@@ -3,7 +3,15 @@
 // Returns are joined if range, distance across the line of sight and range rate differ by no more than their gates. The gates
 // hold for pairs, so that a chain of returns is one object. Seen from a vehicle that drives past, the range rates of one object
 // differ by its velocity across the line of sight times the difference of azimuths. The gate of the range rate grows by
-// as much. An object is at the mean of its n returns, with the standard deviations of the sensor over sqrt(n). Where the
+// as much.
+//
+// So wide a gate also joins two cars side by side whose speeds differ. Their range rates show that they are two. The matter of a rigid
+// body has the range rates a cos(t) + b sin(t), at azimuths t from one return's, whether the body turns or not: a is its velocity
+// along that line of sight, b the one across (Kellner, Barjenbruch, Klappstein, Dickmann, Dietmayer: "Instantaneous lateral motion
+// estimation of extended objects using Doppler radar", FUSION 2013). Three or more returns that do not fit are joined anew, by half the
+// gates of the range rate, until they fit. Without `transverse_speed_mps` the gates are narrow, and stay.
+//
+// An object is at the mean of its n returns, with the standard deviations of the sensor over sqrt(n). Where the
 // returns lie on the object is the tracker's matter, which has its size and heading (fusion/tracks/body/returns.h).
 #pragma once
 
@@ -47,7 +55,11 @@ class ReturnJoiner {
   void join(const std::vector<Return>& returns, std::vector<RadarObject>& objects);
 
  private:
-  bool together(const Return& a, const Return& b) const;
+  using Resolution = fusion::sensors::Resolution;
+  bool together(const Return& a, const Return& b, const Resolution& resolution) const;
+  void take_chain(const std::vector<Return>& returns, std::size_t first, const Resolution& resolution);
+  bool is_one_body(const std::vector<Return>& returns) const;
+  double chi_squared(const std::vector<Return>& returns, double fold) const;
   RadarObject object_of(const std::vector<Return>& returns) const;
 
   RadarPreprocessingConfig config_;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <random>
 #include <vector>
 
 namespace ttf::sensors::radar {
@@ -43,6 +46,76 @@ TEST(RadarReturns, OfAnObjectThatIsPassedDifferInRangeRate) {
   config.transverse_speed_mps = 8.0;
   EXPECT_EQ(joined(passed, config).size(), 1U);
   EXPECT_EQ(joined({{10.0, -1.4, -1.0}, {10.0, -1.4, 1.0}}, config).size(), 2U) << "in one direction";
+}
+
+// The returns of a body whose velocity relative to the radar is (vx, vy), at these places [m].
+std::vector<Return> returns_of(double vx, double vy, const std::vector<std::array<double, 2>>& places) {
+  std::vector<Return> returns;
+  for (const auto& [x, y] : places) {
+    const double range = std::hypot(x, y);
+    returns.push_back({range, std::atan2(y, x), (x * vx + y * vy) / range});
+  }
+  return returns;
+}
+
+RadarPreprocessingConfig passed_at_15_mps() {
+  RadarPreprocessingConfig config;
+  config.transverse_speed_mps = 15.0;
+  config.azimuth_sigma_rad = 0.008;
+  config.rate_span_mps = 60.0;
+  return config;
+}
+
+// Cars in neighbouring lanes, 2.8 m/s apart. The gates alone join them, as they do where both have one speed.
+TEST(RadarReturns, OfTwoCarsSideBySideAreToldApartByTheirRangeRates) {
+  const std::vector<std::array<double, 2>> near{{-6.6, 1.8}, {-8.0, 1.8}, {-6.6, 3.5}},
+      far{{-7.1, 5.3}, {-9.0, 5.3}, {-7.1, 6.9}};
+  for (const double faster : {2.8, -2.8, 0.0}) {
+    std::vector<Return> returns = returns_of(4.0, 0.0, near);
+    const std::vector<Return> others = returns_of(4.0 - faster, 0.0, far);
+    returns.insert(returns.end(), others.begin(), others.end());
+    const auto objects = joined(returns, passed_at_15_mps());
+    if (faster == 0.0) {
+      EXPECT_EQ(objects.size(), 1U);
+      continue;
+    }
+    ASSERT_EQ(objects.size(), 2U) << faster;
+    for (std::size_t i = 0; i < 2; ++i) {
+      double rate = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) rate += returns[3 * i + k].range_rate / 3.0;
+      EXPECT_EQ(objects[i].returns, 3);
+      EXPECT_NEAR(objects[i].range_rate, rate, 1e-12);
+    }
+  }
+}
+
+// A turning body's matter moves along its outline, across the lines of sight of its turn: v + w (-y, x) has the range rates of v.
+// Velocities go beyond the span, so that range rates are folded.
+TEST(RadarReturns, OfOneBodyStayOneObjectWhateverItsMotion) {
+  const RadarPreprocessingConfig config = passed_at_15_mps();
+  RadarPreprocessingConfig unsure = config;
+  unsure.rate_sigma_mps = 50.0;
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise;
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int driven = 0;
+  for (int draw = 0; draw < 40000; ++draw) {
+    const double bearing = 3.0 * uniform(random), along = 55.0 * uniform(random), across = 15.0 * uniform(random);
+    const double range = 7.0 + 5.0 * uniform(random);
+    double fastest = 0.0;
+    std::vector<Return> returns;
+    for (int k = 0; k < 4; ++k) {
+      const double turn = 2.2 / range * uniform(random);
+      fastest = std::max(fastest, std::abs(across * std::cos(turn) - along * std::sin(turn)));
+      const double rate = along * std::cos(turn) + across * std::sin(turn) + config.rate_sigma_mps * noise(random);
+      returns.push_back({range + 2.0 * uniform(random), bearing + turn + config.azimuth_sigma_rad * noise(random),
+                         std::remainder(rate, config.rate_span_mps)});
+    }
+    if (fastest > config.transverse_speed_mps) continue;
+    ++driven;
+    EXPECT_EQ(joined(returns, config).size(), joined(returns, unsure).size()) << draw;
+  }
+  EXPECT_GT(driven, 10000);
 }
 
 TEST(RadarReturns, AFoldMayLieBetweenRangeRates) {
