@@ -102,8 +102,8 @@ double ReturnJoiner::chi_squared(const std::vector<Return>& returns, double fold
   return sum;
 }
 
-// Laurent and Massart (Annals of Statistics 28, 2000, lemma 1): a chi-squared of d degrees of freedom exceeds d + 2 sqrt(d x) + 2 x in
-// one of exp(x) cases at most, here in one of a million. The range rates may be folded once.
+// A chi-squared of d degrees of freedom exceeds d + 2 sqrt(d x) + 2 x in one of exp(x) cases at most, here in one of a million (Laurent,
+// Massart: Annals of Statistics 28, 2000, lemma 1). The range rates may be folded once.
 bool ReturnJoiner::is_one_body(const std::vector<Return>& returns) const {
   if (members_.size() < 3) return true;
   constexpr double kX = 14.0;

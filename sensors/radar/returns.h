@@ -1,15 +1,16 @@
 // Joins a radar's returns to objects, one observation each.
 //
-// Returns are joined if range, distance across the line of sight and range rate differ by no more than their gates. The gates
-// hold for pairs, so that a chain of returns is one object. Seen from a vehicle that drives past, the range rates of one object
-// differ by its velocity across the line of sight times the difference of azimuths. The gate of the range rate grows by
-// as much.
+// Returns are joined if they differ by no more than gates. Range, distance across the line of sight and range rate have one each. The gates
+// hold for pairs. So a chain of returns is one object. A vehicle may drive past. Then the range rates of one object differ by its
+// velocity across the line of sight times the difference of azimuths. The gate of the range rate grows by as much.
 //
-// So wide a gate also joins two cars side by side whose speeds differ. Their range rates show that they are two. The matter of a rigid
-// body has the range rates a cos(t) + b sin(t), at azimuths t from one return's, whether the body turns or not: a is its velocity
-// along that line of sight, b the one across (Kellner, Barjenbruch, Klappstein, Dickmann, Dietmayer: "Instantaneous lateral motion
-// estimation of extended objects using Doppler radar", FUSION 2013). Three or more returns that do not fit are joined anew, by half the
-// gates of the range rate, until they fit. Without `transverse_speed_mps` the gates are narrow, and stay.
+// So wide a gate also joins two cars side by side whose speeds differ. Their range rates show two bodies. A rigid body has the range rates
+// a cos(t) + b sin(t). The azimuth t is from one return's. a is the velocity along that line of sight, b the one across. A turn changes
+// none of them. Three or more returns that do not fit are joined anew, by half the gates of the range rate, until they fit. Without
+// `transverse_speed_mps` the gates are narrow, and stay.
+//
+// Kellner, Barjenbruch, Klappstein, Dickmann, Dietmayer: "Instantaneous lateral motion estimation of extended objects using Doppler
+// radar", FUSION 2013.
 //
 // An object is at the mean of its n returns, with the standard deviations of the sensor over sqrt(n). Where the
 // returns lie on the object is the tracker's matter, which has its size and heading (fusion/tracks/body/returns.h).

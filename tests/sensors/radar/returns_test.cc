@@ -66,8 +66,8 @@ RadarPreprocessingConfig passed_at_15_mps() {
   return config;
 }
 
-// Cars in neighbouring lanes, 2.8 m/s apart. The gates alone join them, as they do where both have one speed.
-TEST(RadarReturns, OfTwoCarsSideBySideAreToldApartByTheirRangeRates) {
+// The cars are in neighbouring lanes. The gates alone join them. So it stays where both have one speed.
+TEST(RadarReturns, OfTwoCarsSideBySideAreOfTwoObjectsIfTheirSpeedsDiffer) {
   const std::vector<std::array<double, 2>> near{{-6.6, 1.8}, {-8.0, 1.8}, {-6.6, 3.5}},
       far{{-7.1, 5.3}, {-9.0, 5.3}, {-7.1, 6.9}};
   for (const double faster : {2.8, -2.8, 0.0}) {
@@ -89,8 +89,8 @@ TEST(RadarReturns, OfTwoCarsSideBySideAreToldApartByTheirRangeRates) {
   }
 }
 
-// A turning body's matter moves along its outline, across the lines of sight of its turn: v + w (-y, x) has the range rates of v.
-// Velocities go beyond the span, so that range rates are folded.
+// A turn adds a velocity w (-y, x), which is across every line of sight. So it changes no range rate. Velocities go beyond
+// the span. Their range rates are folded.
 TEST(RadarReturns, OfOneBodyStayOneObjectWhateverItsMotion) {
   const RadarPreprocessingConfig config = passed_at_15_mps();
   RadarPreprocessingConfig unsure = config;
