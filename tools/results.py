@@ -147,6 +147,10 @@ def points_without(page, answer, replication):
 
     def estimate(point, paradigm, measure):
         own, base = (mean(runs[point, p][measure]) for p in (paradigm, answer["baseline"]))
+        if not (math.isfinite(own) and math.isfinite(base) and base > 0):
+            none = {"mean": None, "low": None, "high": None}
+            return {"mean": own if math.isfinite(own) else None, "half_width": None,
+                    "difference": {"mean": None, "half_width": None, "percent": none}}
         found = {"mean": own, "half_width": None}
         if paradigm != answer["baseline"]:
             found["difference"] = {"mean": own - base, "half_width": None,

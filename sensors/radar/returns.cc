@@ -10,8 +10,7 @@
 namespace ttf::sensors::radar {
 namespace {
 
-constexpr double kLeastSpeed = 0.25;  // [m/s]; narrower gates divide returns by their noise
-constexpr double kFive = 5.0;         // standard deviations
+constexpr double kLeastSpeed = 0.25;  // [m/s]
 
 double square(double x) { return x * x; }
 
@@ -103,7 +102,8 @@ double ReturnJoiner::chi_squared(const std::vector<Return>& returns, double fold
 }
 
 // A chi-squared of d degrees of freedom exceeds d + 2 sqrt(d x) + 2 x in one of exp(x) cases at most, here in one of a million (Laurent,
-// Massart: Annals of Statistics 28, 2000, lemma 1). The range rates may be folded once.
+// Massart: Annals of Statistics 28, 2000, lemma 1). The weights follow from the fit. So its sum is somewhat larger. The range rates may be
+// folded once.
 bool ReturnJoiner::is_one_body(const std::vector<Return>& returns) const {
   if (members_.size() < 3) return true;
   constexpr double kX = 14.0;
@@ -118,6 +118,7 @@ void ReturnJoiner::join(const std::vector<Return>& returns, std::vector<RadarObj
   TTF_CHECK(returns.size() <= taken_.size(), "{} returns, room for {}", returns.size(), taken_.size());
   objects.clear();
   std::fill(taken_.begin(), taken_.end(), 0);
+  const double least_rate = 5.0 * config_.rate_sigma_mps;  // narrower gates divide returns by their noise
   for (std::size_t first = 0; first < returns.size(); ++first) {
     if (taken_[first]) continue;
     Resolution resolution = resolution_;
@@ -125,7 +126,7 @@ void ReturnJoiner::join(const std::vector<Return>& returns, std::vector<RadarObj
     while (resolution.transverse_speed_mps > kLeastSpeed && !is_one_body(returns)) {
       for (const std::size_t m : members_) taken_[m] = 0;
       resolution.transverse_speed_mps *= 0.5;
-      resolution.rate_mps = std::max(0.5 * resolution.rate_mps, kFive * config_.rate_sigma_mps);
+      resolution.rate_mps = std::max(0.5 * resolution.rate_mps, std::min(resolution.rate_mps, least_rate));
       take_chain(returns, first, resolution);
     }
     objects.push_back(object_of(returns));

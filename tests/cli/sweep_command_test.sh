@@ -126,8 +126,9 @@ expect 0 '' experiment "$file" --seed 3 --out "$work/whole" --resume
 expect 2 'must belong to this experiment: the file, its seed, a file' experiment "$file" --seed 4 --out "$work/whole" --resume
 expect 2 'must belong to this experiment: the file, its seed, a file' experiment "$file" --out "$work/seed" --resume
 expect 2 'must belong to this experiment' experiment "$file" --seed 4 --merge "$work/first" "$work/second" --out "$work/never"
-grep -qF "$("$program" experiment "$file" --seed 4 --replay 1/tt/7 | awk '$1 == "position_rmse_truth" {print $2}')" \
-  "$work/seed/runs.csv" || fail "--replay with --seed drives another run"
+value=$("$program" experiment "$file" --seed 4 --replay 1/tt/7 | awk '$1 == "position_rmse_truth" {print $2}')
+[[ -n $value ]] || fail "--replay with --seed prints no value"
+grep -qE "^1,[^,]*,7,tt,done,.*$value" "$work/seed/runs.csv" || fail "--replay with --seed drives another run"
 expect 0 '' report "$work/seed" -o "$work/seed.html"
 grep -q 'No drive is shown here' "$work/seed.html" && fail "the report cannot drive a run of another seed again"
 expect 0 '' experiment "$source/experiments/process_noise.yaml" --seed 4611686018427387904 --replay 0/tt/0

@@ -81,9 +81,11 @@ CAUSES = {
 # Row -> cell of mixed_traffic, for one drive. An image follows another one after 40 ms.
 MIXED_ROWS = {
     "MOTA [%]": lambda one: f"{100 * one['clear_mot']['mota']:.0f}",
-    "switches an object and minute in view": lambda one: (
+    "true objects out of view [%]": lambda one: share(
+        one["objects"]["out_of_view"], one["objects"]["out_of_view"] + one["clear_mot"]["objects"]),
+    "switches per object and minute in view": lambda one: (
         f"{one['clear_mot']['switches'] / (one['clear_mot']['objects'] * 0.04 / 60):.1f}"),
-    "objects an image that are not there": lambda one: f"{one['objects']['spurious'] / one['uses']:.1f}",
+    "spurious objects per image": lambda one: f"{one['objects']['spurious'] / one['uses']:.1f}",
     "NEES over all objects, of 4": lambda one: f"{one['nees']['mean']:.0f}",
     "NIS per degree of freedom": lambda one: f"{one['nis']['per_degree']:.2f}",
 }
