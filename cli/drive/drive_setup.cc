@@ -20,6 +20,7 @@
 #include "schedules/check/checker.h"
 #include "schedules/file/loader.h"
 #include "sim/drives/drive.h"
+#include "sim/drives/seeds.h"
 #include "sim/drives/step_catalog.h"
 
 namespace ttf::cli::drive {
@@ -129,12 +130,12 @@ std::unique_ptr<recording::log::LogWriter> begin_log(const std::string& path,
 }
 
 std::uint64_t seed_of(const std::string& text) {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
-  std::uint64_t seed = 0;
+  const auto [least, most] = sim::drives::kSeeds;
+  std::int64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc{} || end != text.data() + text.size() || seed > kMost)
-    throw InputError({"command line", 0, "--seed", text, fmt::format("must be a whole number 0..{}", kMost)});
-  return seed;
+  if (error != std::errc{} || end != text.data() + text.size() || !sim::drives::kSeeds.contains(seed))
+    throw InputError({"command line", 0, "--seed", text, fmt::format("must be a whole number {}..{}", least, most)});
+  return static_cast<std::uint64_t>(seed);
 }
 
 void set_duration(sim::drives::Scenario& scenario, const std::string& name, const std::string& text) {

@@ -14,14 +14,9 @@
 #include "core/strict_yaml.h"
 #include "core/yaml_edit.h"
 #include "experiments/sweep/file.h"
+#include "sim/drives/seeds.h"
 
 namespace ttf::cli::experiment {
-
-namespace {
-
-constexpr Range<std::int64_t> kSeeds{0, std::int64_t{1} << 62};  // as in a file
-
-}  // namespace
 
 experiments::results::Shard shard_of(const std::string& text) {
   experiments::results::Shard shard;
@@ -53,7 +48,7 @@ StrictYaml file_with_seed(const std::string& path, std::optional<std::uint64_t> 
   if (!seed) return yaml;
   Findings findings;
   YamlMap root = yaml.root(findings);
-  const std::int64_t files = root.integer("seed", kSeeds);
+  const std::int64_t files = root.integer("seed", sim::drives::kSeeds);
   // The file's own mistake is left to its loader. Its own seed changes no byte.
   if (!findings.empty() || files == static_cast<std::int64_t>(*seed)) return yaml;
   return StrictYaml::parse(with_value(yaml.text(), yaml.name(), "seed", std::to_string(*seed)), yaml.name());
@@ -112,7 +107,7 @@ void add_experiment(CLI::App& app, Action& action) {
   command->add_option("--replications", options->replications, "Replications of every point, instead of the file's")
       ->check(whole_number({1, experiments::sweep::kMostReplications}));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the file's")
-      ->check(whole_number(kSeeds));
+      ->check(whole_number(sim::drives::kSeeds));
   auto* shard =
       command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");
   auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, to merge their results");

@@ -36,8 +36,7 @@ enum class ExperimentKind : std::uint8_t { kSweep, kFaultCampaign };
 // Throws InputError.
 ExperimentKind kind_of(const ExperimentOptions& options);
 
-// Reads an experiment's file as if it had another seed. A store of it is thus another experiment's than the file's own. Throws
-// InputError.
+// Reads an experiment's file as if it had another seed. Results with that seed belong to another experiment. Throws InputError.
 StrictYaml file_with_seed(const std::string& path, std::optional<std::uint64_t> seed);
 
 // Decides the number of replications: the option's, else that of the existing or merged folders, else the

@@ -6,6 +6,7 @@
 #include "core/file_bytes.h"
 #include "core/file_kind.h"
 #include "schedules/file/loader.h"
+#include "sim/drives/seeds.h"
 
 namespace ttf::experiments::campaign {
 namespace {
@@ -98,7 +99,7 @@ CampaignFile read_campaign(const StrictYaml& yaml) {
       (std::filesystem::path(yaml.name()).parent_path() / root.text("cluster")).lexically_normal().string();
   campaign.cluster_line = root.line("cluster");
   campaign.faults = root.integer("faults", {1, kMostFaults});
-  campaign.seed = static_cast<std::uint64_t>(root.integer("seed", {0, std::int64_t{1} << 62}));
+  campaign.seed = static_cast<std::uint64_t>(root.integer("seed", sim::drives::kSeeds));
   const bool on_can = root.has("can");
   if (on_can) {
     campaign.can = root.text("can");

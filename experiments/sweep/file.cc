@@ -15,6 +15,7 @@
 #include "experiments/sweep/keys.h"
 #include "experiments/sweep/read_comparison.h"
 #include "sim/drives/scenario.h"
+#include "sim/drives/seeds.h"
 
 namespace ttf::experiments::sweep {
 namespace {
@@ -70,7 +71,7 @@ class Reader {
     file_.question = root_.text("question");
     file_.scenario_file = path_of(root_.text("scenario"));
     file_.scenario_line = root_.line("scenario");
-    file_.seed = static_cast<std::uint64_t>(root_.integer("seed", {0, std::int64_t{1} << 62}));
+    file_.seed = static_cast<std::uint64_t>(root_.integer("seed", sim::drives::kSeeds));
     file_.replications = static_cast<std::uint32_t>(root_.integer("replications", {1, kMostReplications}));
     read_paradigms();
     for (auto& [name, map] : root_.named_maps("axes")) read_axis(name, map);

@@ -6,6 +6,7 @@
 #include "core/file_kind.h"
 #include "fusion/loading/tracker.h"
 #include "sensors/kinds/loader.h"
+#include "sim/drives/seeds.h"
 
 namespace ttf::sim::drives {
 
@@ -26,7 +27,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   scenario.text = yaml.text();
   scenario.name = root.text("name");
   scenario.description = root.text("description");
-  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", {0, std::int64_t{1} << 62}));
+  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", kSeeds));
   constexpr Duration kLongest = Duration::milliseconds(3'600'000);
   const std::size_t mistakes = findings.size();
   scenario.duration = root.duration("duration", {Duration::milliseconds(100), kLongest});
