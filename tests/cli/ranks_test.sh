@@ -24,6 +24,13 @@ for ranks in 2 3; do
   done
 done
 
+small_sweep 4 "700 ms" "400 ms" >"$work/seeded.yaml"
+program=$alone
+expect 0 '' experiment "$work/seeded.yaml" --seed 4 --out "$work/seed_alone"
+program=mpirun
+expect 0 '' -n 2 "$alone" experiment "$work/seeded.yaml" --seed 4 --out "$work/seed_ranks"
+cmp "$work/seed_alone/runs.csv" "$work/seed_ranks/runs.csv" || fail "--seed on ranks drives other runs"
+
 # ---- a rank that dies ends them all; earlier rows stay, and the rest is driven
 mpirun -n 3 "$alone" experiment "$file" --out "$work/killed" >"$work/words" 2>&1 &
 all=$!

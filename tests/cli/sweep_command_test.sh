@@ -162,6 +162,18 @@ expect 2 'few.yaml:14: surplus' experiment "$work/few.yaml" --out "$work/never"
 [[ -e $work/never ]] && fail "a broken file leaves a folder behind"
 
 # ---- the values of an axis, and an interaction
+small_sweep 4 "700 ms" "400 ms" | sed 's/age_fused]/track_lost]/' >"$work/lost.yaml"
+expect 0 'An object lost its track in [0-8] of 8 drives of adva' experiment "$work/lost.yaml" --out "$work/lost"
+python3 - "$work/lost" <<'END' || fail "answer.json does not count the lost tracks of runs.csv"
+import csv, json, sys
+lost = json.load(open(f"{sys.argv[1]}/answer.json"))["lost_tracks"]
+rows = list(csv.DictReader(open(f"{sys.argv[1]}/runs.csv")))
+for name in ("adva", "tt"):
+    of = [float(row["track_lost"]) for row in rows if row["paradigm"] == name]
+    assert lost["paradigms"][name] == {"drives": 8, "lost": int(sum(of))} and len(of) == 8, lost
+left_out = {(row["point"], row["replication"]) for row in rows if float(row["track_lost"]) > 0}
+assert lost["replications"] == len(left_out), lost
+END
 small_sweep 4 "700 ms" "400 ms" >"$work/compare.yaml"
 cat >>"$work/compare.yaml" <<END
 compare: {axis: noise, baseline: 1}
