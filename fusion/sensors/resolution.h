@@ -1,8 +1,8 @@
 // The resolution of a radar's objects: how near two returns are that its preprocessing joins to one.
 //
-// Two returns are joined if their range, their distance across the line of sight and their range rate differ by no more than their
+// Two returns may be joined if their range, their distance across the line of sight and their range rate differ by no more than their
 // gates. Errors of the azimuths widen the gate across. Where objects pass the sensor, the gate of the range rate grows with the
-// difference of the azimuths.
+// difference of the azimuths. Preprocessing takes narrower gates where three returns show two bodies.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Resolution {
     constexpr double kThreeOfADifference = 4.25;  // standard deviations of one
     return across_m + kThreeOfADifference * range * azimuth_sigma_rad;
   }
-  // Returns whether two returns with these differences [m], [rad], [m/s] are joined. The nearer one has this range [m].
+  // Returns whether two returns with these differences [m], [rad], [m/s] may be joined. The nearer one has this range [m].
   bool joins(double range, double further, double turn, double faster) const {
     return std::abs(further) <= range_m && range * std::abs(turn) <= across(range) &&
            std::abs(std::remainder(faster, rate_span_mps)) <= rate_mps + transverse_speed_mps * std::abs(turn);

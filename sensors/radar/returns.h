@@ -1,16 +1,16 @@
 // Joins a radar's returns to objects, one observation each.
 //
-// Returns are joined if they differ by no more than gates. Range, distance across the line of sight and range rate have one each. The gates
-// hold for pairs. So a chain of returns is one object. A vehicle may drive past. Then the range rates of one object differ by its
+// Returns are joined if their range, distance across the line of sight and range rate differ by no more than their gates. The gates hold
+// for pairs. So a chain of returns is one object. A vehicle may drive past. Then the range rates of one object differ by its
 // velocity across the line of sight times the difference of azimuths. The gate of the range rate grows by as much.
 //
 // So wide a gate also joins two cars side by side whose speeds differ. Their range rates show two bodies. A rigid body has the range rates
-// a cos(t) + b sin(t). The azimuth t is from one return's. a is the velocity along that line of sight, b the one across. A turn changes
-// none of them. Three or more returns that do not fit are joined anew, by half the gates of the range rate, until they fit. Without
-// `transverse_speed_mps` the gates are narrow, and stay.
+// a cos(t) + b sin(t), whether it turns or not. Azimuths t are from the first return's. The velocity is a along that line of sight
+// and b across. Three or more returns that do not fit are joined anew. Each time the gates of the range rate are half as wide.
+// Wheels do not fit, but the radar's model has none. Without `transverse_speed_mps` the gates are narrow, and stay.
 //
-// Kellner, Barjenbruch, Klappstein, Dickmann, Dietmayer: "Instantaneous lateral motion estimation of extended objects using Doppler
-// radar", FUSION 2013.
+// Kellner, Barjenbruch, Dietmayer, Klappstein, Dickmann: "Instantaneous lateral velocity estimation of a vehicle using Doppler radar",
+// FUSION 2013, pages 877 to 884.
 //
 // An object is at the mean of its n returns, with the standard deviations of the sensor over sqrt(n). Where the
 // returns lie on the object is the tracker's matter, which has its size and heading (fusion/tracks/body/returns.h).
